@@ -8,11 +8,15 @@
 #include "tests/support/real_scenes.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <numeric>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -28,34 +32,160 @@ WingModes modes_of(const Scene& scene, const std::optional<std::vector<int>>& la
 
 double hertz(double omega) { return omega / (2 * pi); }
 
-/// The frequencies of a latched scene by the dense formulation: differences of its accelerations about rest, in extended
-/// precision, Hz.
-std::vector<double> dense_frequencies(const Scene& scene, const std::vector<double>& rest) {
+Motor random_motor(Draws& draws) {
+  Motor motor{.rate = draws.uniform(-1, 1), .gain = draws.log_uniform(0.3, 100)};
+  motor.torque_limit = motor.gain * draws.log_uniform(0.05, 5);
+  if (draws.chance(0.5)) return motor;
+  motor.time = {0, 1, 2}, motor.interpolation = Interpolation::linear;
+  for (int k = 0; k < 3; ++k) motor.rates.push_back(draws.uniform(-1, 1));
+  motor.table = std::make_shared<Curve>(motor.time, motor.rates, motor.interpolation);
+  motor.scale = draws.uniform(0.5, 1.5);
+  return motor;
+}
+
+/// A latched scene about rest by the dense formulation: differences of its accelerations, in extended precision. Its mass
+/// matrix is the inverse of what unit moments at the hinges do.
+class DenseRest {
+  using Real = long double;
+
+public:
+  /// @param latched hinges that move, beside those without a latch
+  DenseRest(const Scene& scene, const std::vector<double>& rest, const std::vector<int>& latched)
+      : scene_(scene), wing_(scene), state_(wing_.initial_state()) {
+    state_.base_rate = 0, state_.base_velocity.setZero();
+    state_.rates.setZero();
+    const int n = wing_.size();
+    for (int i = 0; i < n; ++i) {
+      const bool moves = !scene.hinges[i].latch || std::ranges::count(latched, i) > 0;
+      (moves ? moving_ : held_).push_back(i);
+      state_.angles(i) = rest[i];
+      state_.engagement(i) = scene.hinges[i].latch && moves ? 1 : 0;
+    }
+    const Matrix<Real> whole = yields(state_).inverse()(moving_, moving_);
+    unbalanced = (whole * accelerations(state_)).cast<double>();
+    Matrix<Real> by_angle(moving_.size(), moving_.size()), by_rate = by_angle;
+    for (Eigen::Index j = 0; j < by_angle.cols(); ++j) {
+      by_angle.col(j) = difference(state_, state_.angles(moving_[j]));
+      by_rate.col(j) = difference(state_, state_.rates(moving_[j]));
+    }
+    mass = whole.cast<double>();
+    stiffness = (-whole * by_angle).cast<double>();
+    damping = (-whole * by_rate).cast<double>();
+  }
+
+  Eigen::VectorXd unbalanced; ///< of the hinges that move, N·m
+  Eigen::MatrixXd mass, stiffness, damping;
+
+  /// Frequency, Hz, and ζ of each mode, lowest first.
+  [[nodiscard]] std::vector<std::array<double, 2>> modes() const {
+    if (moving_.empty()) return {};
+    const Eigen::MatrixXd K = 0.5 * (stiffness + stiffness.transpose());
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(K, mass);
+    std::vector<std::array<double, 2>> found;
+    for (Eigen::Index k = 0; k < K.rows(); ++k) {
+      const Eigen::VectorXd v = solver.eigenvectors().col(k); // vᵀM v = 1
+      const double omega = std::sqrt(std::max(0.0, solver.eigenvalues()(k)));
+      found.push_back({hertz(omega), omega > 0 ? v.dot(damping * v) / (2 * omega) : 0});
+    }
+    return found;
+  }
+
+private:
+  /// M⁻¹: the accelerations of all hinges by their moments.
+  [[nodiscard]] Matrix<Real> yields(const WingState<Real>& state) const {
+    const int n = wing_.size();
+    const Vector<Real> none = wing_.respond(state, Vector<Real>::Zero(n)).hinge_accelerations;
+    Matrix<Real> found(n, n);
+    for (int j = 0; j < n; ++j)
+      found.col(j) = wing_.respond(state, Vector<Real>::Unit(n, j)).hinge_accelerations - none;
+    return found;
+  }
+
+  /// Of the hinges that move, while moments hold the others. Motors have the last rate of their command.
+  [[nodiscard]] Vector<Real> accelerations(const WingState<Real>& state) const {
+    Vector<Real> moments = wing_.moments(state);
+    for (const int i : moving_) {
+      const std::optional<Motor>& motor = scene_.hinges[i].motor;
+      if (!motor) continue;
+      const Real rate = motor->table ? Real(motor->scale * motor->rates.back()) : Real(motor->rate);
+      const Real wanted = motor->gain * (rate - wing_.sense(i) * state.rates(i));
+      moments(i) += wing_.sense(i) *
+                    std::clamp(wanted, Real(-motor->torque_limit), Real(motor->torque_limit));
+    }
+    const Vector<Real> free = wing_.respond(state, moments).hinge_accelerations;
+    if (held_.empty()) return free(moving_);
+    const Matrix<Real> by_moment = yields(state);
+    const Vector<Real> holding = by_moment(held_, held_).inverse() * free(held_);
+    return free(moving_) - by_moment(moving_, held_) * holding;
+  }
+  /// Of the accelerations, by a coordinate of `state`.
+  [[nodiscard]] Vector<Real> difference(WingState<Real>& state, Real& coordinate) const {
+    constexpr Real step = 1e-5L;
+    const Real at = coordinate;
+    coordinate = at + step;
+    const Vector<Real> ahead = accelerations(state);
+    coordinate = at - step;
+    const Vector<Real> behind = accelerations(state);
+    coordinate = at;
+    return (ahead - behind) / (2 * step);
+  }
+
+  const Scene& scene_;
+  DenseWing<Real> wing_;
+  WingState<Real> state_;
+  std::vector<int> moving_, held_;
+};
+
+std::vector<int> all_hinges(const Scene& scene) {
+  std::vector<int> all(scene.hinges.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/// CHECKs that a free base turns against the hinges of a mode: the whole has no angular momentum.
+void check_momentum(const Scene& scene, const WingModes& found, const NaturalMode& mode) {
   const DenseWing<long double> wing(scene);
-  const int n = wing.size();
   WingState<long double> state = wing.initial_state();
-  state.base_rate = 0, state.base_velocity.setZero();
-  state.rates.setZero();
-  for (int i = 0; i < n; ++i) {
-    state.angles(i) = rest[i];
-    if (scene.hinges[i].latch) state.engagement(i) = 1;
+  state.base_velocity.setZero();
+  for (int i = 0; i < wing.size(); ++i) {
+    state.angles(i) = found.rest[i];
+    state.rates(i) = mode.shape[i];
   }
-  Eigen::MatrixXd A(n, n); // −M⁻¹K
-  constexpr long double step = 1e-5L;
-  for (int j = 0; j < n; ++j) {
-    WingState<long double> ahead = state, behind = state;
-    ahead.angles(j) += step, behind.angles(j) -= step;
-    A.col(j) =
-        ((wing.respond(ahead).hinge_accelerations - wing.respond(behind).hinge_accelerations) /
-         (2 * step))
-            .cast<double>();
+  const auto momentum = [&](long double base_rate) {
+    state.base_rate = base_rate, state.base_velocity.setZero();
+    long double mass = scene.base.mass;
+    for (const Body& body : scene.bodies) mass += body.mass;
+    state.base_velocity = -wing.balance(state).linear_momentum / mass;
+    return wing.balance(state).angular_momentum;
+  };
+  const long double still = momentum(0), of_base = momentum(1) - still;
+  CHECK(std::abs(momentum(mode.base_angle)) < 1e-10L * (std::abs(still) + std::abs(of_base)));
+}
+
+/// CHECKs rest, frequencies and damping ratios of some latched hinges against the dense formulation.
+/// @return the number of modes
+int check_modes(const Scene& scene, const std::vector<int>& latched) {
+  const std::optional<WingModes> found = natural_modes(scene, latched);
+  REQUIRE(found);
+  const Scene made = in_segments(scene).scene;
+  REQUIRE(found->rest.size() == made.hinges.size());
+  const DenseRest rest(made, found->rest, latched);
+  const std::vector<std::array<double, 2>> exact = rest.modes();
+  REQUIRE(found->modes.size() == exact.size());
+  if (exact.empty()) return 0;
+  CHECK((rest.unbalanced.array().abs() < 1e-9 * (1 + rest.stiffness.cwiseAbs().maxCoeff())).all());
+  const double largest = exact.back()[0];
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    const auto& [frequency, ratio] = exact[k];
+    CAPTURE(k, frequency, ratio);
+    CHECK(std::abs(found->modes[k].frequency - frequency) < 1e-6 * frequency + 1e-7 * largest);
+    if (scene.base.motion == BaseMotion::free) check_momentum(made, *found, found->modes[k]);
+    const bool alone = (k == 0 || frequency - exact[k - 1][0] > 1e-3 * frequency) &&
+                       (k + 1 == exact.size() || exact[k + 1][0] - frequency > 1e-3 * frequency);
+    if (alone && frequency > 1e-3 * largest)
+      CHECK(found->modes[k].damping_ratio == Approx(ratio).epsilon(1e-5).margin(1e-9));
   }
-  std::vector<double> found;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
-  for (const auto& value : solver.eigenvalues())
-    found.push_back(hertz(std::sqrt(std::max(0.0, -value.real()))));
-  std::sort(found.begin(), found.end());
-  return found;
+  return static_cast<int>(exact.size());
 }
 
 } // namespace
@@ -99,6 +229,23 @@ TEST_CASE("a free base takes part: two discs swing with the reduced inertia") {
   CHECK(found.modes[0].frequency == Approx(hertz(std::sqrt(50 / reduced))).epsilon(1e-13));
   CHECK(found.modes[0].damping_ratio == Approx(0.1 / (2 * std::sqrt(50 * reduced))).epsilon(1e-13));
   CHECK(found.modes[0].base_angle == Approx(-2.0 / 8).epsilon(1e-13));
+}
+
+TEST_CASE("a driven base stands still for small swings") {
+  Scene scene = seed_scene();
+  const std::vector<double> fixed = natural_frequencies(scene);
+  scene.base = driven_by_table(scene, 3, 10).base;
+  REQUIRE(scene.base.table);
+  scene.base.acceleration.setZero();
+  for (const double rate :
+       {0.0, 3.0}) { // a table's rates and accelerations do not act, nor does a rate
+    scene.base.rate = scene.base.angular_acceleration = rate;
+    const WingModes found = modes_of(scene);
+    REQUIRE(found.modes.size() == fixed.size());
+    for (std::size_t k = 0; k < fixed.size(); ++k)
+      CHECK(found.modes[k].frequency == Approx(fixed[k]).epsilon(1e-12));
+    CHECK(natural_frequencies(scene)[0] == Approx(fixed[0]).epsilon(1e-12));
+  }
 }
 
 TEST_CASE(
@@ -146,7 +293,7 @@ TEST_CASE("a damping ratio given to a panel is its first mode's, and grows with 
         Approx(0.02 * found.modes[2].frequency / found.modes[0].frequency).epsilon(2e-3));
 }
 
-TEST_CASE("random latched wings have the frequencies of the dense formulation") {
+TEST_CASE("random latched wings have the modes of the dense formulation") {
   const auto cases = static_cast<std::uint64_t>(random_cases(200, 24));
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
@@ -157,18 +304,101 @@ TEST_CASE("random latched wings have the frequencies of the dense formulation") 
     Scene scene = with_bending(random_scene(seed, options), seed);
     if (seed % 4 < 2) scene.environment.gravity = {0.3, -0.4};
     CAPTURE(seed);
-    const std::optional<WingModes> found = natural_modes(scene);
-    REQUIRE(found);
-    std::vector<double> rest = found->rest;
-    const Segmented made = in_segments(scene);
-    REQUIRE(rest.size() == made.scene.hinges.size());
-    const std::vector<double> exact = dense_frequencies(made.scene, rest);
-    const double largest = exact.back();
-    for (std::size_t k = 0; k < exact.size(); ++k) {
-      CAPTURE(k, exact[k]);
-      CHECK(std::abs(found->modes[k].frequency - exact[k]) < 1e-6 * exact[k] + 1e-7 * largest);
-      ++compared;
-    }
+    compared += check_modes(scene, all_hinges(scene));
   }
   CHECK(compared > 3 * static_cast<int>(cases));
+}
+
+TEST_CASE(
+    "random wings with loops, motors and measured laws have the modes of the dense formulation") {
+  const auto cases = static_cast<std::uint64_t>(random_cases(200, 24));
+  int loops = 0, driven = 0, held = 0;
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    RandomScene options;
+    options.bodies = 2 + static_cast<int>(seed % 4);
+    options.friction = false;
+    options.motion = seed % 2 ? BaseMotion::free : BaseMotion::fixed;
+    // no friction, no stop, no backlash, no air: small swings have none
+    RealFeatures features{.measured = false, .stops = false, .backlash = false, .air = false};
+    Scene scene = with_real_hinges(random_scene(seed + 600, options), seed, features);
+    Draws draws(seed + 70);
+    for (Hinge& hinge : scene.hinges) {
+      if (hinge.damper && hinge.damper->law == DamperLaw::power) hinge.damper.reset();
+      if (draws.chance(0.5)) hinge.motor = random_motor(draws);
+      driven += hinge.motor.has_value();
+    }
+    loops += static_cast<int>(scene.synchronisations.size());
+    CAPTURE(seed);
+    (void)check_modes(scene, all_hinges(scene));
+    std::vector<int> latched;
+    for (const int i : all_hinges(scene))
+      if (draws.chance(0.5)) latched.push_back(i);
+    held += static_cast<int>(scene.hinges.size() - latched.size());
+    (void)check_modes(scene, latched);
+  }
+  for (const int drawn : {loops, driven, held}) CHECK(drawn > static_cast<int>(cases));
+}
+
+TEST_CASE("a motor damps a latched hinge by its gain, pushes it by its torque, and at its limit "
+          "only pushes") {
+  Scene scene = latching_panel();
+  const double k = 1e4, c = 30;
+  const double by_latch = 100 / (2 * std::sqrt(k * panel_inertia));
+  const double both = (100 + c) / (2 * std::sqrt(k * panel_inertia));
+  const double inward = scene.hinges[0].latched > scene.hinges[0].stowed ? -1 : 1;
+  struct Given {
+    double rate, limit, torque, ratio;
+  };
+  for (const Given& given : {Given{0, 5, 0, both},
+                             {0.1, 5, 3, both},
+                             {-0.1, 5, -3, both},
+                             {0.1, 2, 2, by_latch},
+                             {-0.1, 2, -2, by_latch}}) {
+    CAPTURE(given.rate, given.limit);
+    scene.hinges[0].spring = {};
+    scene.hinges[0].motor = Motor{.rate = given.rate, .gain = c, .torque_limit = given.limit};
+    const WingModes found = modes_of(scene);
+    CHECK(found.modes[0].damping_ratio == Approx(given.ratio).epsilon(1e-12));
+    CHECK(found.modes[0].frequency == Approx(hertz(std::sqrt(k / panel_inertia))).epsilon(1e-12));
+    CHECK(found.rest[0] - scene.hinges[0].latched ==
+          Approx(-inward * given.torque / k).epsilon(1e-12).margin(1e-16));
+  }
+  // by a table: what it ends with
+  Motor by_table{.time = {0, 1, 2}, .rates = {5, 9, 0.2}, .interpolation = Interpolation::linear};
+  by_table.table = std::make_shared<Curve>(by_table.time, by_table.rates, by_table.interpolation);
+  by_table.scale = 0.5, by_table.gain = c, by_table.torque_limit = 5;
+  scene.hinges[0].motor = by_table;
+  const WingModes found = modes_of(scene);
+  CHECK(found.modes[0].damping_ratio == Approx(both).epsilon(1e-12));
+  CHECK(found.rest[0] - scene.hinges[0].latched == Approx(-inward * 3 / k).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "a loop between two latched hinges stiffens and damps them, half as much with a slack strand") {
+  // two discs, each on its own latch on a fixed base: the loop acts on their difference alone
+  const double k = 40, stiffness = 25, damping = 0.3;
+  Scene scene = coaxial_discs(1, 1);
+  scene.hinges[1].parent = base_index, scene.hinges[1].parent_point = scene.hinges[0].parent_point;
+  for (Hinge& hinge : scene.hinges) hinge.latch = Latch{k, 0}, hinge.spring = {};
+  const double inertia = scene.bodies[0].inertia;
+  Synchronisation loop;
+  loop.name = "loop", loop.first = 0, loop.second = 1;
+  loop.ratio = (scene.hinges[1].latched - scene.hinges[1].stowed) /
+               (scene.hinges[0].latched - scene.hinges[0].stowed);
+  REQUIRE(loop.ratio == 1);
+  loop.stiffness = stiffness, loop.damping = damping;
+  scene.synchronisations = {loop};
+  const auto expect = [&](double share) {
+    const WingModes found = modes_of(scene);
+    const double whole = k + 2 * share * stiffness;
+    CHECK(found.modes[0].frequency == Approx(hertz(std::sqrt(k / inertia))).epsilon(1e-12));
+    CHECK(found.modes[1].frequency == Approx(hertz(std::sqrt(whole / inertia))).epsilon(1e-12));
+    CHECK(found.modes[0].damping_ratio == Approx(0).margin(1e-12));
+    CHECK(found.modes[1].damping_ratio ==
+          Approx(2 * share * damping / (2 * std::sqrt(whole * inertia))).epsilon(1e-12));
+  };
+  expect(1);
+  scene.synchronisations[0].preload = 1e-3; // out of step at rest by more than the preload allows
+  scene.hinges[0].latched += 0.2;
+  expect(0.5);
 }
