@@ -1,14 +1,12 @@
 // Natural modes against closed forms and against the accelerations of the dense formulation.
 #include "core/proofs/natural_modes.hpp"
+#include "tests/core/proofs/dense_rest.hpp"
 #include "tests/support/bending_scenes.hpp"
 #include "tests/support/closed_forms.hpp"
-#include "tests/support/dense_wing.hpp"
 #include "tests/support/random_cases.hpp"
 #include "tests/support/random_scenes.hpp"
 #include "tests/support/real_scenes.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -30,8 +28,6 @@ WingModes modes_of(const Scene& scene, const std::optional<std::vector<int>>& la
   return std::move(*found);
 }
 
-double hertz(double omega) { return omega / (2 * pi); }
-
 Motor random_motor(Draws& draws) {
   Motor motor{.rate = draws.uniform(-1, 1), .gain = draws.log_uniform(0.3, 100)};
   motor.torque_limit = motor.gain * draws.log_uniform(0.05, 5);
@@ -42,99 +38,6 @@ Motor random_motor(Draws& draws) {
   motor.scale = draws.uniform(0.5, 1.5);
   return motor;
 }
-
-/// A latched scene about rest by the dense formulation: differences of its accelerations, in extended precision. Its mass
-/// matrix is the inverse of what unit moments at the hinges do.
-class DenseRest {
-  using Real = long double;
-
-public:
-  /// @param latched hinges that move, beside those without a latch
-  DenseRest(const Scene& scene, const std::vector<double>& rest, const std::vector<int>& latched)
-      : scene_(scene), wing_(scene), state_(wing_.initial_state()) {
-    state_.base_rate = 0, state_.base_velocity.setZero();
-    state_.rates.setZero();
-    const int n = wing_.size();
-    for (int i = 0; i < n; ++i) {
-      const bool moves = !scene.hinges[i].latch || std::ranges::count(latched, i) > 0;
-      (moves ? moving_ : held_).push_back(i);
-      state_.angles(i) = rest[i];
-      state_.engagement(i) = scene.hinges[i].latch && moves ? 1 : 0;
-    }
-    const Matrix<Real> whole = yields(state_).inverse()(moving_, moving_);
-    unbalanced = (whole * accelerations(state_)).cast<double>();
-    Matrix<Real> by_angle(moving_.size(), moving_.size()), by_rate = by_angle;
-    for (Eigen::Index j = 0; j < by_angle.cols(); ++j) {
-      by_angle.col(j) = difference(state_, state_.angles(moving_[j]));
-      by_rate.col(j) = difference(state_, state_.rates(moving_[j]));
-    }
-    mass = whole.cast<double>();
-    stiffness = (-whole * by_angle).cast<double>();
-    damping = (-whole * by_rate).cast<double>();
-  }
-
-  Eigen::VectorXd unbalanced; ///< of the hinges that move, N·m
-  Eigen::MatrixXd mass, stiffness, damping;
-
-  /// Frequency, Hz, and ζ of each mode, lowest first.
-  [[nodiscard]] std::vector<std::array<double, 2>> modes() const {
-    if (moving_.empty()) return {};
-    const Eigen::MatrixXd K = 0.5 * (stiffness + stiffness.transpose());
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(K, mass);
-    std::vector<std::array<double, 2>> found;
-    for (Eigen::Index k = 0; k < K.rows(); ++k) {
-      const Eigen::VectorXd v = solver.eigenvectors().col(k); // vᵀM v = 1
-      const double omega = std::sqrt(std::max(0.0, solver.eigenvalues()(k)));
-      found.push_back({hertz(omega), omega > 0 ? v.dot(damping * v) / (2 * omega) : 0});
-    }
-    return found;
-  }
-
-private:
-  /// M⁻¹: the accelerations of all hinges by their moments.
-  [[nodiscard]] Matrix<Real> yields(const WingState<Real>& state) const {
-    const int n = wing_.size();
-    const Vector<Real> none = wing_.respond(state, Vector<Real>::Zero(n)).hinge_accelerations;
-    Matrix<Real> found(n, n);
-    for (int j = 0; j < n; ++j)
-      found.col(j) = wing_.respond(state, Vector<Real>::Unit(n, j)).hinge_accelerations - none;
-    return found;
-  }
-
-  /// Of the hinges that move, while moments hold the others. Motors have the last rate of their command.
-  [[nodiscard]] Vector<Real> accelerations(const WingState<Real>& state) const {
-    Vector<Real> moments = wing_.moments(state);
-    for (const int i : moving_) {
-      const std::optional<Motor>& motor = scene_.hinges[i].motor;
-      if (!motor) continue;
-      const Real rate = motor->table ? Real(motor->scale * motor->rates.back()) : Real(motor->rate);
-      const Real wanted = motor->gain * (rate - wing_.sense(i) * state.rates(i));
-      moments(i) += wing_.sense(i) *
-                    std::clamp(wanted, Real(-motor->torque_limit), Real(motor->torque_limit));
-    }
-    const Vector<Real> free = wing_.respond(state, moments).hinge_accelerations;
-    if (held_.empty()) return free(moving_);
-    const Matrix<Real> by_moment = yields(state);
-    const Vector<Real> holding = by_moment(held_, held_).inverse() * free(held_);
-    return free(moving_) - by_moment(moving_, held_) * holding;
-  }
-  /// Of the accelerations, by a coordinate of `state`.
-  [[nodiscard]] Vector<Real> difference(WingState<Real>& state, Real& coordinate) const {
-    constexpr Real step = 1e-5L;
-    const Real at = coordinate;
-    coordinate = at + step;
-    const Vector<Real> ahead = accelerations(state);
-    coordinate = at - step;
-    const Vector<Real> behind = accelerations(state);
-    coordinate = at;
-    return (ahead - behind) / (2 * step);
-  }
-
-  const Scene& scene_;
-  DenseWing<Real> wing_;
-  WingState<Real> state_;
-  std::vector<int> moving_, held_;
-};
 
 std::vector<int> all_hinges(const Scene& scene) {
   std::vector<int> all(scene.hinges.size());
@@ -246,6 +149,33 @@ TEST_CASE("a driven base stands still for small swings") {
       CHECK(found.modes[k].frequency == Approx(fixed[k]).epsilon(1e-12));
     CHECK(natural_frequencies(scene)[0] == Approx(fixed[0]).epsilon(1e-12));
   }
+  // a constant acceleration beside a table of rates acts
+  BaseTable::Columns rates;
+  rates.time = {0, 1}, rates.rate = {0.1, 0.3};
+  scene.base.table = std::make_shared<const BaseTable>(rates, Interpolation::linear);
+  scene.base.acceleration = {2, -3};
+  const std::vector<double> pushed = natural_frequencies(scene);
+  CHECK(std::abs(pushed[0] - fixed[0]) > 1e-6 * fixed[0]);
+  scene.base.table = nullptr, scene.base.rate = scene.base.angular_acceleration = 0;
+  CHECK(natural_frequencies(scene) == pushed);
+}
+
+TEST_CASE("two hinges that a loop alone ties turn freely together") {
+  Scene scene = coaxial_discs(2, 3);
+  scene.hinges[1].parent = base_index;
+  for (Hinge& hinge : scene.hinges) hinge.latch.reset(), hinge.spring = {};
+  Synchronisation loop;
+  loop.name = "loop", loop.first = 0, loop.second = 1, loop.stiffness = 1e3;
+  for (int k = 0; k < 40; ++k) { // what rounding leaves of K's second pivot has either sign
+    const double ratio = (k % 2 ? 1 : -1) * (0.3 + 0.17 * k);
+    CAPTURE(ratio);
+    loop.ratio = ratio;
+    scene.synchronisations = {loop};
+    const std::vector<double> found = natural_frequencies(scene);
+    REQUIRE(found.size() == 2);
+    CHECK(found[0] == 0);
+    CHECK(found[1] == Approx(hertz(std::sqrt(1e3 * (ratio * ratio / 2 + 1.0 / 3)))).epsilon(1e-10));
+  }
 }
 
 TEST_CASE(
@@ -291,6 +221,15 @@ TEST_CASE("a damping ratio given to a panel is its first mode's, and grows with 
   CHECK(found.modes[0].damping_ratio == Approx(0.02).epsilon(2e-3));
   CHECK(found.modes[2].damping_ratio ==
         Approx(0.02 * found.modes[2].frequency / found.modes[0].frequency).epsilon(2e-3));
+  // the same of a panel of another length and mass, by its frequency
+  Body& panel = scene.bodies[0];
+  panel.mass = 9.5, panel.inertia = 9.5 * 1.8 * 1.8 / 12;
+  panel.plate->from = {-0.9, 0}, panel.plate->to = {0.9, 0};
+  panel.flexible->bending_stiffness.reset(), panel.flexible->frequency = 8;
+  scene.hinges[0].child_point = {-0.9, 0};
+  const WingModes longer = modes_of(scene, std::vector<int>{});
+  CHECK(longer.modes[0].frequency == Approx(8).epsilon(2e-3));
+  CHECK(longer.modes[0].damping_ratio == Approx(0.02).epsilon(2e-3));
 }
 
 TEST_CASE("random latched wings have the modes of the dense formulation") {
