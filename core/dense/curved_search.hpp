@@ -145,6 +145,21 @@ template <class T>
                            larger(larger(first, last), floor), close);
 }
 
+/// Whether a function may exceed `floor`, its ends and `close` more inside the step, as far as samples of it tell; for a
+/// pack: in which lanes. @param samples by ascending s, the first at 0, the last at 1
+template <class T, std::size_t count>
+[[nodiscard]] Truth<T> may_crest_between(const std::array<Sampled<T>, count>& samples,
+                                         const Bulge<T>& rise, const T& floor, const T& close) {
+  const T least = larger(larger(samples.front().value, samples.back().value), floor);
+  Truth<T> may = T(0) > T(0);
+  for (std::size_t k = 1; k < count; ++k) {
+    const detail::Stretch<T> part{samples[k - 1], samples[k]};
+    may = may || samples[k].value > least ||
+          detail::may_crest(part, detail::rise_inside(part, rise), least, close);
+  }
+  return may;
+}
+
 /// The maximum of f, to `close`, if it exceeds `floor`; else any sample.
 template <class T, class Function>
 [[nodiscard]] Sampled<T> largest_of(const Function& f, const T& first, const T& last,

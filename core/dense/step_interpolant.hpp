@@ -20,16 +20,29 @@ namespace wingspread {
 
 template <class T> class StepInterpolant {
 public:
-  /// Samples f, a function of the fraction of the step, until the samples resolve it.
+  /// The fractions of the step of the samples that `begin` makes.
+  static constexpr std::array<double, 3> first_places{0.14644660940672624, 0.5,
+                                                      0.85355339059327376};
+
+  /// Samples f, a function of the fraction of the step, at these places.
   /// @param first, last f at s = 0 and 1
-  /// @return whether they do, after at most 15 samples
-  template <class Function>
-  [[nodiscard]] bool resolve(const Function& f, const T& first, const T& last) {
+  template <class Function> void begin(const Function& f, const T& first, const T& last) {
     values_[0] = first, values_[points] = last;
-    stride_ = points;
-    sample(f, 4);
-    if (refine(f)) return true;
-    return refine(f);
+    stride_ = 4;
+    for (int k = 0; k < 3; ++k) values_[4 * (k + 1)] = f(T(first_places[k]));
+  }
+  /// |f| at the ends and at these places. @pre begin
+  [[nodiscard]] std::array<Sampled<T>, 5> begun() const {
+    using std::abs;
+    std::array<Sampled<T>, 5> all;
+    for (int k = 0; k <= 4; ++k) all[k] = {T(place(4 * k)), T(abs(values_[4 * k]))};
+    return all;
+  }
+
+  /// Samples f further, until the samples resolve it. @pre begin
+  /// @return whether they do, after at most 12 more
+  template <class Function> [[nodiscard]] bool resolve(const Function& f) {
+    return refine(f) || refine(f);
   }
 
   [[nodiscard]] T operator()(const T& s) const {
@@ -75,16 +88,10 @@ private:
         const double half = std::sin(std::numbers::pi * k / (2 * points));
         all[k] = half * half;
       }
+      for (int k = 0; k < 3; ++k) all[4 * (k + 1)] = first_places[k];
       return all;
     }();
     return places[j];
-  }
-
-  /// Samples every stride-th point that has no sample yet.
-  template <class Function> void sample(const Function& f, int stride) {
-    for (int j = stride; j < points; j += stride)
-      if (j % stride_ != 0) values_[j] = f(T(place(j)));
-    stride_ = stride;
   }
 
   /// Halves the distance of the points. @return whether the polynomial so far has foretold the new samples

@@ -169,10 +169,6 @@ private:
     }
   };
 
-  [[nodiscard]] static T length(const Vec2<T>& v) {
-    using std::sqrt;
-    return sqrt(dot(v, v));
-  }
   [[nodiscard]] static Derivatives added(const Derivatives& a, const T& by, const Derivatives& b) {
     return {fused(by, b.value, a.value), fused(by, b.first, a.first),
             fused(by, b.second, a.second)};

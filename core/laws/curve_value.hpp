@@ -5,6 +5,7 @@
 #include "core/number/pack.hpp"
 #include "core/scene/curve.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace wingspread {
@@ -124,6 +125,15 @@ template <class T> [[nodiscard]] T value(const PieceAt<T>& p) {
 }
 template <class T> [[nodiscard]] T slope(const PieceAt<T>& p) {
   return fused(p.u, fused(p.u, T(3) * p.c[3], T(2) * p.c[2]), p.c[1]);
+}
+/// d²y/dx².
+template <class T> [[nodiscard]] T bend(const PieceAt<T>& p) {
+  return fused(T(6) * p.c[3], p.u, T(2) * p.c[2]);
+}
+
+/// By how much a curve's slope may differ from `here` anywhere.
+[[nodiscard]] inline double most_change_of_slope(const Curve& curve, double here) {
+  return std::max(curve.steepest_rise() - here, here - curve.steepest_fall());
 }
 
 template <class T> [[nodiscard]] T value(const Curve& curve, const T& x) {

@@ -63,6 +63,11 @@ template <class T>
   return piece;
 }
 
+/// The command after the last knot.
+template <class T> [[nodiscard]] MotorPiece<T> last_motor_piece(const MotorTerms<T>& terms) {
+  return motor_piece(terms, T(0), terms.table ? static_cast<int>(terms.table->knots().size()) : 0);
+}
+
 /// Sets `piece` to the one at t. A knot too near for a step to it counts as reached. @return whether it changed
 template <class T> bool enter_piece(const MotorTerms<T>& terms, const T& t, MotorPiece<T>& piece) {
   const int before = piece.number;

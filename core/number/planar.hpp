@@ -7,6 +7,8 @@
 #include "core/number/scalar.hpp"
 #include "core/number/sine_cosine.hpp"
 
+#include <cmath>
+
 namespace wingspread {
 
 template <class T> struct Vec2 {
@@ -52,6 +54,16 @@ template <class T>
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T dot(const Vec2<T>& a, const Vec2<T>& b) {
   return fused(a.x, b.x, a.y * b.y);
+}
+/// a × b
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T cross(const Vec2<T>& a, const Vec2<T>& b) {
+  return a.x * b.y - a.y * b.x;
+}
+/// |a|
+template <class T> [[nodiscard, gnu::always_inline]] inline T length(const Vec2<T>& a) {
+  using std::sqrt;
+  return sqrt(dot(a, a));
 }
 /// K a
 template <class T>

@@ -28,6 +28,7 @@ public:
     before_.assign(at.bodies + 1, none), at_end_.assign(at.bodies + 1, {none, none});
     levers_.assign(at.bodies + 1, {none, none, {none, none}, none});
     samples_.resize(at.bodies);
+    locked_.reserve(2UL * static_cast<std::size_t>(at.bodies));
     for (State<P>* x : {&x_, &dxdt_}) x->assign(at.size(), none);
     sampled_ = evaluations_ = none;
   }
@@ -73,15 +74,17 @@ public:
 
   /// Raises the peaks of the accepted lanes to the step's ends, for `accept` to keep.
   /// @return lanes in which a peak may lie inside the step
-  /// @param asks lanes that need their runs in any case: their forces are not sampled
+  /// @param asks lanes that need their runs in any case: their loads and forces are not sampled
   /// @param held_before moments on stuck hinges at the step's start; those at its end are the system's last
   [[nodiscard]] Mask search_step(AnySystem& system, const Step<P>& step, const Mask& accepted,
                                  const Mask& asks, const std::vector<P>& held_before) {
     rises_ = samples_made_ = held_is_bounded_ = false;
+    locked_.clear();
     Mask in_doubt{};
     if (shape_.moments) in_doubt = search_moments(system, step, accepted, held_before);
-    if (shape_.holds && system.work().stuck > 0)
-      in_doubt = in_doubt || search_holds(system, step, accepted, held_before);
+    if (shape_.holds && system.work().stuck > 0) search_holds(system, step, accepted, held_before);
+    if (!locked_.empty())
+      in_doubt = in_doubt || search_locked(system, step, accepted && !(asks || in_doubt));
     asks_for_moments_ = in_doubt;
     force_may_rise_ = accepted;
     if (shape_.forces && system.wing().plates.empty())
@@ -132,7 +135,7 @@ private:
       Mask slides = accepted;
       if (system.work().stuck > 0) {
         const Mask locked = system.is_locked(i);
-        asks = asks || search_held_moment(system, step, i, accepted && locked, held_before[i]);
+        search_held_moment(system, step, i, accepted && locked, held_before[i]);
         slides = accepted && !locked;
       }
       const MomentOverStep<P, AnySystem> moment(system, step, i);
@@ -156,12 +159,12 @@ private:
   }
 
   /// As raise_held_moment.
-  [[nodiscard]] Mask search_held_moment(const AnySystem& system, const Step<P>& step, int i,
-                                        const Mask& these, const P& held_before) {
-    if (!any(these)) return Mask{};
+  void search_held_moment(const AnySystem& system, const Step<P>& step, int i, const Mask& these,
+                          const P& held_before) {
+    if (!any(these)) return;
     const Mask may = these && held_moment_may_rise(moments_[i], system, step, i);
     may_rise_[i] = may;
-    if (!any(may)) return Mask{};
+    if (!any(may)) return;
     if (!held_is_bounded_) held_.over_step(system, step);
     held_is_bounded_ = true;
     held_.narrow(system, step, i);
@@ -171,14 +174,13 @@ private:
     peak.raise(first, step.t);
     peak.raise(last, step.t + step.h);
     assign_where(may, raised_moments_[i], peak);
-    return may && wants_samples(first, last, Bulge<P>{held_.rise(i)}, moments_[i].value,
-                                negligible(moments_[i], held_, i));
+    add_locked({i, false, first, last, Bulge<P>{held_.rise(i)}, moments_[i].value,
+                negligible(moments_[i], held_, i), may});
   }
 
   /// As PeakSearch::doubtful_hold.
-  [[nodiscard]] Mask search_holds(const AnySystem& system, const Step<P>& step,
-                                  const Mask& accepted, const std::vector<P>& held_before) {
-    Mask asks{};
+  void search_holds(const AnySystem& system, const Step<P>& step, const Mask& accepted,
+                    const std::vector<P>& held_before) {
     for (int i = 1; i < static_cast<int>(holds_.size()); ++i) {
       const Mask held = accepted && system.is_held(i);
       if (!any(held)) continue;
@@ -192,8 +194,54 @@ private:
       peak.raise(first, step.t);
       peak.raise(last, step.t + step.h);
       assign_where(held, raised_holds_[i], peak);
-      asks = asks || (held && wants_samples(first, last, Bulge<P>{held_.most_friction(i)},
-                                            holds_[i].value, negligible(holds_[i], held_, i)));
+      add_locked({i, true, first, last, Bulge<P>{held_.most_friction(i)}, holds_[i].value,
+                  negligible(holds_[i], held_, i), held});
+    }
+  }
+
+  /// The load of a locked hinge over a step, as raise_locked_load has it.
+  struct LockedLoad {
+    int hinge;
+    bool of_hold; ///< what its hold bears; else the moment across the hinge
+    P first, last;
+    Bulge<P> rise;
+    P peak, close;
+    Mask wants; ///< lanes that want samples
+    std::array<P, 3> inside{};
+  };
+
+  void add_locked(LockedLoad load) {
+    load.wants =
+        load.wants && wants_samples(load.first, load.last, load.rise, load.peak, load.close);
+    if (any(load.wants)) locked_.push_back(load);
+  }
+
+  /// Samples the loads of locked hinges that want it. @return lanes in which a load may be larger inside the step
+  [[nodiscard]] Mask search_locked(AnySystem& system, const Step<P>& step, const Mask& these) {
+    Mask asks{}, wants{};
+    for (LockedLoad& load : locked_) {
+      load.wants = load.wants && these;
+      if (load.of_hold && !system.wing().loops.empty()) asks = asks || load.wants;
+      wants = wants || load.wants;
+    }
+    if (!any(wants && !asks)) return asks;
+    constexpr auto& places = StepInterpolant<P>::first_places;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const P s(places[k]);
+      step.interpolate(system.layout(), s, x_);
+      system(x_, dxdt_, step.t + s * step.h);
+      for (LockedLoad& load : locked_)
+        load.inside[k] = abs(load.of_hold ? system.holding_friction(x_, load.hinge)
+                                          : system.work().holding[load.hinge]);
+    }
+    if (!samples_made_) sampled_ = P(0.0);
+    samples_made_ = true;
+    for (const LockedLoad& load : locked_) {
+      std::array<Sampled<P>, 5> samples{{{P(0.0), load.first}, {}, {}, {}, {P(1.0), load.last}}};
+      for (std::size_t k = 0; k < places.size(); ++k)
+        samples[k + 1] = {P(places[k]), load.inside[k]};
+      asks = asks || (load.wants && may_crest_between(samples, load.rise, load.peak, load.close));
+      sampled_ = sampled_ + select(load.wants, P(static_cast<double>(places.size())), P(0.0));
     }
     return asks;
   }
@@ -243,9 +291,10 @@ private:
       may_rise_; ///< 1 … n: lanes in which a moment may rise over this step, inside or towards an end
   bool rises_ = false, samples_made_ = false; ///< in any lane, over this step
   HeldLoadBound<P> held_;
-  bool held_is_bounded_ = false; ///< over this step
-  std::vector<P> before_;        ///< forces at the step's start
-  std::vector<Vec2<P>> at_end_;  ///< and at its end
+  bool held_is_bounded_ = false;   ///< over this step
+  std::vector<LockedLoad> locked_; ///< those that want samples over this step
+  std::vector<P> before_;          ///< forces at the step's start
+  std::vector<Vec2<P>> at_end_;    ///< and at its end
   std::vector<Lever<P>> levers_;
   ForceSamples<P> samples_;
   P sampled_;     ///< evaluations made by the search of this step

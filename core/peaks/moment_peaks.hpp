@@ -308,21 +308,23 @@ template <class T>
 /// Raises `peak` to the largest |load| of a locked hinge at the step's ends, and says where inside it is larger.
 /// @param rise  largest excess over the larger end
 /// @param close difference below which two loads count as one, N·m
+/// @param by_parts whether `rise` holds for any part of the step too
 /// @param load  as of raise_held_moment
 template <class T, class Load>
 [[nodiscard]] std::optional<T> raise_locked_load(PeakOf<T>& peak, const Step<T>& step,
                                                  const HeldMoments<T>& ends, const Bulge<T>& rise,
-                                                 const T& close, Load&& load) {
+                                                 const T& close, bool by_parts, Load&& load) {
   using std::abs;
   const T first = abs(ends.first), last = abs(ends.last);
   Sampled<T> found{T(0), T(0)};
   if (wants_samples(first, last, rise, peak.value, close)) {
     StepInterpolant<T> interpolant;
+    interpolant.begin(load, ends.first, ends.last);
     const auto size = [&](const T& s) { return T(abs(load(s))); };
-    found =
-        interpolant.resolve(load, ends.first, ends.last)
-            ? interpolant.largest_magnitude()
-            : largest_of(size, first, last, rise, peak.value, close, shortest_part(step.t, step.h));
+    if (!by_parts || may_crest_between(interpolant.begun(), rise, peak.value, close))
+      found = interpolant.resolve(load) ? interpolant.largest_magnitude()
+                                        : largest_of(size, first, last, rise, peak.value, close,
+                                                     shortest_part(step.t, step.h));
   }
   peak.raise(first, step.t);
   peak.raise(last, step.t + step.h);
@@ -331,7 +333,8 @@ template <class T, class Load>
 }
 
 /// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. A value inside takes an evaluation,
-/// so a step is dismissed first by held_moment_may_rise, then by the load's curvature. The maximum inside is that of a
+/// so a step is dismissed first by held_moment_may_rise, then by the load's curvature, over the whole step and between
+/// three samples. The maximum inside is that of a
 /// polynomial through samples, or is searched by the load's curvature where few samples do not resolve the load.
 /// @param load load(s): the moment by an evaluation on the dense output
 /// @return where a step of the method must confirm a larger value
@@ -343,7 +346,7 @@ raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step,
   bound.over_step(system, step);
   bound.narrow(system, step, i);
   return raise_locked_load(peak, step, ends, Bulge<T>{bound.rise(i)}, negligible(peak, bound, i),
-                           load);
+                           true, load);
 }
 
 } // namespace wingspread

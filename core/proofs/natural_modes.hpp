@@ -6,7 +6,13 @@
 /// damping in proportion to stiffness; elsewhere it is the usual modal damping, which leaves out C's coupling of modes.
 ///
 /// Small swings have no friction but the viscous one, no power-law damper (its damping depends on the swing), no
-/// backlash, and no air. A prescribed base stands still at its initial angle; its constant acceleration acts.
+/// backlash, no stop, and no air. A prescribed base stands still at its initial angle; its constant acceleration acts.
+/// A motor has the last rate w of its command. Within its torque limit T it is a damper of its gain c about that rate,
+/// beyond it a constant torque:
+///
+///     M = c (w − φ̇)  if c |w| < T,    else M = ± T without damping                               (2)
+///
+/// Its torque at rest, c w or ± T, moves the rest. A hinge that is held has no motor.
 #pragma once
 
 #include "core/scene/segments.hpp"

@@ -7,14 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace wingspread {
 namespace {
-
-[[nodiscard]] double length(const Vec2<double>& v) { return std::sqrt(dot(v, v)); }
-
-double cross(const Vec2<double>& a, const Vec2<double>& b) { return a.x * b.y - a.y * b.x; }
 
 [[nodiscard]] Vec2<double> turned_by(double angle, const Vec2<double>& v) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -139,29 +134,39 @@ private:
     return (residual_.array().abs() <= least).all();
   }
 
-  /// Newton's method with the push in K. A hinge that nothing holds stays: the least solution does not move it.
+  /// Newton's method with the push in K. A hinge that nothing holds stays: the least solution does not move it. Eight
+  /// half ways after eight whole ones end cycles about the kink of a linear table or of a strand.
   bool settle(const std::vector<char>& is_held) {
-    for (int pass = 0; pass < 50; ++pass) {
+    for (int pass = 0; pass < 100; ++pass) {
       place();
       find_stiffness();
-      add_stiffness_of_push();
+      add_stiffness_of_loads();
       for (int i = 0; i < n_; ++i) {
-        if (is_held[i]) m_.stiffness.row(i).setZero(), m_.stiffness.col(i).setZero();
-        if (is_held[i]) m_.stiffness(i, i) = 1, residual_(i) = 0;
+        if (!is_held[i]) continue;
+        m_.stiffness.row(i).setZero(), m_.stiffness.col(i).setZero();
+        m_.stiffness(i, i) = 1, residual_(i) = 0;
       }
       const Eigen::VectorXd way = m_.stiffness.completeOrthogonalDecomposition().solve(residual_);
-      m_.angles += way;
+      m_.angles += (pass % 16 < 8 ? 1 : 0.5) * way;
       if (!(way.lpNorm<Eigen::Infinity>() > 1e-12)) return true; // rad, or not a number
     }
     return false;
   }
 
-  /// The push on body k, f at each unit of mass, has the stiffness Y_k·f against the turning of body k.
-  void add_stiffness_of_push() {
+  /// The push on body k, f at each unit of mass, has the stiffness Y_k·f against the turning of body k. A loop's hinge a
+  /// bears −s_a g'(x_a) τ: where the gear bends, the torque τ has the stiffness g'' τ.
+  void add_stiffness_of_loads() {
     for (int k = 1; k <= n_; ++k) {
       const double own = -dot(Y_[k], push_);
       for (int i = k; own != 0 && i != 0; i = wing_.tree.parent_of(i))
         for (int j = k; j != 0; j = wing_.tree.parent_of(j)) m_.stiffness(i - 1, j - 1) += own;
+    }
+    for (const LoopTerms<double>& loop : wing_.loops) {
+      if (!loop.table) continue;
+      const int a = loop.first - 1;
+      const double travel = loop.sense_a * (m_.angles(a) - loop.stowed_a);
+      m_.stiffness(a, a) +=
+          bend(piece_at(*loop.table, travel)) * carried_by_strands(loop, state_of(loop).elastic);
     }
   }
 
@@ -240,18 +245,13 @@ private:
     for (const LoopTerms<double>& loop : wing_.loops) {
       const LoopState<double> at = state_of(loop);
       add(m_.damping, loop, at, taut_share(loop, at.elastic) * loop.damping);
-      RestModel::Loop kept{loop.first - 1,
-                           loop.second - 1,
-                           std::abs(carried_by_strands(loop, at.elastic)),
-                           std::abs(at.gear),
-                           0,
-                           loop.stiffness,
-                           loop.damping,
-                           loop.slack_beyond - std::abs(at.elastic)};
+      const double torque = std::abs(carried_by_strands(loop, at.elastic));
+      const double until_slack = loop.slack_beyond - std::abs(at.elastic);
+      RestModel::Loop kept{loop.first - 1, loop.second - 1, torque,     std::abs(at.gear), 0,
+                           loop.stiffness, loop.damping,    until_slack};
       if (loop.table) {
-        const double rise = loop.table->steepest_rise(), fall = loop.table->steepest_fall();
-        kept.gear = std::max(std::abs(rise), std::abs(fall));
-        kept.gear_changes = std::max(rise - at.gear, at.gear - fall);
+        kept.gear = most_change_of_slope(*loop.table, 0); // from 0
+        kept.gear_changes = most_change_of_slope(*loop.table, at.gear);
       }
       m_.loops.push_back(kept);
     }
@@ -354,8 +354,8 @@ private:
       if (wing_.real.empty()) continue;
       const RealHingeTerms<double>& real = wing_.real[i];
       const double phi = m_.angles(i - 1);
-      left.bend = bend(real.spring.curve, real.spring.weight, phi) +
-                  bend(real.harness.curve, real.harness.weight, phi);
+      left.bend = bend_of(real.spring.curve, real.spring.weight, phi) +
+                  bend_of(real.harness.curve, real.harness.weight, phi);
       double& room = m_.room(i - 1);
       for (const StopTerms<double>* stop : {&real.stop, &real.far_stop})
         if (stop->present) room = std::min(room, stop->sense * (phi - stop->contact_angle));
@@ -366,11 +366,8 @@ private:
   }
 
   /// By how much the slope of a curve may differ from that at an angle.
-  [[nodiscard]] static double bend(const Curve* curve, double weight, double angle) {
-    if (!curve) return 0;
-    const double here = slope(*curve, angle);
-    return std::abs(weight) *
-           std::max(curve->steepest_rise() - here, here - curve->steepest_fall());
+  [[nodiscard]] static double bend_of(const Curve* curve, double weight, double angle) {
+    return curve ? std::abs(weight) * most_change_of_slope(*curve, slope(*curve, angle)) : 0;
   }
 
   const Wing<double>& wing_;
@@ -393,8 +390,10 @@ bool make_rest_model(const Wing<double>& wing, const Workspace<double>& work, co
 
 bool make_linear_model(const Wing<double>& wing, const double* angles,
                        const std::vector<char>& is_held, RestModel& model) {
-  const Workspace<double> at_the_start;
-  return Maker(wing, at_the_start, model).make_linear(angles, is_held);
+  Workspace<double> at_the_end;
+  for (const MotorTerms<double>& motor : wing.motors)
+    at_the_end.motors.push_back(last_motor_piece(motor));
+  return Maker(wing, at_the_end, model).make_linear(angles, is_held);
 }
 
 } // namespace wingspread

@@ -129,7 +129,8 @@ struct RestModel {
                                    const double* angles, const double* rates, RestModel& model);
 
 /// The angles at rest, mass, stiffness, damping and turns alone, of a wing of any size: no bounds, and no part of air,
-/// friction and backlash. The stiffness includes the push of a base that does not turn. Cost O(n³).
+/// friction and backlash. The stiffness includes the push of a base that does not turn, and the bend of loaded gears.
+/// Motors have the command after their last knot. Cost O(n³).
 /// @param angles  of the hinges, 0 … n − 1: where the search for rest begins
 /// @param is_held by hinge: stays at its angle, with a row and column of the unit matrix in K
 /// @return whether rest was found, and all is finite

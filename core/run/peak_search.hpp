@@ -187,7 +187,8 @@ private:
     held_.narrow(run_.system, step, hold_);
     PeakOf<T>& peak = holds_[hold_];
     const Bulge<T> rise{held_.most_friction(hold_)};
-    borne_at_ = raise_locked_load(peak, step, ends, rise, negligible(peak, held_, hold_), load);
+    borne_at_ = raise_locked_load(peak, step, ends, rise, negligible(peak, held_, hold_),
+                                  run_.system.wing().loops.empty(), load);
     return borne_at_;
   }
 

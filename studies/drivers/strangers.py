@@ -2,12 +2,18 @@
 
     /usr/bin/python3 studies/drivers/strangers.py --program build/release/wingspread              # 60 wings of seed 1
     /usr/bin/python3 studies/drivers/strangers.py --program … --wings 10 --seed 7 --keep DIR      # their files and results stay
+    /usr/bin/python3 studies/drivers/strangers.py --program … --releases start                    # what holds cost
 
 Draws realistic wings: one or two, with a yoke or without, 2 to 6 panels, on fixed, free and turning bases; linear, tabulated and
 measured springs, harnesses, each damper, loops with and without slack, stops, exact and regularized friction, latches of 1e2 to
 1e5 N·m/rad, panels of 0.1 to 50 kg. Each becomes a campaign of 200 draws with all outputs, run on one thread in packs and one run at a time
 (--lanes 1). The script prints runs a second, the ratio, the share that deploys, evaluations of the nominal run, and the share of the time that is
 spent outside the lanes with its three largest causes (timing.json has all); then the median, the worst tenth and the worst. The results of packs and of single runs must be the same bytes: if not, it says so and exits 1.
+
+With --releases it measures instead what holds cost: the user time of each wing's packs with releases over that without, by turns, the
+best of three. "start": every hinge is let go at t = 0, which changes no motion. "sequence": each hinge but the first is let go once the
+one inward of it has turned by a tenth of its way: another motion, so the evaluations' ratio stands beside; wings have no loops then,
+which would hold what waits.
 """
 
 import argparse
@@ -15,6 +21,7 @@ import json
 import math
 import pathlib
 import random
+import resource
 import statistics
 import subprocess
 import sys
@@ -153,8 +160,56 @@ def make_campaign(scene, runs, seed):
                    {"name": "mass", "distribution": {"type": "normal", "mean": 1, "std": 0.01}, "apply": "scale", "each": "bodies.*.mass"},
                    {"name": "latch", "distribution": normal, "apply": "scale", "each": "hinges.*.latch.stiffness"}]
     outputs = [o for o in OUTPUTS if o != "base_motion" or scene["base"]["motion"] == "free"]
+    if any("release" in hinge for hinge in scene["hinges"]):
+        outputs.append("hold_moment")
     return {"scene": scene, "dispersions": dispersions, "sampling": {"design": "random", "runs": runs, "seed": seed},
             "integration": {"t_end": 60}, "outputs": outputs, "statistics": {"accuracy_runs": 0}}
+
+
+def with_releases(scene, kind):
+    """The scene with every hinge held until t = 0 ("start"), or until the one inward of it has turned ("sequence")."""
+    scene = json.loads(json.dumps(scene))
+    inward = {hinge["child"]: hinge for hinge in scene["hinges"]}
+    for hinge in scene["hinges"]:
+        before = inward.get(hinge["parent"])
+        if kind == "start":
+            hinge["release"] = {"time": 0}
+        elif before:
+            tenth = 0.1 * abs(before["angle"]["stowed"] - before["angle"]["latched"])
+            hinge["release"] = {"after": before["name"], "event": {"angle": rounded(tenth)}}
+    return scene
+
+
+def user_seconds(function):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    result = function()
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, result
+
+
+def compare_releases(given, scratch):
+    """Prints each wing's cost with releases over that without. @return whether no run failed"""
+    print(f"{'':4} {'time':>6} {'evaluations':>11} {'deployed':>18}", flush=True)
+    times, failed = [], 0
+    for index in given.only or range(given.wings):
+        scene, words = make_scene(random.Random(f"{given.seed}/{index}"), f"stranger_{index}")
+        if given.releases == "sequence":
+            scene.pop("synchronisations", None)
+        best, share, evaluations = [math.inf, math.inf], [0, 0], [0, 0]
+        for turn in range(6):
+            k = turn % 2
+            folder = pathlib.Path(scratch) / f"{index}_{turn}"
+            folder.mkdir(parents=True)
+            campaign = make_campaign(with_releases(scene, given.releases) if k else scene, given.runs, given.seed)
+            (folder / "campaign.json").write_text(json.dumps(campaign))
+            seconds, (_, summary) = user_seconds(lambda f=folder: run(given.program, f / "campaign.json", f / "out", *given.options))
+            best[k] = min(best[k], seconds)
+            share[k] = summary["status"]["deployed"]["count"] / summary["runs"]
+            failed += summary["status"]["failed"]["count"]
+            evaluations[k] = evaluations[k] or evaluations_of_nominal(given.program, folder / "campaign.json")
+        times.append(best[1] / best[0])
+        print(f"{index:4} {times[-1]:6.3f} {evaluations[1] / evaluations[0]:11.3f} {share[0]:8.2f} {share[1]:9.2f}   {words}", flush=True)
+    print(f"\ntime with releases over without: median {statistics.median(times):.3f}, least {min(times):.3f}, largest {max(times):.3f}")
+    return failed == 0
 
 
 def run(program, campaign, out, *options):
@@ -200,9 +255,12 @@ def main():
     parser.add_argument("--runs", type=int, default=200)
     parser.add_argument("--keep", metavar="DIR", help="scenes and results stay here")
     parser.add_argument("--options", nargs="+", default=[], metavar="OPTION", help="passed on to every run, e.g. --options=--isa=avx2")
+    parser.add_argument("--releases", choices=("start", "sequence"), help="measure what holds cost")
     given = parser.parse_args()
     found = []
     with tempfile.TemporaryDirectory() as scratch:
+        if given.releases:
+            return 0 if compare_releases(given, scratch) else 1
         print(f"{'':4} {'runs/s':>8} {'packs/alone':>11} {'deployed':>8} {'evaluations':>11} {'outside':>8}", flush=True)
         for index in given.only or range(given.wings):
             one = measure(given.program, pathlib.Path(given.keep or scratch) / str(index), index, given)

@@ -176,9 +176,50 @@ def wing():
                         ["joints", *head, "evaluations over rigid"], rows)
 
 
+# ---- what limits the steps of a wing that bends
+
+
+STRETCHES = [(0.7, 5), (7, 12.5), (16.5, 20)]  # s: nothing latched; the roots latched; all latched, ringing
+
+
+def bending_wings(joints=2, frequency=None, damping=None, width=None):
+    scene = json.loads(pathlib.Path("studies/scenes/bending_wings.json").read_text())
+    for body in scene["bodies"]:
+        if not joints:
+            body.pop("flexible", None)
+        elif "flexible" in body:
+            body["flexible"] |= {"joints": joints, "frequency": frequency or body["flexible"]["frequency"]}
+    for hinge in scene["hinges"]:
+        hinge["latch"]["damping"] = damping or hinge["latch"]["damping"]
+        hinge["friction"]["regularization_rate"] = width or hinge["friction"]["regularization_rate"]
+    return scene
+
+
+def mean_steps(name, scene, rtol):
+    """Mean length of an explicit step in each stretch, ms."""
+    path, lengths = written(name, scene), []
+
+    def count(t):
+        return said("simulate", path, "--json", "--method", "dop853", "--rtol", rtol, "--atol", rtol / 100, "--t-end", t)["work"]["steps"]
+
+    for begin, end in STRETCHES:
+        lengths.append(f"{1e3 * (end - begin) / (count(end) - count(begin)):.1f}")
+    return lengths
+
+
+def steps():
+    variants = [("as shipped", {}, 1e-6), ("rtol 1e-4", {}, 1e-4), ("rtol 1e-8", {}, 1e-8),
+                ("rigid panels", {"joints": 0}, 1e-6), ("1 joint", {"joints": 1}, 1e-6), ("4 joints", {"joints": 4}, 1e-6),
+                ("16 Hz", {"frequency": "16 Hz"}, 1e-6),
+                ("latch damping 160 N·m·s/rad, friction over 0.06 deg/s", {"damping": 160, "width": "0.06 deg/s"}, 1e-6),
+                ("the same, rtol 1e-4", {"damping": 160, "width": "0.06 deg/s"}, 1e-4)]
+    rows = [[name, *mean_steps(f"steps_{k}", bending_wings(**given), rtol)] for k, (name, given, rtol) in enumerate(variants[:2] if QUICK else variants)]
+    return table("Mean step of dop853, ms, bending_wings:", ["", "nothing latched", "roots latched", "all latched"], rows)
+
+
 def main():
     FOLDER.mkdir(parents=True, exist_ok=True)
-    text = "".join(part() for part in (segments, rule, wing))
+    text = "".join(part() for part in (segments, rule, wing, steps))
     (FOLDER / "tables.md").write_text(text)
     print(text)
 

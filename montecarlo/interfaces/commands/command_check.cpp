@@ -161,7 +161,8 @@ void add_modes_options(CLI::App& command, ModesOptions& options) {
   add_case_option(command, options.settings.of_case);
   command.footer(
       R"(Prints the natural frequencies, damping ratios and shapes of small swings about rest: latches,
-springs, joints, loops and gravity, no friction but the viscous one, no power-law damper, no air.
+springs, joints, loops, motors at their last rate and gravity, no friction but the viscous one, no
+power-law damper, no air.
 A mode that nothing holds has frequency 0. In a campaign "outputs": ["frequency"] gives every run
 the frequencies of its draw, mode_1.frequency and so on.
 

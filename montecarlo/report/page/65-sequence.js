@@ -16,11 +16,15 @@
   const seconds = (time, digits = 4) => `${F.number(time, digits)} s`;
 
   // The nominal release in words: "0.2 s after left_mid latches".
-  function releaseOf(release, wing) {
+  function releaseOf(set, hinge) {
+    const { wing } = set,
+      { release } = of(set)[hinge],
+      path = `hinges.${wing.hinges[hinge].name}.release.time`,
+      drawn = ((set.inputs || {}).dispersions || []).find((one) => one.apply === "set" && (one.paths || []).includes(path));
     const other = release.after >= 0 ? wing.hinges[release.after].name : "",
       { factor, unit } = F.shown("rad");
     const event = {
-      time: `at ${F.given(release.time)} s`,
+      time: drawn ? `at ${drawn.draw}` : `at ${F.given(release.time)} s`,
       latched: `${other} latches`,
       released: `the hold of ${other} lets go`,
       passed: `${other} has turned by ${F.given(Number((release.angle * factor).toPrecision(6)))} ${unit}`,
@@ -151,7 +155,7 @@
       KINDS.filter(([key]) => happened(hinge, key) || (key === "released" && of(set)[hinge].release)).map(
         ([key, text]) => [
           name,
-          key === "released" ? h("span.double", text, h("small", releaseOf(of(set)[hinge].release, set.wing))) : text,
+          key === "released" ? h("span.double", text, h("small", releaseOf(set, hinge))) : text,
           ...sets.flatMap(function (one) {
             const event = of(one)[hinge][key],
               runs = one.envelopes.runs,

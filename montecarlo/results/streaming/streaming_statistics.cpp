@@ -27,6 +27,17 @@ std::vector<double> pilot_values(const Results& pilot, std::span<const Column> m
   return values;
 }
 
+/// The grid of a hinge's angles where it stopped; of all its final angles if none of the pilot's runs stalled.
+Grid grid_of_stopped(const FinalAngleColumns& columns, const Results& pilot) {
+  std::vector<double> all, stopped;
+  for (std::size_t row = 0; row < pilot.size(); ++row) {
+    const auto value = [&](std::size_t column) { return pilot.outputs[column].values[row]; };
+    all.push_back(value(columns.angle));
+    if (columns.stopped(pilot.status[row], value)) stopped.push_back(all.back());
+  }
+  return grid_of(stopped.empty() ? all : stopped);
+}
+
 std::vector<std::string> names_of(std::span<const Column> columns) {
   std::vector<std::string> names;
   for (const Column& column : columns) names.push_back(column.name);
@@ -85,6 +96,8 @@ StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultN
     const std::vector<double> values(column.values.begin(), column.values.end());
     outputs_.push_back({Population(grid_of(values)), scale_of(values), {}});
   }
+  for (const FinalAngleColumns& columns : final_angle_columns(names.outputs))
+    stopped_.push_back({columns, Population(grid_of_stopped(columns, pilot))});
   for (const RequiredOutput& required : required_)
     populations_.push_back({Population(grid_of(pilot_values(pilot, margins, required)))});
   for (const Column& column : pilot.draws)
@@ -111,6 +124,10 @@ void StreamingStatistics::add_outputs(const ResultRow& row) {
     output.sums.add(output.scale.of(value));
     if (is_overtravel_[i] && value > most_overtravel) ++output.beyond_stowed;
   }
+  const auto value = [&](std::size_t column) { return row.outputs[column]; };
+  for (StoppedPopulation& hinge : stopped_)
+    if (hinge.columns.stopped(row.status, value))
+      hinge.angles.add(value(hinge.columns.angle), row.run);
 }
 
 bool StreamingStatistics::add_requirements(const ResultRow& row, std::span<const double> margins) {
@@ -178,6 +195,8 @@ void StreamingStatistics::add(const StreamingStatistics& other) {
     outputs_[i].sums.add(other.outputs_[i].sums);
     outputs_[i].beyond_stowed += other.outputs_[i].beyond_stowed;
   }
+  for (std::size_t i = 0; i < stopped_.size(); ++i)
+    stopped_[i].angles.add(other.stopped_[i].angles);
   for (std::size_t q = 0; q < populations_.size(); ++q) {
     populations_[q].values.add(other.populations_[q].values);
     populations_[q].worse += other.populations_[q].worse;

@@ -10,6 +10,7 @@
 #include "montecarlo/results/streaming/population.hpp"
 #include "montecarlo/results/streaming/power_sums.hpp"
 #include "montecarlo/results/summary/reason_pattern.hpp"
+#include "montecarlo/results/summary/summary.hpp"
 
 #include <array>
 #include <map>
@@ -51,6 +52,12 @@ struct RequiredPopulation {
   long worse = 0; ///< runs worse than any number
 };
 
+/// Where a hinge stopped in the stalled runs in which it did not latch.
+struct StoppedPopulation {
+  FinalAngleColumns columns;
+  Population angles;
+};
+
 class StreamingStatistics {
 public:
   /// Statistics of no runs. @param pilot the campaign's first runs, which only decide where bins lie
@@ -78,6 +85,7 @@ public:
     long beyond_stowed = 0; ///< of an overtravel: values beyond most_overtravel
   };
   [[nodiscard]] const std::vector<Output>& outputs() const { return outputs_; }
+  [[nodiscard]] const std::vector<StoppedPopulation>& stopped() const { return stopped_; }
   [[nodiscard]] const std::vector<RequiredOutput>& required() const { return required_; }
   [[nodiscard]] const std::vector<RequiredPopulation>& required_values() const {
     return populations_;
@@ -105,6 +113,7 @@ private:
   std::array<long, 3> peaks_{};
   std::vector<Output> outputs_;
   std::vector<bool> is_overtravel_;
+  std::vector<StoppedPopulation> stopped_;
   std::vector<RequiredOutput> required_;
   std::vector<bool> is_peak_; ///< of each required output
   std::vector<RequiredPopulation> populations_;

@@ -44,6 +44,7 @@ void StreamingStatistics::write(StateWriter& to) const {
     output.sums.write(to);
     put_count(to, output.beyond_stowed);
   }
+  for (const StoppedPopulation& hinge : stopped_) hinge.angles.write(to);
   for (const auto& [values, worse] : populations_) {
     values.write(to);
     put_count(to, worse);
@@ -83,6 +84,10 @@ StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultN
     output.sums.read(from);
     get_count(from, output.beyond_stowed);
     outputs_.push_back(std::move(output));
+  }
+  for (const FinalAngleColumns& columns : final_angle_columns(names.outputs)) {
+    stopped_.push_back({columns, Population(Grid{})});
+    stopped_.back().angles.read(from);
   }
   for (std::size_t q = 0; q < required_.size(); ++q) {
     RequiredPopulation population{Population(Grid{})};

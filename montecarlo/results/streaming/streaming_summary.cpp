@@ -206,6 +206,19 @@ void add_correlations(const ResultNames& names, const StreamingStatistics& stati
                                       statistics.correlations()->of(i, j)});
 }
 
+/// As stopped_hinges (summary.cpp) does for rows.
+std::vector<StoppedHinge> stopped_hinges(const StreamingStatistics& statistics) {
+  std::vector<StoppedHinge> stopped;
+  for (const auto& [columns, angles] : statistics.stopped()) {
+    if (angles.count() == 0) continue;
+    const RankedPopulation ranked(angles);
+    stopped.push_back({columns.hinge, ranked.count(),
+                       ranked.at(quantile_rank(ranked.count(), 0.5)).value, ranked.min(),
+                       ranked.max()});
+  }
+  return stopped;
+}
+
 /// As overtravels (overtravel.hpp) does for rows.
 void add_overtravels(const Scene& scene, const ResultNames& names,
                      const StreamingStatistics& statistics, Summary& summary) {
@@ -247,6 +260,7 @@ Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistic
   }
   add_nominal(campaign, summary);
   add_overtravels(campaign.scene, names, statistics, summary);
+  summary.stalled_at = stopped_hinges(statistics);
   if (names.peaks_final) {
     const auto& peaks = statistics.peaks();
     const auto of = [&](PeaksFinal final) { return peaks[static_cast<std::size_t>(final)]; };

@@ -51,26 +51,22 @@ std::vector<ReasonCount> count_reasons(const Results& results) {
   return counts.sorted();
 }
 
-/// Of hinges with an output final_angle.
 std::vector<StoppedHinge> stopped_hinges(const Results& results) {
+  std::vector<std::string> names;
+  for (const Column& column : results.outputs) names.push_back(column.name);
   std::vector<StoppedHinge> stopped;
-  for (const Column& column : results.outputs) {
-    const OutputName name = parse_output_name(column.name);
-    if (name.quantity != "final_angle") continue;
-    const auto latched =
-        std::ranges::find(results.outputs, name.hinge + ".latch_time", &Column::name);
+  for (const FinalAngleColumns& columns : final_angle_columns(names)) {
     std::vector<double> angles;
     for (std::size_t row = 0; row < results.size(); ++row) {
-      const bool open = latched == results.outputs.end() || std::isnan(latched->values[row]);
-      if (results.status[row] == Status::stalled && open && !std::isnan(column.values[row]))
-        angles.push_back(column.values[row]);
+      const auto value = [&](std::size_t column) { return results.outputs[column].values[row]; };
+      if (columns.stopped(results.status[row], value)) angles.push_back(value(columns.angle));
     }
-    column.values.release();
-    if (latched != results.outputs.end()) latched->values.release();
+    results.outputs[columns.angle].values.release();
+    if (columns.latch_time) results.outputs[*columns.latch_time].values.release();
     if (angles.empty()) continue;
     std::ranges::sort(angles);
     stopped.push_back(
-        {name.hinge, std::ssize(angles), quantile(angles, 0.5), angles.front(), angles.back()});
+        {columns.hinge, std::ssize(angles), quantile(angles, 0.5), angles.front(), angles.back()});
   }
   results.status.release();
   return stopped;
@@ -189,6 +185,19 @@ std::vector<DrawCorrelation> correlate_draws(const Results& results, int threads
 }
 
 } // namespace
+
+std::vector<FinalAngleColumns> final_angle_columns(const std::vector<std::string>& outputs) {
+  std::vector<FinalAngleColumns> found;
+  for (std::size_t column = 0; column < outputs.size(); ++column) {
+    const OutputName name = parse_output_name(outputs[column]);
+    if (name.quantity != "final_angle") continue;
+    const auto latched = std::ranges::find(outputs, name.hinge + ".latch_time");
+    found.push_back({name.hinge, column, {}});
+    if (latched != outputs.end())
+      found.back().latch_time = static_cast<std::size_t>(latched - outputs.begin());
+  }
+  return found;
+}
 
 StatusShare status_share(Status status, long count, long runs, double confidence) {
   StatusShare share{status, count, static_cast<double>(count) / static_cast<double>(runs), {}};

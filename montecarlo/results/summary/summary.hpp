@@ -21,6 +21,8 @@
 #include "montecarlo/results/summary/stopping.hpp"
 #include "montecarlo/results/summary/verdict.hpp"
 
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -111,6 +113,22 @@ struct StoppedHinge {
   long runs = 0;
   double median = undefined, least = undefined, largest = undefined;
 };
+
+/// The columns that tell where a hinge stopped, by their places among the outputs.
+struct FinalAngleColumns {
+  std::string hinge;
+  std::size_t angle;
+  std::optional<std::size_t> latch_time; ///< nothing if not recorded: then the hinge counts as open
+
+  /// Whether a run has a value: it stalled, and the hinge had not latched. @param value of a column, by its place
+  template <class Value> [[nodiscard]] bool stopped(Status status, const Value& value) const {
+    return status == Status::stalled && !std::isnan(value(angle)) &&
+           !(latch_time && !std::isnan(value(*latch_time)));
+  }
+};
+/// Of each hinge with an output final_angle, in the order of the columns.
+[[nodiscard]] std::vector<FinalAngleColumns>
+final_angle_columns(const std::vector<std::string>& outputs);
 
 struct Summary {
   long runs = 0;

@@ -15,7 +15,7 @@ TEST_CASE("few samples resolve a smooth function, and give its largest magnitude
       const double first = f(0), last = f(1);
       samples = 0;
       CAPTURE(top, sign);
-      REQUIRE(p.resolve(f, first, last));
+      REQUIRE((p.begin(f, first, last), p.resolve(f)));
       CHECK(samples <= 15);
       CHECK(p(0.456) == Approx(f(0.456)).epsilon(1e-10));
       const Sampled<double> found = p.largest_magnitude();
@@ -29,7 +29,7 @@ TEST_CASE("a kink or a jump is not resolved by few samples") {
     const auto kink = [&](double s) { return std::abs(s - at); };
     const auto jump = [&](double s) { return s < at ? 1.0 : 1.3; };
     StepInterpolant<double> p;
-    CHECK_FALSE(p.resolve(kink, kink(0), kink(1)));
-    CHECK_FALSE(p.resolve(jump, jump(0), jump(1)));
+    CHECK_FALSE((p.begin(kink, kink(0), kink(1)), p.resolve(kink)));
+    CHECK_FALSE((p.begin(jump, jump(0), jump(1)), p.resolve(jump)));
   }
 }

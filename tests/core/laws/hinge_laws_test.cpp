@@ -100,6 +100,15 @@ TEST_CASE("every law's slopes over angles and rates hold its difference quotient
     ++judged[typeid(law).name()];
     MomentSlopes<double> slopes;
     law.add_slopes(slopes, angle, rate);
+    MomentSlopes<double> more{{-1, 2}, {-3, 4}}; // a law adds to those before it
+    law.add_slopes(more, angle, rate);
+    const auto added = [](double sum, double own, double before) {
+      REQUIRE(sum == Approx(own + before).epsilon(1e-12).margin(1e-12));
+    };
+    added(more.by_angle.low, slopes.by_angle.low, -1);
+    added(more.by_angle.high, slopes.by_angle.high, 2);
+    added(more.by_rate.low, slopes.by_rate.low, -3);
+    added(more.by_rate.high, slopes.by_rate.high, 4);
     const auto check = [](const ValueRange<double>& range, double quotient, double rounding) {
       const double close = 1e-9 * largest_magnitude_of(range) + rounding;
       REQUIRE(range.low - close <= quotient);
@@ -232,4 +241,20 @@ TEST_CASE("the tables of a hinge summed between knots give the sum of its laws, 
     }
   }
   CHECK(tables > 100);
+}
+
+TEST_CASE("a latch that dissipates exerts −k c |e| φ̇, e its deflection beyond the backlash") {
+  constexpr double k = 700, c = 0.4, latched = 0.3, backlash = 0.02;
+  Hinge hinge;
+  hinge.stowed = -1, hinge.latched = latched;
+  hinge.latch = Latch{.stiffness = k, .backlash = backlash, .dissipation = c};
+  const LatchDissipationTerms<double> terms = dissipation_terms<double>(hinge);
+  for (const double side : {-1.0, 0.0, 1.0})
+    for (const double depth : {0.0, 0.01, 0.05}) {
+      const double angle = latched + side * (backlash / 2 + depth);
+      const LatchDissipation<double> law{terms, side};
+      CAPTURE(side, depth);
+      CHECK(moment(law, angle, 0.7) ==
+            Approx(-k * c * std::abs(side) * depth * 0.7).epsilon(1e-12).margin(1e-12));
+    }
 }

@@ -19,6 +19,7 @@ constexpr long made_up = 40'000;
 
 Campaign required_campaign() {
   Json json = full_campaign(static_cast<int>(made_up));
+  json["outputs"].push_back("final_angle");
   json["requirements"] = parse_json(R"([
     { "output": "deployed", "probability": 0.9, "confidence": 0.9 },
     { "output": "root.peak_moment", "max": 3, "probability": 0.5, "confidence": 0.9 },
@@ -163,6 +164,26 @@ TEST_CASE("without rows: counts, moments and correlations are those of the rows"
     CHECK(found.correlations[i].value.count == full.correlations[i].value.count);
     CHECK(found.correlations[i].value.pearson ==
           Approx(full.correlations[i].value.pearson).margin(1e-12));
+  }
+}
+
+TEST_CASE("without rows: hinges stopped where the rows say") {
+  const Both& made = both();
+  const StatisticsSpec& spec = made.stored.campaign.statistics;
+  const std::vector<StoppedHinge> full = summarize(made.rows, spec).stalled_at,
+                                  found =
+                                      streaming_summary(made.stored, made.whole_statistics(), spec)
+                                          .stalled_at;
+  REQUIRE(full.size() == 3);
+  REQUIRE(found.size() == full.size());
+  for (std::size_t i = 0; i < full.size(); ++i) {
+    CHECK(full[i].runs > 50); // of 1,200 that stalled, a tenth without a latch time
+    CHECK(full[i].least < full[i].median);
+    CHECK(found[i].hinge == full[i].hinge);
+    CHECK(found[i].runs == full[i].runs);
+    CHECK(found[i].median == full[i].median);
+    CHECK(found[i].least == full[i].least);
+    CHECK(found[i].largest == full[i].largest);
   }
 }
 
