@@ -168,11 +168,11 @@ TEST_CASE("clock and sensor offsets, an unknown noise and parameters of one test
   CHECK(result.channels[0].rms * 180 / M_PI == Approx(0.3).epsilon(0.25)); // 81 numbers: 4 sd
 }
 
-TEST_CASE("a trace of another hinge or sense is told first") {
+TEST_CASE("a trace of another motion is told first") {
   const Folder folder;
   std::string wrong = "t,th\n";
   for (int k = 0; k <= 80; ++k)
-    wrong += std::to_string(0.02 * k) + "," + csv_cell(-panel_angle(0.02 * k, 1, 1)) + "\n";
+    wrong += std::to_string(0.02 * k) + "," + csv_cell(std::sin(0.18 * k)) + "\n";
   folder.write("t1.csv", wrong);
   const Campaign campaign = campaign_of(panel_campaign());
   Json tests = parse_json(one_way);
