@@ -192,10 +192,10 @@ private:
       std::ranges::sort(sorted);
       const double tail = (1 - options_.confidence) / 2;
       const auto place = static_cast<Eigen::Index>(k);
-      result_.parameters.push_back({parameter.name, std::string(parameter.unit), prior.mean,
-                                    prior.standard_deviation, mode[k], after.mean, after.std,
-                                    quantile(sorted, tail), quantile(sorted, 1 - tail),
-                                    std::sqrt(covariance(place, place))});
+      result_.parameters.push_back(
+          {parameter.name, std::string(parameter.unit), prior.mean, prior.standard_deviation,
+           mode[k], after.mean, after.std, quantile(sorted, tail), quantile(sorted, 1 - tail),
+           std::sqrt(covariance(place, place)), std::abs(modes_.front().at[place])});
     }
     const auto common = static_cast<Eigen::Index>(space_.common());
     result_.u_covariance = covariance.topLeftCorner(common, common);

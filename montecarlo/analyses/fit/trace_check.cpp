@@ -155,9 +155,12 @@ void refuse_foreign_trace(const FitTest& test, const std::vector<std::size_t>& f
                           std::span<const TraceColumn> columns) {
   if (test.times.size() < least_compared || !(test.times.back() > 0)) return;
   const Comparison comparison(test, fitted);
-  for (std::size_t c = 0; c < test.columns.size(); ++c)
-    if (const auto other = comparison.explain(c))
-      refuse(columns[c + 1], columns[0], test.columns[c].name, *other, comparison.name_of(*other));
+  for (std::size_t c = 0; c < test.columns.size(); ++c) {
+    const auto other = comparison.explain(c);
+    if (!other) continue;
+    refuse(columns[c + 1], columns[0], test.columns[c].name, *other, comparison.name_of(*other));
+    if (other->time_factor != 1 || other->time_shift != 0) return; // the same for all columns
+  }
 }
 
 } // namespace wingspread

@@ -9,7 +9,7 @@ using namespace wingspread::oracle;
 
 namespace {
 
-/// The bits of all samples of each run, by the scene's index.
+/// The bits of all samples of each run, by the scene's index; then those of its outcome.
 using Samples = std::map<long, std::string>;
 
 void add_bits(std::string& all, const Sample& sample) {
@@ -27,10 +27,12 @@ void add_bits(std::string& all, const Sample& sample) {
 
 Samples alone(const std::vector<Scene>& scenes, const Integration& how, const Goal& goal) {
   Samples samples;
-  for (std::size_t k = 0; k < scenes.size(); ++k)
-    (void)Deployment().run(scenes[k], how, goal, [&](const Sample& sample) {
-      add_bits(samples[static_cast<long>(k)], sample);
-    });
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    std::string& all = samples[static_cast<long>(k)];
+    const Outcome outcome = Deployment().run(scenes[k], how, goal,
+                                             [&](const Sample& sample) { add_bits(all, sample); });
+    all += bits_of(outcome);
+  }
   return samples;
 }
 
@@ -42,7 +44,6 @@ void require_equal_samples(const std::vector<Scene>& scenes, const Integration& 
   for (const InstructionSet set : instruction_sets()) {
     CAPTURE(to_string(set));
     Samples found;
-    std::map<long, std::string> outcomes;
     long next = 0;
     const auto next_scene = [&](Scene& scene) -> std::optional<long> {
       if (next == std::ssize(scenes)) return std::nullopt;
@@ -52,10 +53,9 @@ void require_equal_samples(const std::vector<Scene>& scenes, const Integration& 
     DeploymentPack(set, how, goal)
         .run(
             scenes.front(), next_scene,
-            [&](long name, Outcome&& outcome) { outcomes[name] = bits_of(outcome); },
+            [&](long name, Outcome&& outcome) { found[name] += bits_of(outcome); },
             [&](long name, const Sample& sample) { add_bits(found[name], sample); });
     REQUIRE((found == expected));
-    REQUIRE((outcomes == in_lanes(set, scenes, how, goal))); // watching changes nothing
   }
 }
 
