@@ -35,15 +35,18 @@ def prior(law, points):
     return stats.lognorm.pdf(points, law["sigma_log"], scale=numpy.exp(law["mu_log"]))
 
 
-def draw(axes, before, after, truth):
-    """Densities over their own largest values: they differ a hundredfold. @param before points and density"""
+def draw(axes, before, spread, after, truth):
+    """Densities over their own largest values: they differ a hundredfold. @param before points and density. @param spread values before"""
     axes.fill_between(before[0], before[1] / before[1].max(), color="0.85", label="before the tests")
     for name, values in after.items():
         points = numpy.linspace(values.min(), values.max(), 300)
         height = density(values, points)
         axes.plot(points, height / height.max(), color=FITS[name], linewidth=1.4, label=name)
     axes.axvline(truth, color="black", linewidth=1, linestyle="--", label="truth")
-    axes.set(yticks=[], ylim=(0, 1.08))
+    all_values = numpy.concatenate([spread, *after.values(), [truth]])
+    low, high = numpy.quantile(all_values, [0.001, 0.999])  # a run that nearly stalls would take the whole width
+    margin = 0.05 * (high - low)
+    axes.set(yticks=[], ylim=(0, 1.08), xlim=(low - margin, high + margin))
     axes.tick_params(labelsize=8)
 
 
@@ -56,12 +59,14 @@ def main(folder):
         for axes, (name, truth) in zip(grid[0], TRUTH.items()):
             width = {"spring": 0.1}.get(name, 0.9)
             points = numpy.linspace(max(0.2, 1 - width), 1 + (width if name == "spring" else 1.3), 400)
-            draw(axes, (points, prior(laws[name], points)), {fit: column(path / "posterior.csv", name) for fit, path in fits.items()}, truth)
+            height = prior(laws[name], points)
+            spread = numpy.repeat(points, numpy.rint(100 * height / height.max()).astype(int))
+            draw(axes, (points, height), spread, {fit: column(path / "posterior.csv", name) for fit, path in fits.items()}, truth)
             axes.set_xlabel(f"{name}, times its nominal value", fontsize=9)
         for axes, (name, label) in zip(grid[1], OUTPUTS.items()):
             earlier = column(folder / "before", name)
             points = numpy.linspace(earlier.min(), earlier.max(), 400)
-            draw(axes, (points, density(earlier, points)), {fit: column(path / "flight", name) for fit, path in fits.items()},
+            draw(axes, (points, density(earlier, points)), earlier, {fit: column(path / "flight", name) for fit, path in fits.items()},
                  column(folder / "truth_flight", name)[0])
             axes.set_xlabel(label, fontsize=9)
         grid[0][0].set_ylabel("parameters", fontsize=9)
