@@ -1,7 +1,7 @@
 /// The fit of a campaign's parameters to tests: modes, samples of the posterior, and their statistics.
 #pragma once
 
-#include "montecarlo/analyses/fit/batch_log.hpp"
+#include "montecarlo/results/checkpoint/batch_log.hpp"
 #include "montecarlo/analyses/fit/identifiability.hpp"
 #include "montecarlo/analyses/sampler/ensemble_sampler.hpp"
 

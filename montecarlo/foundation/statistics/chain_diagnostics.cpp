@@ -25,8 +25,8 @@ double autocovariance(std::span<const std::span<const double>> chains,
 }
 
 /// (2). @param halves of chain after chain, first and second
-double nested_r_hat(std::span<const std::span<const double>> halves,
-                    std::span<const double> means, std::size_t groups) {
+double nested_r_hat(std::span<const std::span<const double>> halves, std::span<const double> means,
+                    std::size_t groups) {
   std::vector<double> centers, variances; // of superchains
   for (std::size_t first = 0; first < 2 * groups; ++first) {
     std::vector<double> own;
@@ -40,41 +40,33 @@ double nested_r_hat(std::span<const std::span<const double>> halves,
     variances.push_back(within.value() / static_cast<double>(own.size()) +
                         (own.size() > 1 ? between.std * between.std : 0));
   }
-  return std::sqrt(1 +
-                   std::pow(moments(centers).std, 2) / moments(variances).mean);
+  return std::sqrt(1 + std::pow(moments(centers).std, 2) / moments(variances).mean);
 }
 
 } // namespace
 
-ChainDiagnostics diagnose(std::span<const std::vector<double>> chains,
-                          std::size_t groups) {
+ChainDiagnostics diagnose(std::span<const std::vector<double>> chains, std::size_t groups) {
   std::vector<std::span<const double>> halves;
   const std::size_t n = chains.front().size() / 2;
   assert(n >= 2);
-  for (const std::vector<double> &chain : chains) {
+  for (const std::vector<double>& chain : chains) {
     halves.emplace_back(chain.data(), n);
     halves.emplace_back(chain.data() + chain.size() - n, n);
   }
   std::vector<double> means;
-  for (const auto &half : halves)
-    means.push_back(moments(half).mean);
-  const auto length = static_cast<double>(n),
-             count = static_cast<double>(halves.size());
-  const double within =
-      autocovariance(halves, means, 0) * length / (length - 1);
+  for (const auto& half : halves) means.push_back(moments(half).mean);
+  const auto length = static_cast<double>(n), count = static_cast<double>(halves.size());
+  const double within = autocovariance(halves, means, 0) * length / (length - 1);
   const double between = std::pow(moments(means).std, 2); // B/N
   const double total = within * (length - 1) / length + between;
-  if (!(within > 0))
-    return {std::numeric_limits<double>::infinity(), 1};
+  if (!(within > 0)) return {std::numeric_limits<double>::infinity(), 1};
   double pairs = 0, last = std::numeric_limits<double>::infinity();
   const auto rho = [&](std::size_t lag) {
-    return lag == 0 ? 1
-                    : 1 - (within - autocovariance(halves, means, lag)) / total;
+    return lag == 0 ? 1 : 1 - (within - autocovariance(halves, means, lag)) / total;
   };
   for (std::size_t lag = 0; lag + 1 < n; lag += 2) {
     const double pair = rho(lag) + rho(lag + 1);
-    if (!(pair > 0))
-      break;
+    if (!(pair > 0)) break;
     pairs += last = std::min(last, pair);
   }
   const double time = std::max(1.0, 2 * pairs - 1);
