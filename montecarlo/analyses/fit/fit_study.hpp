@@ -1,9 +1,9 @@
 /// The fit of a campaign's parameters to tests: modes, samples of the posterior, and their statistics.
 #pragma once
 
-#include "montecarlo/results/checkpoint/batch_log.hpp"
 #include "montecarlo/analyses/fit/identifiability.hpp"
 #include "montecarlo/analyses/sampler/ensemble_sampler.hpp"
+#include "montecarlo/results/checkpoint/batch_log.hpp"
 
 #include <atomic>
 #include <functional>

@@ -36,7 +36,7 @@ struct ChainDiagnostics {
 
 /// @param chains of equal length, at least 4
 /// @param groups K, at most as many as chains; chain c is in group c mod K
-[[nodiscard]] ChainDiagnostics
-diagnose(std::span<const std::vector<double>> chains, std::size_t groups);
+[[nodiscard]] ChainDiagnostics diagnose(std::span<const std::vector<double>> chains,
+                                        std::size_t groups);
 
 } // namespace wingspread
