@@ -183,14 +183,22 @@ DeploymentPack::DeploymentPack(InstructionSet set, const Integration& integratio
 
 namespace {
 
+/// The observer of one run. @pre the watch outlives it
+[[nodiscard]] Observer observer_of(long name, const DeploymentPack::Watch& watch) {
+  if (!watch) return {};
+  return [name, &watch](const Sample& sample) { watch(name, sample); };
+}
+
 /// Sorts runs by the method with which they begin: draws may give some wings friction, which excludes power series. An
 /// engine has one method, so runs that need another are queued until the engine has made the rest, or the queue is full.
 class RunSorter {
 public:
   RunSorter(const Integration& how, const Goal& goal, InstructionSet set, Scene& scene,
-            const DeploymentPack::Next& next, const DeploymentPack::Done& done)
+            const DeploymentPack::Next& next, const DeploymentPack::Done& done,
+            const DeploymentPack::Watch& watch)
       : choices_(first_choices(how)), how_(how), goal_(goal), set_(set), scene_(scene),
-        structure_(make_wing<double>(scene, outward_order(scene))), next_(next), done_(done) {}
+        structure_(make_wing<double>(scene, outward_order(scene))), next_(next), done_(done),
+        watch_(watch) {}
 
   [[nodiscard]] Occupancy run() {
     Occupancy all{};
@@ -238,11 +246,11 @@ private:
       }
       return std::nullopt;
     };
-    return runs().in_lanes(structure_, *engine, method, how_, goal_, next_wing,
-                           [this](long name, Outcome&& outcome) {
-                             name_held_hinges(scene_, outcome);
-                             done_(name, std::move(outcome));
-                           });
+    const auto done = [this](long name, Outcome&& outcome) {
+      name_held_hinges(scene_, outcome);
+      done_(name, std::move(outcome));
+    };
+    return runs().in_lanes(structure_, *engine, method, how_, goal_, next_wing, done, watch_);
   }
 
   /// Sets the wing's numbers to those of the next run and returns the run's name; nothing when there are no more. Runs
@@ -257,7 +265,8 @@ private:
         runs().set_parameters(wing, scene_);
         return name;
       }
-      done_(*name, faults.empty() ? alone_.run(scene_, how_, goal_) : invalid(faults));
+      done_(*name, faults.empty() ? alone_.run(scene_, how_, goal_, observer_of(*name, watch_))
+                                  : invalid(faults));
     }
     return std::nullopt;
   }
@@ -270,6 +279,7 @@ private:
   const Wing<double> structure_;
   const DeploymentPack::Next& next_;
   const DeploymentPack::Done& done_;
+  const DeploymentPack::Watch& watch_;
   Deployment alone_;
   std::vector<std::pair<long, Wing<double>>> waiting_; ///< the queue, all of one method
   bool exhausted_ = false;
@@ -277,18 +287,20 @@ private:
 
 } // namespace
 
-Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
-  if (goal_.mode_frequencies) return run_with_modes(scene, next, done);
-  if (has_flexible_bodies(scene)) return run_segmented(scene, next, done);
+Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done, const Watch& watch) {
+  if (goal_.mode_frequencies) return run_with_modes(scene, next, done, watch);
+  if (has_flexible_bodies(scene)) return run_segmented(scene, next, done, watch);
   const bool in_packs = set_ != InstructionSet::scalar && !how_.smoothing && !goal_.audit &&
                         has_lanes(MethodChoice(how_, false).active());
-  if (in_packs) return RunSorter(how_, goal_, set_, scene, next, done).run();
+  if (in_packs) return RunSorter(how_, goal_, set_, scene, next, done, watch).run();
   Deployment alone;
-  while (const std::optional<long> name = next(scene)) done(*name, alone.run(scene, how_, goal_));
+  while (const std::optional<long> name = next(scene))
+    done(*name, alone.run(scene, how_, goal_, observer_of(*name, watch)));
   return {};
 }
 
-Occupancy DeploymentPack::run_with_modes(const Scene& scene, const Next& next, const Done& done) {
+Occupancy DeploymentPack::run_with_modes(const Scene& scene, const Next& next, const Done& done,
+                                         const Watch& watch) {
   Goal others = goal_;
   others.mode_frequencies = false;
   std::map<long, std::vector<double>> frequencies; // of the runs in the lanes
@@ -298,13 +310,17 @@ Occupancy DeploymentPack::run_with_modes(const Scene& scene, const Next& next, c
     return name;
   };
   return DeploymentPack(set_, how_, others)
-      .run(scene, next_with_modes, [&](long name, Outcome&& outcome) {
-        outcome.mode_frequencies = std::move(frequencies.extract(name).mapped());
-        done(name, std::move(outcome));
-      });
+      .run(
+          scene, next_with_modes,
+          [&](long name, Outcome&& outcome) {
+            outcome.mode_frequencies = std::move(frequencies.extract(name).mapped());
+            done(name, std::move(outcome));
+          },
+          watch);
 }
 
-Occupancy DeploymentPack::run_segmented(Scene scene, const Next& next, const Done& done) {
+Occupancy DeploymentPack::run_segmented(Scene scene, const Next& next, const Done& done,
+                                        const Watch& watch) {
   const SegmentedScene first = with_segments(scene);
   Deployment alone;
   const Next next_segmented = [&](Scene& segmented) -> std::optional<long> {
@@ -317,13 +333,20 @@ Occupancy DeploymentPack::run_segmented(Scene scene, const Next& next, const Don
         }
       }
       // unphysical, or a draw has moved a hinge to another segment
-      done(*name, alone.run(scene, how_, goal_));
+      done(*name, alone.run(scene, how_, goal_, observer_of(*name, watch)));
     }
     return std::nullopt;
   };
-  return run(first.scene, next_segmented, [&](long name, Outcome&& outcome) {
+  const Done done_segmented = [&](long name, Outcome&& outcome) {
     done(name, without_joints(first, std::move(outcome)));
-  });
+  };
+  const std::size_t hinges = scene.hinges.size();
+  Watch watch_segmented;
+  if (watch)
+    watch_segmented = [&watch, hinges](long name, const Sample& sample) {
+      without_joints(hinges, observer_of(name, watch))(sample);
+    };
+  return run(first.scene, next_segmented, done_segmented, watch_segmented);
 }
 
 } // namespace wingspread

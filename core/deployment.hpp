@@ -59,6 +59,9 @@ public:
   using Next = std::function<std::optional<long>(Scene&)>;
   /// done(name, outcome) is called once for each run, in the order in which the runs end.
   using Done = std::function<void(long, Outcome&&)>;
+  /// watch(name, sample) is called with the samples of each run in order, those of different runs in turn. The samples
+  /// are those that an observer of Deployment::run gets.
+  using Watch = std::function<void(long, const Sample&)>;
 
   /// @param set one of instruction_sets(); scalar: one run after another
   DeploymentPack(InstructionSet set, const Integration& integration, const Goal& goal);
@@ -66,13 +69,14 @@ public:
   /// Makes all runs that `next` gives. @return how well the lanes were used
   /// @param scene any scene of this structure; `next` changes a copy
   /// @pre for every scene the preconditions of Deployment::run
-  Occupancy run(Scene scene, const Next& next, const Done& done);
+  Occupancy run(Scene scene, const Next& next, const Done& done, const Watch& watch = {});
 
 private:
   /// The same, with the frequencies of each scene's modes.
-  Occupancy run_with_modes(const Scene& scene, const Next& next, const Done& done);
+  Occupancy run_with_modes(const Scene& scene, const Next& next, const Done& done,
+                           const Watch& watch);
   /// The same, of a scene with flexible bodies.
-  Occupancy run_segmented(Scene scene, const Next& next, const Done& done);
+  Occupancy run_segmented(Scene scene, const Next& next, const Done& done, const Watch& watch);
 
   InstructionSet set_;
   Integration how_;

@@ -38,6 +38,7 @@ struct Goal {
   bool mode_frequencies = false; ///< fill Outcome::mode_frequencies
   /// The observer is called at multiples of this time, by dense output, s; 0: after every step.
   double sample_interval = 0;
+  bool sample_motion_only = false; ///< samples without moments and energies
 };
 
 /// `deployed`: every latch is engaged at the end. `stalled`: at least one is not, and it is proven that none will engage
@@ -159,9 +160,9 @@ struct Sample {
   double t = 0;
   std::vector<double> angles;          ///< relative, Scene order, rad
   std::vector<double> rates;           ///< rad/s
-  std::vector<double> moments;         ///< N·m
-  double kinetic = 0;                  ///< J
-  double potential = 0;                ///< J
+  std::vector<double> moments;         ///< N·m; zeros with Goal::sample_motion_only
+  double kinetic = 0;                  ///< J; the same
+  double potential = 0;                ///< J; the same
   Eigen::Vector2d base_position{0, 0}; ///< of a free base, m
   double base_angle = 0;               ///< rad
   double base_rate = 0;                ///< rad/s

@@ -108,7 +108,7 @@ public:
     peaks_.unload(lane, result, moved);
     holds_.unload(lane, result, M == BaseMotion::free, moved);
     result.evaluations = (result.trial_steps + 1) * Formula::evaluations + peaks_.evaluations(lane);
-    result.has_no_event = asks_after_.back().bits[lane] == 0;
+    result.has_no_event = asks_after_[3].bits[lane] == 0;
     result.peaks_searched = result.moments_may_rise && accepted_.bits[lane] != 0;
     if (result.peaks_searched) peaks_.unload_search(lane, result);
     if constexpr (M == BaseMotion::free) {
@@ -124,8 +124,8 @@ public:
   [[nodiscard]] Cause cause(int lane) const override {
     int tests = 0; // that did not make the lane ask
     for (const Mask& asks : asks_after_) tests += asks.bits[lane] == 0 ? 1 : 0;
-    if (tests == static_cast<int>(asks_after_.size()))
-      return peaks_.asks_for_moment(lane) ? Cause::moment : Cause::force;
+    if (tests == static_cast<int>(asks_after_.size())) return Cause::limit;
+    if (tests == 4) return peaks_.asks_for_moment(lane) ? Cause::moment : Cause::force;
     return static_cast<Cause>(static_cast<int>(Cause::limit) + tests);
   }
 
@@ -201,8 +201,7 @@ private:
     const Mask near_limit = !(next > P(1e-9) * now) || !(next < P(0.999999) * (t_end_ - now));
     const Mask may_leave = history_.held_back.may_leave(step_.h, P(history_.steps + P(1.0)));
     const Mask accepted_enough = history_.steps >= last_step_;
-    Mask asks =
-        busy && (tried_enough || near_limit || (accepted && (accepted_enough || may_leave)));
+    Mask asks = busy && (tried_enough || near_limit || (accepted && may_leave));
     asks_after_[0] = asks;
     asks = asks || (accepted && events_.lie_inside(system_, step_));
     if (!wing_.motors.empty()) asks = asks || (accepted && motors_may_pass_limit());
@@ -219,7 +218,9 @@ private:
     peaks_.keep_forces_at_end(system_);
     asks = asks || (accepted && may_turn_or_end_at_event());
     asks_after_[3] = asks;
-    return asks || peaks_.search_step(system_, step_, accepted, asks, holds_.before());
+    asks = asks || peaks_.search_step(system_, step_, accepted, asks, holds_.before());
+    asks_after_[4] = asks;
+    return asks || (accepted && accepted_enough);
   }
 
   /// Moves the accepted ones of these lanes to the step's end, and plans the next trial step of all.
@@ -309,8 +310,8 @@ private:
   LaneEvents<W> events_;
   LaneHolds<W> holds_;
   Mask accepted_{}; ///< lanes whose last trial step is accepted
-  std::array<Mask, 4>
-      asks_after_{}; ///< lanes that ask, after the tests of limits, events, releases and turns
+  /// Lanes that ask, after the tests of limits, events, releases, turns and peaks.
+  std::array<Mask, 5> asks_after_{};
   std::vector<Lever<double>> levers_of_wing_; ///< scratch
   LanePeaks<P, AnySystem> peaks_;
   FreeBases<W> free_; ///< used if M is free

@@ -4,6 +4,7 @@
 
 #include "core/packs/instruction_set.hpp"
 #include "core/packs/pack_engine.hpp"
+#include "core/packs/runs.hpp"
 #include "core/run/integrator.hpp"
 
 #include <array>
@@ -18,10 +19,16 @@ template <class Topology, BaseMotion M> class PackedRuns {
   using AnySystem = System<double, Topology, M>;
 
   struct Lane {
-    Lane(const Wing<double>& structure, const Integration& how, const Goal& goal)
-        : wing(structure), system(wing, how.smoothing, work), run(system, how, goal, nobody) {}
+    Lane(const Wing<double>& structure, const Integration& how, const Goal& goal,
+         const Runs::Watch& watch)
+        : wing(structure), system(wing, how.smoothing, work), run(system, how, goal, observer) {
+      if (watch) observer = [this, &watch](const Sample& sample) { watch(name, sample); };
+    }
+    Lane(const Lane&) = delete; // the observer refers to it
+    Lane& operator=(const Lane&) = delete;
+    ~Lane() = default;
 
-    Observer nobody;
+    Observer observer;
     Wing<double> wing;
     Workspace<double> work;
     AnySystem system;
@@ -33,11 +40,12 @@ template <class Topology, BaseMotion M> class PackedRuns {
 
 public:
   /// @param method of the engine
+  /// @param watch sees the samples of all runs, if given; outlives this object
   PackedRuns(const Wing<double>& structure, PackEngine& engine, Method method,
-             const Integration& how, const Goal& goal)
+             const Integration& how, const Goal& goal, const Runs::Watch& watch)
       : engine_(engine), method_(method) {
     for (int l = 0; l < engine.width(); ++l)
-      lanes_[l] = std::make_unique<Lane>(structure, how, goal);
+      lanes_[l] = std::make_unique<Lane>(structure, how, goal, watch);
   }
 
   /// Makes all runs.

@@ -18,6 +18,8 @@ struct Runs {
   using NextWing = std::function<std::optional<long>(Wing<double>&)>;
   /// done(name, outcome), called in the order in which the runs end.
   using Done = std::function<void(long, Outcome&&)>;
+  /// watch(name, sample), called with each run's samples in order, those of different runs in turn.
+  using Watch = std::function<void(long, const Sample&)>;
 
   void (*set_parameters)(Wing<double>& wing, const Scene& scene);
   /// Integrates one run.
@@ -26,7 +28,7 @@ struct Runs {
   /// Integrates many runs in the lanes of an engine (packed_runs.hpp). @param method of the engine
   Occupancy (*in_lanes)(const Wing<double>& structure, PackEngine& engine, Method method,
                         const Integration& how, const Goal& goal, const NextWing& next,
-                        const Done& done);
+                        const Done& done, const Watch& watch);
 };
 
 /// Compiled for the build's own instruction set.

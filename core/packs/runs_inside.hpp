@@ -28,9 +28,9 @@ inline Outcome run_alone(const Wing<double>& wing, Workspace<double>& scratch,
 
 inline Occupancy run_in_lanes(const Wing<double>& structure, PackEngine& engine, Method method,
                               const Integration& how, const Goal& goal, const Runs::NextWing& next,
-                              const Runs::Done& done) {
+                              const Runs::Done& done, const Runs::Watch& watch) {
   return with_structure(structure, [&]<class Topology, BaseMotion M>(Structure<Topology, M>) {
-    return PackedRuns<Topology, M>(structure, engine, method, how, goal).run(next, done);
+    return PackedRuns<Topology, M>(structure, engine, method, how, goal, watch).run(next, done);
   });
 }
 

@@ -53,8 +53,7 @@ public:
   /// Shows the observer the run's present state; with a sample interval, only at the start.
   void notify() {
     if (!observer_ || (on_grid() && samples_ > 0)) return;
-    observer_(sample_at(run_.system, run_.step.x, run_.step.t));
-    ++samples_;
+    show(run_.step.x, run_.step.t);
   }
 
   /// Shows the observer the samples inside a step just accepted, by dense output.
@@ -66,12 +65,11 @@ public:
     constexpr double rounding = 1 + 1e-14; // a multiple of the interval may be the end of the run
     for (double t = time_of_sample(); t <= end * rounding; t = time_of_sample()) {
       const T s = smaller(T(1), T((T(t) - step.t) / step.h));
-      if (run_.system.work().stuck > 0)
+      if (run_.system.work().stuck > 0 && !run_.goal.sample_motion_only)
         run_.evaluate_at(s); // moments on stuck hinges follow from accelerations
       else if (!(s < T(1) && by_method(s)))
         step.interpolate(run_.at, s, run_.x);
-      observer_(sample_at(run_.system, run_.x, T(t)));
-      ++samples_;
+      show(run_.x, T(t));
     }
   }
 
@@ -117,6 +115,12 @@ public:
   void blame(std::vector<int> held) { outcome_.never_released = std::move(held); }
 
 private:
+  void show(const State<T>& x, const T& t) {
+    fill_sample(sample_, run_.system, x, t, run_.goal.sample_motion_only);
+    observer_(sample_);
+    ++samples_;
+  }
+
   /// Reuses the storage of the last outcome unless a caller has moved it out.
   template <class Items> static void keep_storage(Items& last, Items& next) {
     if (next.capacity() == 0) next = std::move(last);
@@ -142,6 +146,7 @@ private:
   std::vector<LatchEvent> latches_;
   std::vector<HingeEvent> missed_, let_go_, releases_;
   std::vector<Phase> phases_;
+  Sample sample_;                                 ///< the last one shown
   long samples_ = 0;                              ///< shown to the observer
   double initial_energy_ = 0, largest_drift_ = 0; ///< J
 };

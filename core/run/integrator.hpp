@@ -97,7 +97,9 @@ public:
             .base = peaks_.base(),
             .t_end = static_cast<double>(stepping_.end_of_stretch()),
             .most_trial_steps = asks_for_plain_step() ? stepping_.tries_left() : 0,
-            .most_steps = std::min(stepping_.steps_to_radius(), ending_.steps_to_attempt()),
+            .most_steps = diary_.is_watched() // it takes samples inside every step
+                              ? 0
+                              : std::min(stepping_.steps_to_radius(), ending_.steps_to_attempt()),
             .evaluations = run_.system.work().evaluations,
             .history = stepping_.history()};
   }

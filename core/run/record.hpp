@@ -23,27 +23,29 @@ template <class T, class Topology, BaseMotion M>
   return static_cast<double>(T(kinetic_energy(system, x, t) + potential_energy(system, x, t)));
 }
 
-/// A sample of the trajectory. @pre the last evaluation was at (x, t), if any hinge sticks
+/// Fills a sample of the trajectory, whose storage is used again.
+/// @param motion_only Goal::sample_motion_only
+/// @pre unless motion_only, the last evaluation was at (x, t), if any hinge sticks
 template <class T, class Topology, BaseMotion M>
-[[nodiscard]] Sample sample_at(System<T, Topology, M>& system, const State<T>& x, const T& t) {
+void fill_sample(Sample& sample, System<T, Topology, M>& system, const State<T>& x, const T& t,
+                 bool motion_only) {
   const Layout& at = system.layout();
-  Sample sample;
   sample.t = static_cast<double>(t);
-  system.place_all(x, t);
+  if (!motion_only || M != BaseMotion::fixed) system.place_all(x, t);
   sample.angles.resize(at.bodies), sample.rates.resize(at.bodies), sample.moments.resize(at.bodies);
   for (int i = 1; i <= at.bodies; ++i) {
     const int hinge = system.wing().hinge_of[i];
     sample.angles[hinge] = static_cast<double>(x[at.angle(i)]);
     sample.rates[hinge] = static_cast<double>(x[at.rate(i)]);
-    sample.moments[hinge] = static_cast<double>(system.moment(x, i));
+    if (!motion_only) sample.moments[hinge] = static_cast<double>(system.moment(x, i));
   }
   sample.base_angle = static_cast<double>(system.work().frames[0].angle);
   sample.base_rate = static_cast<double>(system.work().frames[0].rate);
   if constexpr (M == BaseMotion::free)
     sample.base_position = {static_cast<double>(x[0]), static_cast<double>(x[1])};
+  if (motion_only) return;
   sample.kinetic = static_cast<double>(kinetic_energy(system, x, t));
   sample.potential = static_cast<double>(potential_energy(system, x, t));
-  return sample;
 }
 
 template <class T, class Topology, BaseMotion M>

@@ -1,6 +1,6 @@
 """Simulation-based calibration of `wingspread fit`: are its posteriors right over data sets drawn from the priors?
 
-    /usr/bin/python3 studies/drivers/fit_calibration.py                     # both cases, 300 sets each; half an hour of one core
+    /usr/bin/python3 studies/drivers/fit_calibration.py                     # both cases, 300 sets each; 25 minutes of one core
     /usr/bin/python3 studies/drivers/fit_calibration.py --case seed --sets 40
     /usr/bin/python3 studies/drivers/fit_calibration.py --quick             # two sets of each case
 

@@ -1,6 +1,6 @@
 """From two ground tests to the flight: what `wingspread fit` makes of tests whose truth is known.
 
-    /usr/bin/python3 studies/drivers/fit_ground_tests.py       # results/fit_ground_tests; two minutes of one core
+    /usr/bin/python3 studies/drivers/fit_ground_tests.py       # results/fit_ground_tests; a minute of one core
     /usr/bin/python3 studies/drivers/fit_ground_tests.py --quick
 
 The seed wing with plates, so that air slows it. Its true springs are weaker, its friction and harness larger than thought. Two deployments on

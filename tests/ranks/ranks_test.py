@@ -119,6 +119,27 @@ class Ranks(unittest.TestCase):
     def test_sensitivity(self):
         self.same("sensitivity", campaign(1), "--samples", 64, ranks=(2, 3))
 
+    def test_fit(self):
+        times = [0.02 * k for k in range(120)]
+        of = campaign(50)
+        alone = self.folder / "truth.csv"
+        code, _, error = self.run_program(0, "simulate", self.write(SCENE), "--t-end", times[-1], "--dt", 0.02, "--out", alone)
+        self.assertEqual(code, 0, error)
+        columns = {"root.angle": {"column": "root.angle", "std": 0.005}, "tip.rate": {"column": "tip.rate", "std": 0.02}}
+        trace = {"file": alone.name, "time": "t", "columns": columns}
+        values = [{"output": "root.latch_time", "value": 7, "std": 0.5}]
+        file, tests = self.write(of), self.folder / "tests.json"
+        tests.write_text(json.dumps({"tests": [{"name": "ground", "trace": trace}, {"name": "timer", "values": values}],
+                                     "fit": {"parameters": ["root_spring", "mass.*"], "samples": 200, "starts": 2}}), encoding="utf-8")
+        expected = None
+        for ranks in (0, 1, 2, 3):
+            out = self.folder / f"fit_{ranks}"
+            code, _, error = self.run_program(ranks, "fit", file, tests, "--out", out)
+            self.assertEqual(code, 0, error)
+            expected = expected or contents(out)
+            self.assertEqual(contents(out), expected, f"{ranks} ranks")
+        self.assertIn("posterior.csv", expected)
+
     def test_bad_input_is_told_once(self):
         file = self.write(campaign(10) | {"outputs": ["latch_tim"]})
         code, _, expected = self.run_program(0, "run", file, "--out", self.folder / "out")

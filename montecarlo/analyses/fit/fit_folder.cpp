@@ -1,6 +1,7 @@
 #include "montecarlo/analyses/fit/fit_folder.hpp"
 
 #include "montecarlo/analyses/fit/fit_campaign.hpp"
+#include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
@@ -38,7 +39,7 @@ std::vector<std::vector<double>> sorted_outputs(const Campaign& campaign, Thread
       for (std::size_t i = 0; i < outputs.size(); ++i)
         if (std::isfinite(row.outputs[i])) outputs[i].push_back(row.outputs[i]);
   };
-  if (ThreadEvaluator(pool, stop).make(plan, {0, predicted_runs}, {keep}) < predicted_runs)
+  if (evaluator_of(pool, stop)->make(plan, {0, predicted_runs}, {keep}) < predicted_runs)
     throw Stopped{};
   for (std::vector<double>& output : outputs) std::ranges::sort(output);
   return outputs;

@@ -1,6 +1,6 @@
 #include "montecarlo/analyses/fit/fit_spec.hpp"
 
-#include "montecarlo/analyses/fit/trace_file.hpp"
+#include "montecarlo/analyses/fit/trace_check.hpp"
 #include "montecarlo/engine/runs/trajectory_columns.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
@@ -236,6 +236,7 @@ private:
     test.times = std::move(columns[0].values);
     for (std::size_t i = 0; i < test.columns.size(); ++i)
       test.columns[i].measured = std::move(columns[i + 1].values);
+    if (at.problems().empty()) refuse_foreign_trace(test, fitted_, columns);
   }
 
   /// A header's name, or an object with `column` and `unit`. @return the object's reader
@@ -309,6 +310,7 @@ private:
 
   static void read_value(const JsonCursor& at, bool candidate, FitTest& test, Outputs& outputs) {
     FitValue value;
+    const std::size_t before = at.problems().size();
     JsonObject object(at, "a measured value: an object");
     const auto output = object.find("output"), parameter = object.find("parameter");
     if (object.is_object() && output.has_value() == parameter.has_value()) {
@@ -326,6 +328,7 @@ private:
         parameter->refuse(found.matches.empty() ? found.expected : "the path of one parameter");
       }
     }
+    if (at.problems().size() > before) return; // the unit is not known
     if (!candidate) object.required("value", value.measured, Dimension{value.unit});
     object.required("std", value.std, Dimension{value.unit, "> 0"}, is_positive);
     object.refuse_others();
@@ -372,7 +375,8 @@ void refuse_few_data(const FitSpec& spec, const std::string& file, std::vector<P
   }
   if (data < parameters)
     problems.push_back({file, "/tests",
-                        fmt::format("{} measured numbers for {} parameters", data, parameters),
+                        fmt::format("{} measured number{} for {} parameters", data,
+                                    data == 1 ? "" : "s", parameters),
                         "at least as many numbers as parameters"});
 }
 

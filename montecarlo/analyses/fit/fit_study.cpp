@@ -4,6 +4,7 @@
 #include "distributions/random_stream.hpp"
 #include "montecarlo/analyses/fit/fit_campaign.hpp"
 #include "montecarlo/analyses/fit/proposal.hpp"
+#include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
 
@@ -107,8 +108,9 @@ class Study {
 public:
   Study(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,
         const std::atomic<bool>& stop)
-      : campaign_(campaign), spec_(spec), options_(options), stop_(stop), space_(campaign, spec),
-        data_(data_of(spec.tests)), runs_(spec.tests, spec.parameters, space_, options.pool, stop),
+      : campaign_(campaign), spec_(spec), options_(options),
+        evaluator_(evaluator_of(options.pool, stop)), space_(campaign, spec),
+        data_(data_of(spec.tests)), runs_(spec.tests, spec.parameters, space_, *evaluator_),
         values_(campaign, spec, space_) {}
 
   FitResult run(BatchLog* log, const std::function<void(const EnsembleState&)>& told) {
@@ -190,10 +192,10 @@ private:
       std::ranges::sort(sorted);
       const double tail = (1 - options_.confidence) / 2;
       const auto place = static_cast<Eigen::Index>(k);
-      result_.parameters.push_back({parameter.name, std::string(parameter.unit), prior.mean,
-                                    prior.standard_deviation, mode[k], after.mean, after.std,
-                                    quantile(sorted, tail), quantile(sorted, 1 - tail),
-                                    std::sqrt(covariance(place, place))});
+      result_.parameters.push_back(
+          {parameter.name, std::string(parameter.unit), prior.mean, prior.standard_deviation,
+           mode[k], after.mean, after.std, quantile(sorted, tail), quantile(sorted, 1 - tail),
+           std::sqrt(covariance(place, place)), std::abs(modes_.front().at[place])});
     }
     const auto common = static_cast<Eigen::Index>(space_.common());
     result_.u_covariance = covariance.topLeftCorner(common, common);
@@ -255,7 +257,7 @@ private:
 
   void judge_candidates() {
     if (spec_.candidates.empty()) return;
-    TestRuns runs(spec_.candidates, spec_.parameters, space_, options_.pool, stop_, true);
+    TestRuns runs(spec_.candidates, spec_.parameters, space_, *evaluator_, true);
     result_.candidates =
         candidate_gains(spec_.candidates, runs, modes_.front().at, covariance_of(points_));
   }
@@ -263,7 +265,7 @@ private:
   const Campaign& campaign_;
   const FitSpec& spec_;
   const FitOptions& options_;
-  const std::atomic<bool>& stop_;
+  const std::unique_ptr<Evaluator> evaluator_;
   ParameterSpace space_;
   FitData data_;
   TestRuns runs_;

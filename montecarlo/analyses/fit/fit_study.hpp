@@ -1,9 +1,9 @@
 /// The fit of a campaign's parameters to tests: modes, samples of the posterior, and their statistics.
 #pragma once
 
-#include "montecarlo/analyses/fit/batch_log.hpp"
 #include "montecarlo/analyses/fit/identifiability.hpp"
 #include "montecarlo/analyses/sampler/ensemble_sampler.hpp"
+#include "montecarlo/results/checkpoint/batch_log.hpp"
 
 #include <atomic>
 #include <functional>
@@ -23,7 +23,8 @@ struct FittedParameter {
   std::string name, unit;
   double prior_mean = 0, prior_std = 0;
   double mode = 0, mean = 0, std = 0, lower = 0, upper = 0;
-  double std_ratio = 0; ///< standard deviation in u: the share of the prior's that is left
+  double std_ratio = 0;    ///< standard deviation in u: the share of the prior's that is left
+  double prior_sigmas = 0; ///< |u| of the mode: its distance from the prior's median
 };
 
 /// Residuals of a channel at the highest mode, and over the posterior.
@@ -43,6 +44,10 @@ struct FittedChannel {
 inline constexpr double misfit_p_value = 0.01;
 /// A trace this far from the best fit, in root mean square of σ, is probably of another hinge or unit.
 inline constexpr double foreign_sigmas = 10;
+/// A trace this many times closer to the best fit than its σ has a σ in another unit.
+inline constexpr double too_close = 5;
+/// A parameter this far from its prior's median contradicts the prior: the prior's probability is 6e-5.
+inline constexpr double conflict_sigmas = 4;
 
 /// Quantiles 5, 50 and 95 % of an output with the priors and with the posterior.
 struct PredictedOutput {

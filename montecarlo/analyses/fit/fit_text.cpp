@@ -31,9 +31,18 @@ void add_misfits(const FitResult& result, const FitSpec& spec, std::vector<std::
                                  "another hinge, another sense or unit, or a test under other "
                                  "conditions",
                                  where, sigmas));
+    else if (fitted.channel.column && sigmas > 0 && sigmas * too_close < 1)
+      list.push_back(fmt::format("{}: the residuals are {:.2g} σ at the best fit: is its std too "
+                                 "large, or in another unit?",
+                                 where, sigmas));
     else if (fitted.p_value < misfit_p_value)
       list.push_back(fmt::format("the model does not fit {}: {}", where, misfit_text(fitted)));
   }
+  for (const FittedParameter& each : result.parameters)
+    if (each.prior_sigmas > conflict_sigmas)
+      list.push_back(fmt::format("{} lies {:.1f} standard deviations of its prior from the prior's "
+                                 "median: tests and prior contradict each other",
+                                 each.name, each.prior_sigmas));
 }
 
 std::string parameters_text(const FitResult& result) {

@@ -14,6 +14,34 @@ bool is_own(const FitTest& test, std::size_t dispersion) {
   return std::ranges::find(test.own, dispersion) != test.own.end();
 }
 
+/// Writes columns of rows as constants in the campaign's JSON, from which other processes rebuild it. Other laws need not
+/// be written: place() leads them to their medians.
+void without_rows(Campaign& campaign) {
+  const auto median_of = [&](const std::string& name) {
+    return std::get<Constant>(
+               std::ranges::find(campaign.dispersions, name, &Dispersion::name)->distribution.law)
+        .value;
+  };
+  Json list = Json::array();
+  for (const Json& entry : campaign.resolved.at("dispersions")) {
+    if (!entry.contains("rows")) {
+      list.push_back(entry);
+      continue;
+    }
+    const Json& rows = entry["rows"];
+    for (const auto& [name, effect] : rows.at("columns").items()) {
+      Json column = effect.is_object() ? effect : Json{{"to", effect}};
+      if (column["to"].is_string()) column["to"] = Json::array({column["to"]});
+      if (column["to"].is_null()) column.erase("to");
+      if (!column.contains("through") && !column.contains("apply")) column["apply"] = rows["apply"];
+      column["name"] = name;
+      column["distribution"] = {{"type", "constant"}, {"value", median_of(name)}};
+      list.push_back(std::move(column));
+    }
+  }
+  campaign.resolved["dispersions"] = std::move(list);
+}
+
 } // namespace
 
 ParameterSpace::ParameterSpace(const Campaign& campaign, const FitSpec& spec)
@@ -73,6 +101,7 @@ Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted) {
     dispersion.distribution = {Constant{median}, std::nullopt};
     dispersion.rows.clear(); // a coordinate of its own, in which nothing varies
   }
+  without_rows(campaign);
   return campaign;
 }
 

@@ -2,8 +2,8 @@
 
 #include "montecarlo/engine/runs/sampled_motion.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
-#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/model/campaign/campaign_settings.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -21,8 +21,18 @@ Campaign campaign_for(const FitTest& test, const std::vector<std::size_t>& fitte
   if (accuracy == RunAccuracy::derivative) {
     campaign.integration.rtol = std::min(campaign.integration.rtol, derivative_rtol);
     campaign.integration.atol = std::min(campaign.integration.atol, derivative_atol);
+    campaign.resolved["integration"] = write_integration(campaign.integration); // for other ranks
   }
   return campaign;
+}
+
+SampledColumns samples_for(const FitTest& test) {
+  SampledColumns samples;
+  if (test.columns.empty()) return samples;
+  for (const FitColumn& column : test.columns) samples.columns.push_back(column.index);
+  samples.interval = grid_interval(test.times);
+  samples.t_end = test.times.back() + offsets_covered * test.time_offset_std;
+  return samples;
 }
 
 } // namespace
@@ -55,19 +65,22 @@ FitData data_of(std::span<const FitTest> tests) {
 /// One test at one accuracy.
 struct TestRuns::Prepared {
   Prepared(const FitTest& given, std::size_t index, std::size_t place, Campaign its,
-           UnitPoints points)
+           const UnitPoints& points)
       : test(&given), number(index), first(place), campaign(std::move(its)),
-        plan(campaign, std::move(points)) {}
+        values(campaign, points), samples(samples_for(given)), trace(campaign, points, samples),
+        motion(campaign.scene, samples) {}
   const FitTest* test;
   std::size_t number, first; ///< of the test, and of its first number
   Campaign campaign;
-  RunPlan plan;
+  RunPlan values; ///< for the test's values
+  SampledColumns samples;
+  RunPlan trace; ///< for its trace, if it has one
+  SampledMotion motion;
 };
 
 TestRuns::TestRuns(std::span<const FitTest> tests, const std::vector<std::size_t>& fitted,
-                   const ParameterSpace& space, ThreadPool pool, const std::atomic<bool>& stop,
-                   bool are_candidates)
-    : space_(space), pool_(pool), stop_(stop), are_candidates_(are_candidates) {
+                   const ParameterSpace& space, Evaluator& evaluator, bool are_candidates)
+    : space_(space), evaluator_(evaluator), are_candidates_(are_candidates) {
   for (const RunAccuracy accuracy : {RunAccuracy::campaign, RunAccuracy::derivative}) {
     auto& list = prepared_.emplace_back();
     numbers_ = 0;
@@ -88,18 +101,28 @@ TestRuns::~TestRuns() = default;
 std::vector<Prediction> TestRuns::predict(std::span<const FitPoint> points, RunAccuracy accuracy) {
   points_ = points;
   std::vector<Prediction> predictions(points.size(), Prediction(numbers_, undefined));
-  for (const auto& prepared : prepared_[static_cast<std::size_t>(accuracy)])
-    make_values(*prepared, predictions);
-  make_traces(accuracy, predictions);
+  for (const auto& prepared : prepared_[static_cast<std::size_t>(accuracy)]) {
+    if (!prepared->test->values.empty()) make_values(*prepared, predictions);
+    if (!prepared->test->columns.empty()) make_trace(*prepared, predictions);
+  }
   return predictions;
+}
+
+void TestRuns::make_runs(const RunPlan& plan, std::size_t count,
+                         const std::function<void(const ResultRow&)>& take) {
+  const RunRange all{0, static_cast<long>(count)};
+  const auto take_all = [&](const Batch& batch) {
+    for (const ResultRow& row : batch.rows) take(row);
+  };
+  if (evaluator_.make(plan, all, {take_all}) < all.size()) throw Stopped{};
+  runs_ += all.size();
 }
 
 void TestRuns::make_values(const Prepared& prepared, std::vector<Prediction>& predictions) {
   const std::vector<FitValue>& values = prepared.test->values;
-  if (values.empty()) return;
   const std::size_t first =
       prepared.first + prepared.test->columns.size() * prepared.test->times.size();
-  const std::vector<std::string>& names = prepared.plan.names().outputs;
+  const std::vector<std::string>& names = prepared.values.names().outputs;
   const auto put = [&](const ResultRow& row) {
     Prediction& prediction = predictions[static_cast<std::size_t>(row.run)];
     Scene scene = prepared.campaign.scene;
@@ -111,70 +134,31 @@ void TestRuns::make_values(const Prepared& prepared, std::vector<Prediction>& pr
           values[v].parameter ? values[v].parameter->in(std::as_const(scene)) : row.outputs[column];
     }
   };
-  const RunRange all{0, std::ssize(predictions)};
-  const bool needs_runs =
-      std::ranges::any_of(values, [](const FitValue& v) { return !v.parameter; });
-  if (!needs_runs) {
-    for (long k = 0; k < all.last; ++k) {
-      ResultRow row;
-      row.run = k;
-      row.draws.resize(prepared.campaign.dispersions.size());
-      prepared.plan.draw(k, row.draws);
-      put(row);
-    }
-    return;
+  const auto is_output = [](const FitValue& value) { return !value.parameter; };
+  if (std::ranges::any_of(values, is_output))
+    return make_runs(prepared.values, predictions.size(), put);
+  for (long k = 0; k < std::ssize(predictions); ++k) {
+    ResultRow row;
+    row.run = k;
+    row.draws.resize(prepared.campaign.dispersions.size());
+    prepared.values.draw(k, row.draws);
+    put(row);
   }
-  const auto take = [&](const Batch& batch) {
-    for (const ResultRow& row : batch.rows) put(row);
-  };
-  if (ThreadEvaluator(pool_, stop_).make(prepared.plan, all, {take}) < all.size()) throw Stopped{};
-  runs_ += all.size();
 }
 
-void TestRuns::make_traces(RunAccuracy accuracy, std::vector<Prediction>& predictions) {
-  std::vector<const Prepared*> traced;
-  for (const auto& prepared : prepared_[static_cast<std::size_t>(accuracy)])
-    if (!prepared->test->columns.empty()) traced.push_back(prepared.get());
-  const std::size_t count = traced.size() * predictions.size();
-  if (count == 0) return;
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    Deployment deployment;
-    std::optional<SampledMotion> motion;
-    const Prepared* of = nullptr;
-    Scene scene;
-    std::vector<double> draws;
-    for (std::size_t task = next++; task < count && !stop_; task = next++) {
-      const Prepared& prepared = *traced[task / predictions.size()];
-      const std::size_t point = task % predictions.size();
-      const FitTest& test = *prepared.test;
-      if (of != &prepared) {
-        std::vector<std::size_t> columns;
-        for (const FitColumn& column : test.columns) columns.push_back(column.index);
-        motion.emplace(prepared.campaign.scene, std::move(columns));
-        scene = prepared.campaign.scene;
-        of = &prepared;
-      }
-      draws.resize(prepared.campaign.dispersions.size());
-      prepared.plan.draw(static_cast<long>(point), draws);
-      apply(prepared.campaign, draws, prepared.campaign.scene, scene);
-      const double last = test.times.back() + offsets_covered * test.time_offset_std;
-      if (!motion->run(deployment, scene, prepared.campaign.integration, last,
-                       grid_interval(test.times)))
-        continue;
-      const double offset =
-          are_candidates_ ? 0 : space_.time_offset(prepared.number, points_[point]);
-      double* number = &predictions[point][prepared.first];
-      for (std::size_t c = 0; c < test.columns.size(); ++c) {
-        const double shift =
-            are_candidates_ ? 0 : space_.column_offset(prepared.number, c, points_[point]);
-        for (const double t : test.times) *number++ = motion->at(c, t + offset) + shift;
-      }
+void TestRuns::make_trace(const Prepared& prepared, std::vector<Prediction>& predictions) {
+  const FitTest& test = *prepared.test;
+  make_runs(prepared.trace, predictions.size(), [&](const ResultRow& row) {
+    if (!prepared.motion.is_whole(row.outputs)) return;
+    const FitPoint& point = points_[static_cast<std::size_t>(row.run)];
+    const double offset = are_candidates_ ? 0 : space_.time_offset(prepared.number, point);
+    double* number = &predictions[static_cast<std::size_t>(row.run)][prepared.first];
+    for (std::size_t c = 0; c < test.columns.size(); ++c) {
+      const double shift = are_candidates_ ? 0 : space_.column_offset(prepared.number, c, point);
+      for (const double t : test.times)
+        *number++ = prepared.motion.at(row.outputs, c, t + offset) + shift;
     }
-  };
-  run_on_threads(thread_count(pool_.threads), work, [&] { next = count; });
-  if (stop_) throw Stopped{};
-  runs_ += static_cast<long>(count);
+  });
 }
 
 } // namespace wingspread

@@ -6,13 +6,12 @@
 /// Interpolation error of an angle: h⁴/384 times its fourth derivative, and about h²/50 times the jump of an
 /// acceleration at a latch; h is 10 to 20 ms, so 2e-5 rad for a jump of 3 rad/s².
 ///
-/// Values that are outputs come from runs of their own, in lanes and up to the last output only.
+/// Values that are outputs come from runs of their own, up to the last output only.
 #pragma once
 
 #include "montecarlo/analyses/fit/parameter_space.hpp"
 #include "montecarlo/engine/runs/evaluator.hpp"
 
-#include <atomic>
 #include <memory>
 #include <span>
 #include <vector>
@@ -50,13 +49,12 @@ public:
   /// @param are_candidates the tests are no tests of the space: they have no parameters and offsets of their own
   /// @pre all arguments outlive this object
   TestRuns(std::span<const FitTest> tests, const std::vector<std::size_t>& fitted,
-           const ParameterSpace& space, ThreadPool pool, const std::atomic<bool>& stop,
-           bool are_candidates = false);
+           const ParameterSpace& space, Evaluator& evaluator, bool are_candidates = false);
   TestRuns(const TestRuns&) = delete;
   TestRuns& operator=(const TestRuns&) = delete;
   ~TestRuns();
 
-  /// The predictions at the points, in their order, made on all threads at once. @throws Stopped
+  /// The predictions at the points, in their order, made on all threads and ranks at once. @throws Stopped
   [[nodiscard]] std::vector<Prediction> predict(std::span<const FitPoint> points,
                                                 RunAccuracy accuracy);
   /// Number of runs made.
@@ -67,16 +65,17 @@ private:
   struct Prepared;
 
   const ParameterSpace& space_;
-  ThreadPool pool_;
-  const std::atomic<bool>& stop_;
+  Evaluator& evaluator_;
   const bool are_candidates_;
   std::span<const FitPoint> points_;                             ///< the points of the plans' runs
   std::vector<std::vector<std::unique_ptr<Prepared>>> prepared_; ///< by accuracy and test
   std::size_t numbers_ = 0;
   long runs_ = 0;
 
+  void make_runs(const RunPlan& plan, std::size_t count,
+                 const std::function<void(const ResultRow&)>& take);
   void make_values(const Prepared& prepared, std::vector<Prediction>& predictions);
-  void make_traces(RunAccuracy accuracy, std::vector<Prediction>& predictions);
+  void make_trace(const Prepared& prepared, std::vector<Prediction>& predictions);
 };
 
 } // namespace wingspread

@@ -89,6 +89,9 @@ public:
     if (!csv_.next()) return at.refuse(fmt::format("no header in {}", file_), "a header and rows");
     const std::vector<std::string> header = csv_.cells();
     width_ = header.size();
+    if (width_ == 1 && header[0].find_first_of(";\t") != std::string::npos)
+      return at.refuse(fmt::format("one column in the header of {}: \"{}\"", file_, header[0]),
+                       "columns separated by commas", "/file");
     for (const TraceColumn& column : columns_) {
       const auto place = place_of(column, header, file_);
       if (place) places_.push_back(*place);
@@ -116,8 +119,11 @@ private:
     if (!number) throw csv_.error(column.header, fmt::format("'{}'", cell), "a finite number");
     const double value = *number * places_[i].factor;
     if (column.ascending && !column.values.empty() && !(value > column.values.back()))
-      throw csv_.error(column.header, cell, "a time after that of the row before: sort the rows");
+      throw csv_.error(column.header, fmt::format("{} after {}", cell, column.last),
+                       value < column.values.back() ? "ascending times: sort the rows"
+                                                    : "each time once: drop one of the rows");
     column.values.push_back(value);
+    column.last = cell;
   }
 
   CsvReader csv_;
@@ -146,12 +152,13 @@ void read_trace(const JsonCursor& at, const std::filesystem::path& path,
   }
   if (columns.front().values.size() < least_rows)
     return void(
-        at.refuse(fmt::format("{} rows in {}", columns.front().values.size(), path.string()),
+        at.refuse(fmt::format("{} {} in {}", columns.front().values.size(),
+                              columns.front().values.size() == 1 ? "row" : "rows", path.string()),
                   fmt::format("at least {}", least_rows), "/file"));
   for (const TraceColumn& column : columns)
     if (std::ranges::all_of(column.values, [&](double v) { return v == column.values.front(); }))
-      column.at.refuse(fmt::format("\"{}\", which is {:g} in every row of {}", column.header,
-                                   column.values.front(), path.string()),
+      column.at.refuse(fmt::format("\"{}\", which is {} in every row of {}", column.header,
+                                   column.last, path.string()),
                        "a column that changes: leave a sensor that did not record out");
 }
 

@@ -18,6 +18,7 @@ struct TraceColumn {
   std::string_view si; ///< unit of the result
   bool ascending = false;
   std::vector<double> values{}; ///< output, in SI
+  std::string last{};           ///< output: the last cell, as written
 };
 
 /// Reads the columns; notes problems: a file that cannot be read, a missing column, a wrong unit, a cell that is no

@@ -13,10 +13,12 @@
 namespace wingspread {
 namespace {
 
-constexpr double stretch = 2;      // a of (1), Goodman and Weare's
-constexpr long first_check = 64;   // steps before the first diagnosis
-constexpr double next_check = 1.3; // growth between diagnoses
-constexpr double discarded = 0.25; // share of the steps at the start
+constexpr double stretch = 2;             // a of (1), Goodman and Weare's
+constexpr long first_check = 64;          // steps before the first diagnosis
+constexpr double next_check = 1.3;        // growth between diagnoses
+constexpr double discarded = 0.25;        // share of the steps at the start
+constexpr std::size_t most_in_group = 10; // walkers: if they never move, R̂ is 1.05 and more
+constexpr std::size_t least_groups = 4;
 
 /// Degrees of freedom of the proposal: tails heavier than a normal posterior's. A Student law of fixed degrees loses more and
 /// more moves as d grows: of a normal target's, 5 degrees accept 84 % for d = 3, 67 % for d = 9; 2 d accept 87 % there.
@@ -56,7 +58,8 @@ public:
       for (std::size_t k = 0; k < options_.walkers; ++k)
         for (std::size_t n = first_kept(); n < chains_[k].size(); ++n)
           chains[k].push_back(chains_[k][n][i]);
-      const ChainDiagnostics found = diagnose(chains);
+      const ChainDiagnostics found =
+          diagnose(chains, std::max(least_groups, options_.walkers / most_in_group));
       state.ess = std::min(state.ess, found.ess);
       state.r_hat = std::max(state.r_hat, found.r_hat);
     }

@@ -58,10 +58,10 @@ private:
 };
 
 struct EnsembleOptions {
-  std::size_t walkers = 64; ///< even
+  std::size_t walkers = 64; ///< even, at least 4
   std::uint64_t seed = 1;
   double ess = 1000;   ///< least effective sample size of every coordinate
-  double r_hat = 1.01; ///< largest split R̂ of every coordinate
+  double r_hat = 1.01; ///< largest nested split R̂ of every coordinate
   long most_evaluations = 1'000'000;
   double independent = 0.5; ///< share of independent moves
 };

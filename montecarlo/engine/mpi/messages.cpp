@@ -3,6 +3,25 @@
 #include <utility>
 
 namespace wingspread {
+namespace {
+
+void put_samples(Serializer& packer, const SampledColumns& samples) {
+  packer.put(samples.columns.size());
+  for (const std::size_t column : samples.columns) packer.put(column);
+  packer.put(samples.interval);
+  packer.put(samples.t_end);
+}
+
+SampledColumns take_samples(Deserializer& message) {
+  SampledColumns samples;
+  samples.columns.resize(message.take<std::size_t>());
+  for (std::size_t& column : samples.columns) column = message.take<std::size_t>();
+  samples.interval = message.take<double>();
+  samples.t_end = message.take<double>();
+  return samples;
+}
+
+} // namespace
 
 std::string bare_message(MessageKind kind) {
   Serializer packer;
@@ -15,6 +34,8 @@ std::string open_message(const PlanDescription& description) {
   packer.put(MessageKind::open);
   packer.put(description.campaign);
   packer.put(description.recipe);
+  packer.put(description.samples.has_value());
+  if (description.samples) put_samples(packer, *description.samples);
   packer.put(description.own_points);
   packer.put(description.wants_csv);
   packer.put(description.threads);
@@ -26,6 +47,7 @@ PlanDescription read_description(Deserializer& message) {
   PlanDescription description;
   description.campaign = message.take_text();
   description.recipe = message.take_text();
+  if (message.take<bool>()) description.samples = take_samples(message);
   description.own_points = message.take<bool>();
   description.wants_csv = message.take<bool>();
   description.threads = message.take<int>();

@@ -12,6 +12,7 @@
 #include "montecarlo/engine/mpi/serializer.hpp"
 #include "montecarlo/engine/runs/chunk_scheduler.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,9 +31,10 @@ enum class MessageKind : unsigned char { open, chunk, stop, close, leave, report
 
 /// Everything another rank needs to rebuild a plan and make its runs.
 struct PlanDescription {
-  std::string campaign;    ///< resolved JSON, without the parts that no run depends on
-  std::string recipe;      ///< of the plan's measure; empty: the campaign's outputs
-  bool own_points = false; ///< points come with every chunk
+  std::string campaign; ///< resolved JSON, without the parts that no run depends on
+  std::string recipe;   ///< of the plan's measure; empty: the campaign's outputs, or samples
+  std::optional<SampledColumns> samples; ///< instead of outputs
+  bool own_points = false;               ///< points come with every chunk
   bool wants_csv = false;
   int threads = 0; ///< 0: as many as the rank has
   InstructionSet set = InstructionSet::scalar;

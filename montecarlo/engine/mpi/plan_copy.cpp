@@ -27,15 +27,22 @@ std::optional<PlanDescription> describe(const RunPlan& plan, const ThreadPool& p
                                         bool wants_csv) {
   const std::string recipe = plan.measure() ? plan.measure()->recipe : "";
   if (plan.measure() && recipe.empty()) return std::nullopt;
-  return PlanDescription{
-      text_of(plan.campaign()), recipe, plan.has_own_points(), wants_csv, pool.threads, pool.set};
+  return PlanDescription{text_of(plan.campaign()),
+                         recipe,
+                         plan.samples(),
+                         plan.has_own_points(),
+                         wants_csv,
+                         pool.threads,
+                         pool.set};
 }
 
 PlanCopy::PlanCopy(PlanDescription description, const MeasureMaker& make_measure)
     : description_(std::move(description)), campaign_(read_campaign(description_.campaign, "")) {
   UnitPoints points;
   if (description_.own_points) points = [this](long run, std::span<Tails> u) { place(run, u); };
-  if (description_.recipe.empty()) {
+  if (description_.samples) {
+    plan_.emplace(campaign_, std::move(points), *description_.samples);
+  } else if (description_.recipe.empty()) {
     plan_.emplace(campaign_, std::move(points));
   } else {
     plan_.emplace(campaign_, std::move(points), make_measure(campaign_, description_.recipe));

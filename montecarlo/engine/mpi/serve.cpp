@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <list>
 #include <new>
 #include <thread>
 #include <utility>
@@ -208,22 +209,40 @@ void refuse(Transport& transport, const std::string& why) {
   }
 }
 
+/// Copies of the last plans: several ranges often share a plan, and a fit's tests take turns.
+class PlanCopies {
+public:
+  /// @throws as PlanCopy's constructor
+  [[nodiscard]] PlanCopy& of(PlanDescription description, const MeasureMaker& make_measure) {
+    const auto is_it = [&](const PlanCopy& copy) { return copy.description() == description; };
+    const auto found = std::ranges::find_if(copies_, is_it);
+    if (found == copies_.end())
+      copies_.emplace_front(std::move(description), make_measure);
+    else
+      copies_.splice(copies_.begin(), copies_, found);
+    if (copies_.size() > most) copies_.pop_back();
+    return copies_.front();
+  }
+
+private:
+  static constexpr std::size_t most = 16; // of campaigns with their rows: some MB each at most
+  std::list<PlanCopy> copies_;            ///< the last used first
+};
+
 } // namespace
 
 void serve(Transport& transport, const MeasureMaker& make_measure, const std::atomic<bool>& stop) {
-  std::optional<PlanCopy> copy; // of the last plan: several ranges often share one plan
+  PlanCopies copies;
   while (true) {
     const Message message = next_message(transport);
     Deserializer bytes(message.bytes);
     const MessageKind kind = kind_of(bytes);
     if (kind == MessageKind::leave) return;
     if (kind != MessageKind::open) continue;
-    PlanDescription description = read_description(bytes);
+    PlanCopy* copy = nullptr;
     try {
-      if (!copy || copy->description() != description)
-        copy.emplace(std::move(description), make_measure);
+      copy = &copies.of(read_description(bytes), make_measure);
     } catch (const std::exception& error) {
-      copy.reset();
       refuse(transport, error.what());
       continue;
     }

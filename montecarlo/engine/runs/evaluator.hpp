@@ -1,4 +1,4 @@
-/// The interface through which `run`, `margin`, `sensitivity` and `rare` make the runs of a plan.
+/// The interface through which `run`, `margin`, `sensitivity`, `rare` and `fit` make the runs of a plan.
 #pragma once
 
 #include "montecarlo/engine/runs/runner.hpp"

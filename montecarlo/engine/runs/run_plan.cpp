@@ -42,8 +42,8 @@ Tails unit_point(double z) {
 
 RunPlan::RunPlan(const Campaign& campaign)
     : campaign_(&campaign), columns_(output_columns(campaign.scene, campaign.outputs)),
-      goal_(goal_of(campaign.outputs)), names_(result_names(campaign, columns_)),
-      coordinates_(coordinates_of(campaign.dispersions)),
+      integration_(campaign.integration), goal_(goal_of(campaign.outputs)),
+      names_(result_names(campaign, columns_)), coordinates_(coordinates_of(campaign.dispersions)),
       design_(design_of(campaign.sampling), coordinates_.names),
       copula_(order_by_name(coordinates_.names),
               between_coordinates(coordinates_, campaign.wanted_correlations)) {
@@ -64,6 +64,16 @@ RunPlan::RunPlan(const Campaign& campaign, UnitPoints points, Measure measure)
   names_.peaks_final = false;
   goal_ = measure.goal;
   measure_ = std::move(measure);
+}
+
+RunPlan::RunPlan(const Campaign& campaign, UnitPoints points, SampledColumns samples)
+    : RunPlan(campaign, std::move(points)) {
+  columns_.clear();
+  names_.outputs.clear();
+  names_.peaks_final = false;
+  integration_.t_end = samples.t_end;
+  goal_ = goal_of(campaign.scene, samples);
+  samples_ = std::move(samples);
 }
 
 void RunPlan::draw(long k, std::span<double> draws) const {

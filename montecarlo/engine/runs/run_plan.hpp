@@ -6,6 +6,7 @@
 #include "distributions/design.hpp"
 #include "distributions/prepared_distribution.hpp"
 #include "montecarlo/engine/runs/results.hpp"
+#include "montecarlo/engine/runs/sampled_motion.hpp"
 #include "montecarlo/model/campaign/campaign.hpp"
 #include "montecarlo/model/campaign/outputs.hpp"
 
@@ -49,12 +50,19 @@ public:
   RunPlan(const Campaign& campaign, UnitPoints points);
   /// As above, with the measure as the only output column.
   RunPlan(const Campaign& campaign, UnitPoints points, Measure measure);
+  /// As above, with samples of the motion instead of outputs: ResultRow::outputs has the numbers of a SampleTaker, none
+  /// if the run failed.
+  RunPlan(const Campaign& campaign, UnitPoints points, SampledColumns samples);
 
   [[nodiscard]] const Campaign& campaign() const { return *campaign_; }
   [[nodiscard]] const ResultNames& names() const { return names_; }
   /// The campaign's output columns; empty if a measure replaces them.
   [[nodiscard]] const std::vector<OutputColumn>& columns() const { return columns_; }
   [[nodiscard]] const std::optional<Measure>& measure() const { return measure_; }
+  /// What the runs sample instead of their outputs.
+  [[nodiscard]] const std::optional<SampledColumns>& samples() const { return samples_; }
+  /// How runs are integrated: as the campaign says, to the end of their samples.
+  [[nodiscard]] const Integration& integration() const { return integration_; }
   /// The goal of every run: which results `core` computes.
   [[nodiscard]] const Goal& goal() const { return goal_; }
 
@@ -73,6 +81,8 @@ private:
   const Campaign* campaign_;
   std::vector<OutputColumn> columns_;
   std::optional<Measure> measure_;
+  std::optional<SampledColumns> samples_;
+  Integration integration_;
   Goal goal_;
   ResultNames names_;
   Coordinates coordinates_;

@@ -1,7 +1,6 @@
 #include "montecarlo/engine/runs/runner.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace wingspread {
@@ -16,9 +15,16 @@ PeaksFinal finality_of(const Outcome& outcome) {
 
 } // namespace
 
-Runner::Runner(const RunPlan& plan) : plan_(&plan), scene_(plan.campaign().scene) {}
+Runner::Runner(const RunPlan& plan) : plan_(&plan), scene_(plan.campaign().scene) {
+  if (plan.samples()) taker_.emplace(scene_, *plan.samples());
+}
 
-ResultRow Runner::run(long k) { return make(k, plan_->goal(), {}).row; }
+ResultRow Runner::run(long k) {
+  const DeploymentPack::Watch taken = watch();
+  Observer observer;
+  if (taken) observer = [&taken, k](const Sample& sample) { taken(k, sample); };
+  return make(k, plan_->goal(), observer).row;
+}
 
 Runner::Replay Runner::replay(long k, const Observer& observer, double interval) {
   Goal goal = plan_->goal();
@@ -32,7 +38,7 @@ Runner::Replay Runner::replay(long k, const Observer& observer, double interval)
 Outcome Runner::watch(long k, const Goal& goal, double t_end, const Observer& observer) {
   std::vector<double> draws;
   set_scene(k, draws, scene_);
-  Integration how = plan_->campaign().integration;
+  Integration how = plan_->integration();
   how.t_end = t_end;
   return deployment_.run(scene_, how, goal, observer);
 }
@@ -48,15 +54,20 @@ Occupancy Runner::run_all(InstructionSet set, const std::function<std::optional<
   const auto ended = [&](long k, Outcome&& outcome) {
     done(row_of(k, std::move(draws.extract(k).mapped()), outcome));
   };
-  return DeploymentPack(set, plan_->campaign().integration, plan_->goal())
-      .run(plan_->campaign().scene, next_scene, ended);
+  return DeploymentPack(set, plan_->integration(), plan_->goal())
+      .run(plan_->campaign().scene, next_scene, ended, watch());
+}
+
+DeploymentPack::Watch Runner::watch() {
+  if (!taker_) return {};
+  return [this](long k, const Sample& sample) { taker_->take(sample, samples_[k]); };
 }
 
 Runner::Replay Runner::make(long k, const Goal& goal, const Observer& observer) {
   std::vector<double> draws;
   set_scene(k, draws, scene_);
   Replay made;
-  made.outcome = deployment_.run(scene_, plan_->campaign().integration, goal, observer);
+  made.outcome = deployment_.run(scene_, plan_->integration(), goal, observer);
   made.row = row_of(k, std::move(draws), made.outcome);
   return made;
 }
@@ -82,6 +93,11 @@ ResultRow Runner::row_of(long k, std::vector<double>&& draws, Outcome& outcome) 
   ResultRow row;
   row.run = k;
   row.outputs = outputs_of(draws, outcome);
+  if (taker_) {
+    row.outputs = std::move(samples_[k]);
+    samples_.erase(k);
+    if (outcome.status == Status::invalid || outcome.status == Status::failed) row.outputs.clear();
+  }
   row.draws = std::move(draws);
   // A draw that overflowed becomes an empty cell; the reason of its invalid run names the value.
   std::ranges::transform(row.draws, row.draws.begin(), finite_or_none);

@@ -7,6 +7,7 @@
 #include "montecarlo/engine/runs/run_plan.hpp"
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -46,12 +47,16 @@ private:
   /// Draws run k into `draws` and applies the draws to the scene.
   void set_scene(long k, std::vector<double>& draws, Scene& scene) const;
   [[nodiscard]] ResultRow row_of(long k, std::vector<double>&& draws, Outcome& outcome);
+  /// Takes the samples of runs, if the plan asks for them.
+  [[nodiscard]] DeploymentPack::Watch watch();
   [[nodiscard]] std::vector<double> outputs_of(std::span<const double> draws,
                                                const Outcome& outcome);
 
   const RunPlan* plan_;
   Deployment deployment_;
   Scene scene_; ///< the campaign's scene, with the draws of the latest run applied
+  std::optional<SampleTaker> taker_;
+  std::map<long, std::vector<double>> samples_; ///< of the runs under way
 };
 
 } // namespace wingspread

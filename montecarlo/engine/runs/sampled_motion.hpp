@@ -1,7 +1,6 @@
 /// Columns of a run's trajectory on a regular grid of times, and between the grid's times.
 #pragma once
 
-#include "core/deployment.hpp"
 #include "montecarlo/engine/runs/trajectory_columns.hpp"
 
 #include <span>
@@ -9,30 +8,48 @@
 
 namespace wingspread {
 
+/// The columns that every run of a plan keeps, at multiples of an interval from 0 to t_end, whatever happens in the run.
+struct SampledColumns {
+  std::vector<std::size_t>
+      columns; ///< indices into trajectory_columns(); an angle's rate follows the angle
+  double interval = 0, t_end = 0; ///< s, > 0
+  bool operator==(const SampledColumns&) const = default;
+};
+
 /// The grid for a trace, s: 10 to 20 ms, at least 100 intervals. Finer costs time, see test_runs.hpp for the error.
 [[nodiscard]] double grid_interval(std::span<const double> times);
 
-/// Some columns of one trajectory. Reuses its storage from run to run; one object a thread.
-class SampledMotion {
+/// What a run computes for these columns: nothing but its motion, to t_end.
+[[nodiscard]] Goal goal_of(const Scene& scene, const SampledColumns& columns);
+
+/// Collects a run's samples as numbers: sample by sample each column, and the column beside it (an angle's rate).
+class SampleTaker {
 public:
-  /// @param columns indices into trajectory_columns(); an angle's rate follows the angle
-  SampledMotion(const Scene& scene, std::vector<std::size_t> columns);
-
-  /// Runs the scene to t_end and samples it. @return false if the run is invalid or failed
-  [[nodiscard]] bool run(Deployment& deployment, const Scene& scene, Integration integration,
-                         double t_end, double interval);
-
-  /// The column number `which` of those given at a time; times before and after the run take the value at its ends.
-  [[nodiscard]] double at(std::size_t which, double t) const;
+  SampleTaker(const Scene& scene, const SampledColumns& columns)
+      : base_(scene.base.motion), columns_(columns.columns) {}
+  /// Appends one sample.
+  void take(const Sample& sample, std::vector<double>& numbers);
 
 private:
   BaseMotion base_;
   std::vector<std::size_t> columns_;
-  std::vector<bool> is_angle_;
-  double interval_ = 1;
-  std::vector<double> numbers_; ///< sample by sample: each column, and an angle's rate
-  std::size_t samples_ = 0;
   std::vector<double> row_; ///< scratch
+};
+
+/// The motion of a run from its samples.
+class SampledMotion {
+public:
+  SampledMotion(const Scene& scene, const SampledColumns& columns);
+
+  /// Whether the numbers are the samples of a run that did not fail.
+  [[nodiscard]] bool is_whole(std::span<const double> numbers) const;
+  /// The column number `which` of those given at a time; times before and after the run take the value at its ends.
+  /// @pre is_whole(numbers)
+  [[nodiscard]] double at(std::span<const double> numbers, std::size_t which, double t) const;
+
+private:
+  double interval_;
+  std::vector<bool> is_angle_; ///< by column
 };
 
 } // namespace wingspread

@@ -24,9 +24,28 @@ double autocovariance(std::span<const std::span<const double>> chains,
   return sum.value() / static_cast<double>(chains.size());
 }
 
+/// (2). @param halves of chain after chain, first and second
+double nested_r_hat(std::span<const std::span<const double>> halves, std::span<const double> means,
+                    std::size_t groups) {
+  std::vector<double> centers, variances; // of superchains
+  for (std::size_t first = 0; first < 2 * groups; ++first) {
+    std::vector<double> own;
+    Sum within;
+    for (std::size_t k = first; k < halves.size(); k += 2 * groups) {
+      own.push_back(means[k]);
+      within.add(std::pow(moments(halves[k]).std, 2));
+    }
+    const Moments between = moments(own);
+    centers.push_back(between.mean);
+    variances.push_back(within.value() / static_cast<double>(own.size()) +
+                        (own.size() > 1 ? between.std * between.std : 0));
+  }
+  return std::sqrt(1 + std::pow(moments(centers).std, 2) / moments(variances).mean);
+}
+
 } // namespace
 
-ChainDiagnostics diagnose(std::span<const std::vector<double>> chains) {
+ChainDiagnostics diagnose(std::span<const std::vector<double>> chains, std::size_t groups) {
   std::vector<std::span<const double>> halves;
   const std::size_t n = chains.front().size() / 2;
   assert(n >= 2);
@@ -51,7 +70,7 @@ ChainDiagnostics diagnose(std::span<const std::vector<double>> chains) {
     pairs += last = std::min(last, pair);
   }
   const double time = std::max(1.0, 2 * pairs - 1);
-  return {std::sqrt(total / within), length * count / time};
+  return {nested_r_hat(halves, means, groups), length * count / time};
 }
 
 } // namespace wingspread

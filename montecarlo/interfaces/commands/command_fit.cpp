@@ -58,12 +58,12 @@ int fit(const FitCommandOptions& given) {
   Campaign campaign = read_campaign_file(given.campaign);
   override_sampling(campaign, std::nullopt, given.seed);
   const FitSpec spec = read_fit_file(given.tests, campaign);
+  FitOptions options{.pool = pool_of(given.machine)};
   FitFolder folder(given.out, about_fit(campaign, spec), given.resume);
   if (folder.is_finished()) {
     (void)show_finished(given.out / fit_json_file, given.json);
     return exit_of(true);
   }
-  FitOptions options{.pool = pool_of(given.machine)};
   options.most_runs = given.runs.value_or(0);
   options.confidence = campaign.statistics.confidence;
   const Interrupt interrupt;

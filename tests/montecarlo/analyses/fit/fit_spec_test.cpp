@@ -1,7 +1,10 @@
 #include "montecarlo/analyses/fit/fit_spec.hpp"
+#include "montecarlo/engine/runs/runner.hpp"
 #include "tests/montecarlo/analyses/fit/fit_support.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <functional>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -121,23 +124,94 @@ TEST_CASE("each fault of the tests has its place") {
   CHECK(files.problems(parse_json(R"({ "tests": [ { "name": "t", "values": [
           { "output": "root.latch_time", "value": 2, "std": 0.1 } ] } ],
         "fit": { "parameters": ["spring", "friction"] } })")) ==
-        "tests.json: /tests: found 1 measured numbers for 2 parameters, expected at least as many "
+        "tests.json: /tests: found 1 measured number for 2 parameters, expected at least as many "
         "numbers as parameters");
 }
 
 TEST_CASE("each fault of a trace has its line") {
   const auto with = [&](const std::string& text) { return Files(text).problems(tests_json()); };
   CHECK(with("t,th,w\n0,86,0\n0.2,85.5,-1\n0.1,84,-2\n") ==
-        "t1.csv: line 4, column 't': found 0.1, expected a time after that of the row before: sort "
-        "the rows");
+        "t1.csv: line 4, column 't': found 0.1 after 0.2, expected ascending times: sort the rows");
+  CHECK(
+      with("t,th,w\n0,86,0\n0.2,85.5,-1\n0.20,84,-2\n") ==
+      "t1.csv: line 4, column 't': found 0.20 after 0.2, expected each time once: drop one of the "
+      "rows");
+  CHECK(with("t;th;w\n0;86;0\n0.2;85.5;-1\n") ==
+        "tests.json: /tests/0/trace/file: found one column in the header of t1.csv: \"t;th;w\", "
+        "expected columns separated by commas");
   CHECK(with("t,th,w\n0,86,0\n0.1,x,-1\n") ==
         "t1.csv: line 3, column 'th': found 'x', expected a finite number");
   CHECK(with("t,th,w\n0,86,0\n0.1,86\n") ==
         "t1.csv: line 3: found 2 cells, expected 3, as in the header");
-  CHECK(with("t,th,w\n0,86,0\n0.1,86,-1\n0.2,86,-2\n")
-            .find("\"th\", which is 1.50098 in every row") != std::string::npos);
-  CHECK(with("t,th,w\n0,86,0\n").find("1 rows in t1.csv") != std::string::npos);
+  CHECK(with("t,th,w\n0,86,0\n0.1,86,-1\n0.2,86,-2\n").find("\"th\", which is 86 in every row") !=
+        std::string::npos);
+  CHECK(with("t,th,w\n0,86,0\n").find("1 row in t1.csv") != std::string::npos);
   CHECK(with("").find("no header") != std::string::npos);
+}
+
+TEST_CASE("a trace of another unit, sense, column or zero of time is refused") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign());
+  const auto told = [&](const std::function<std::string(double t, double angle)>& row,
+                        const char* column = "root.angle") {
+    std::string text = "t,th\n";
+    for (int k = 0; k <= 80; ++k) text += row(0.02 * k, panel_angle(0.02 * k, 1.03, 0.8)) + "\n";
+    folder.write("t1.csv", text);
+    Json tests =
+        parse_json(R"({ "tests": [ { "name": "one", "trace": { "file": "t1.csv", "time": "t",
+      "columns": {} } } ], "fit": { "parameters": ["spring", "friction"] } })");
+    tests["tests"][0]["trace"]["columns"][column] = {{"column", "th"}, {"std", 0.01}};
+    return message_of([&] { return read_fit(tests, "t", folder.path(), campaign); });
+  };
+  constexpr const char* at_column = "t: /tests/0/trace/columns/root.angle: ";
+  const auto row = [](double t, double angle) { return csv_cell(t) + "," + csv_cell(angle); };
+  CHECK(told(row).empty());
+  CHECK(told([&](double t, double angle) { return row(t, angle * 180 / M_PI); }) ==
+        std::string(at_column) +
+            "found numbers 57.3 times those of the motion, expected a \"unit\" "
+            "that fits the numbers: \"rad\" or \"deg\"?");
+  CHECK(told([&](double t, double angle) { return row(t, -angle); }) ==
+        std::string(at_column) + "found the motion in the opposite sense, expected the sense of "
+                                 "root.angle, towards the latched angle as in the scene");
+  CHECK(told([&](double t, double angle) { return row(1000 * t, angle); }) ==
+        "t: /tests/0/trace/time: found times a thousand times too long for the motion, as in "
+        "milliseconds, expected seconds, or \"time\": { \"column\": \"t\", \"unit\": \"ms\" }");
+  CHECK(told([&](double t, double angle) { return row(t + 7, angle); }) ==
+        "t: /tests/0/trace/time: found times that begin at 7 s, with a motion that begins there, "
+        "expected times since the release");
+  // a wrong trace that nothing explains is for the fit to judge
+  CHECK(told([&](double t, double) { return row(t, std::sin(9 * t)); }).empty());
+}
+
+TEST_CASE("a trace of another hinge is refused, with its name") {
+  const Folder folder;
+  Json json = panel_campaign();
+  Json& scene = json["scene"];
+  scene["bodies"].push_back({{"name", "outer"}, {"mass", 1}, {"inertia", 0.1}});
+  Json hinge = scene["hinges"][0];
+  hinge["name"] = "tip", hinge["parent"] = "panel", hinge["child"] = "outer";
+  hinge["parent_point"] = {0.5, 0};
+  hinge["angle"] = {{"stowed", -2.5}, {"latched", 0}};
+  scene["hinges"].push_back(hinge);
+  const Campaign campaign = campaign_of(json);
+  const RunPlan plan(campaign, {}, SampledColumns{{1, 4}, 0.02, 1});
+  const std::vector<double> samples = Runner(plan).run(3).outputs;
+  std::string text = "t,a,b\n";
+  for (std::size_t k = 0; k < samples.size() / 4; ++k)
+    text += csv_cell(0.02 * static_cast<double>(k)) + "," + csv_cell(samples[4 * k]) + "," +
+            csv_cell(samples[4 * k + 2]) + "\n";
+  folder.write("t1.csv", text);
+  const auto told = [&](const char* root, const char* tip) {
+    Json tests =
+        parse_json(R"({ "tests": [ { "name": "one", "trace": { "file": "t1.csv", "time": "t" } } ],
+      "fit": { "parameters": ["spring", "friction"] } })");
+    tests["tests"][0]["trace"]["columns"] = {{"root.angle", root}, {"tip.angle", tip}};
+    return message_of([&] { return read_fit(tests, "t", folder.path(), campaign); });
+  };
+  CHECK(told("a", "b").empty());
+  CHECK(told("b", "a").find("t: /tests/0/trace/columns/root.angle: found the motion of tip.angle, "
+                            "expected the motion of root.angle: is it another hinge's column?") !=
+        std::string::npos);
 }
 
 TEST_CASE("a correlation of a fitted and another dispersion is refused") {

@@ -168,11 +168,11 @@ TEST_CASE("clock and sensor offsets, an unknown noise and parameters of one test
   CHECK(result.channels[0].rms * 180 / M_PI == Approx(0.3).epsilon(0.25)); // 81 numbers: 4 sd
 }
 
-TEST_CASE("a trace of another hinge or sense is told first") {
+TEST_CASE("a trace of another motion is told first") {
   const Folder folder;
   std::string wrong = "t,th\n";
   for (int k = 0; k <= 80; ++k)
-    wrong += std::to_string(0.02 * k) + "," + csv_cell(-panel_angle(0.02 * k, 1, 1)) + "\n";
+    wrong += std::to_string(0.02 * k) + "," + csv_cell(std::sin(0.18 * k)) + "\n";
   folder.write("t1.csv", wrong);
   const Campaign campaign = campaign_of(panel_campaign());
   Json tests = parse_json(one_way);
@@ -184,6 +184,28 @@ TEST_CASE("a trace of another hinge or sense is told first") {
   CAPTURE(findings);
   CHECK(findings.front().starts_with("root.angle of \"one way\": the residuals are"));
   CHECK(fit_text(result, spec).starts_with("root.angle of"));
+}
+
+TEST_CASE("a std in another unit, and tests that contradict the prior, are told") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign());
+  const auto findings = [&](double spring, double friction, double std) {
+    folder.write("t1.csv", panel_trace(spring, friction, 0, 0.005, 1));
+    Json tests = parse_json(one_way);
+    tests["fit"]["samples"] = 100;
+    tests["tests"][0]["trace"]["columns"]["root.angle"]["std"] = std;
+    const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
+    return fit_findings(fitted(campaign, spec), spec);
+  };
+  CHECK(findings(1.02, 1.1, 0.005).empty());
+  const auto large = findings(1.02, 1.1, 0.29); // 0.29 deg, taken for rad
+  REQUIRE(large.size() == 1);
+  CHECK(large[0].starts_with("root.angle of \"one way\": the residuals are 0.01"));
+  CHECK(large[0].ends_with("is its std too large, or in another unit?"));
+  const auto far = findings(1.5, 1, 0.005); // 10 standard deviations of the spring's prior
+  REQUIRE_FALSE(far.empty());
+  CHECK(far.back().find("standard deviations of its prior from the prior's median") !=
+        std::string::npos);
 }
 
 TEST_CASE("chains that are not finished are no result") {

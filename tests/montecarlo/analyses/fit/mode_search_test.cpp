@@ -14,7 +14,8 @@ TEST_CASE("derivatives of a latch time have the closed form's value to 1e-5") {
     "fit": { "parameters": ["spring", "friction"] } })"),
                                 "", ".", campaign);
   const ParameterSpace space(campaign, spec);
-  TestRuns runs(spec.tests, spec.parameters, space, {.threads = 2}, never);
+  ThreadEvaluator evaluator({.threads = 2}, never);
+  TestRuns runs(spec.tests, spec.parameters, space, evaluator);
   FitPoint at(2);
   at << 0.5, -1;
   const Eigen::MatrixXd slopes = jacobian_of(runs, at);
@@ -37,7 +38,8 @@ TEST_CASE("Laplace's approximation of one torque from one latch time is Bayes' r
   tests["tests"][0]["values"][0]["value"] = measured;
   const FitSpec spec = read_fit(tests, "", ".", campaign);
   const ParameterSpace space(campaign, spec);
-  TestRuns runs(spec.tests, spec.parameters, space, {.threads = 1}, never);
+  ThreadEvaluator evaluator({.threads = 1}, never);
+  TestRuns runs(spec.tests, spec.parameters, space, evaluator);
   const FitData data = data_of(spec.tests);
   const std::vector<FitPoint> starts{FitPoint::Zero(1)};
   const FitMode mode = find_modes(data, runs, starts).front();

@@ -30,7 +30,7 @@ std::vector<std::vector<double>> chains_of(std::size_t count, std::size_t length
 
 TEST_CASE("the effective sample size of a chain with a known autocorrelation") {
   for (const double phi : {0.0, 0.5, 0.9}) {
-    const auto [r_hat, ess] = diagnose(chains_of(20, 2000, phi));
+    const auto [r_hat, ess] = diagnose(chains_of(20, 2000, phi), 4);
     CHECK(ess == Approx(40000 * (1 - phi) / (1 + phi))
                      .epsilon(0.2)); // heuristic: 11 % off at φ = 0.9 with these draws
     CHECK(r_hat == Approx(1).margin(0.01));
@@ -38,12 +38,37 @@ TEST_CASE("the effective sample size of a chain with a known autocorrelation") {
 }
 
 TEST_CASE("chains that lie apart, and chains that drift, are seen") {
-  CHECK(diagnose(chains_of(4, 1000, 0.5, 1)).r_hat > 1.2);
+  CHECK(diagnose(chains_of(4, 1000, 0.5, 1), 4).r_hat > 1.2);
   std::vector<std::vector<double>> drifting = chains_of(4, 1000, 0.5);
   for (auto& chain : drifting)
     for (std::size_t n = 0; n < chain.size(); ++n) chain[n] += 0.003 * static_cast<double>(n);
-  CHECK(diagnose(drifting).r_hat > 1.2); // the halves differ
-  CHECK(diagnose(drifting).ess < 100);
-  CHECK(
-      std::isinf(diagnose(std::vector<std::vector<double>>(4, std::vector<double>(100, 1))).r_hat));
+  CHECK(diagnose(drifting, 4).r_hat > 1.2); // the halves differ
+  CHECK(diagnose(drifting, 4).ess < 100);
+  CHECK(std::isinf(
+      diagnose(std::vector<std::vector<double>>(4, std::vector<double>(100, 1)), 4).r_hat));
+}
+
+TEST_CASE("many short chains at their goal need no more samples than a few long ones") {
+  const auto chains = chains_of(40, 60, 0.5); // 800 effective samples
+  CHECK(diagnose(chains, 4).r_hat < 1.015);   // √(1 + 2 · 4/800) = 1.005
+  CHECK(diagnose(chains, 40).r_hat > 1.03);   // √(1 + 2 · 40/800) = 1.05
+}
+
+TEST_CASE("chains that hardly move are seen, whatever the group") {
+  std::vector<std::vector<double>> chains = chains_of(40, 100, 0.999); // from independent starts
+  CHECK(diagnose(chains, 4).r_hat > 1.02);
+  CHECK(diagnose(chains, 4).ess < 200);
+  for (std::size_t c = 0; c < chains.size(); ++c) // chains of one group lie apart
+    for (double& x : chains[c]) x += c / 4 % 2 == 0 ? 50 : -50;
+  CHECK(diagnose(chains, 4).ess < 100);
+}
+
+TEST_CASE("the nested R-hat has its definition's value") {
+  // Two groups of two chains of four. Halves' means: group 0: {1.5, 3.5}, {5.5, 3.5}; group 1: {2, 2}, {6, 4}.
+  const std::vector<std::vector<double>> chains{
+      {1, 2, 5, 6}, {1, 3, 5, 7}, {3, 4, 3, 4}, {1, 3, 3, 5}};
+  // Variances in halves: .5 .5 | .5 .5 and 2 2 | 2 2. Of means: 2, 2, 0, 2. Centers: 2.5, 4.5, 2, 5.
+  const double within = ((0.5 + 2) + (0.5 + 2) + (2 + 0) + (2 + 2)) / 4;
+  const double between = (1.0 + 1.0 + 2.25 + 2.25) / 3; // about 3.5
+  CHECK(diagnose(chains, 2).r_hat == Approx(std::sqrt(1 + between / within)).epsilon(1e-12));
 }

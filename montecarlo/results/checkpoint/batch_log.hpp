@@ -1,4 +1,4 @@
-/// The checkpoint of a fit: the results of every batch of evaluations of the sampler, in order. The sampler is
+/// The checkpoint of a sampler: the results of every batch of evaluations of the sampler, in order. The sampler is
 /// deterministic, so that with the recorded results it goes on where it was interrupted.
 ///
 ///   record 1   JSON: which study the file belongs to

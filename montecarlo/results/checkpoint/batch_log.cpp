@@ -1,4 +1,4 @@
-#include "montecarlo/analyses/fit/batch_log.hpp"
+#include "montecarlo/results/checkpoint/batch_log.hpp"
 
 #include "montecarlo/results/checkpoint/checkpoint.hpp"
 

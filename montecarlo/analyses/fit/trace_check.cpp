@@ -1,0 +1,166 @@
+#include "montecarlo/analyses/fit/trace_check.hpp"
+
+#include "distributions/random_stream.hpp"
+#include "montecarlo/analyses/fit/parameter_space.hpp"
+#include "montecarlo/engine/runs/runner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr long prior_runs = 16;
+constexpr std::size_t least_compared = 10, most_compared = 500;
+constexpr double own_misfit = 0.3, other_fit = 0.1, times_better = 5;
+
+/// Measured number = factor · column of the trajectory at (its time · time_factor − time_shift).
+struct Explanation {
+  std::size_t column = 0; ///< of all columns of the trajectory but t
+  double factor = 1, time_factor = 1, time_shift = 0;
+};
+
+/// Root mean square of the residuals, and the largest predicted number less the least.
+struct Misfit {
+  double rms = std::numeric_limits<double>::infinity(), range = 0;
+};
+
+/// The prior's median, then independent points.
+void place_in_prior(long run, std::span<Tails> u) {
+  RandomStream random(0, static_cast<std::uint64_t>(run),
+                      stream_name("\x7F"
+                                  "trace"));
+  for (Tails& at : u) at = run == 0 ? Tails{0.5, 0.5} : tails_of_uniform(open_uniform(random()));
+}
+
+class Comparison {
+public:
+  Comparison(const FitTest& test, const std::vector<std::size_t>& fitted)
+      : test_(test), campaign_(fixed_but(test.campaign, fitted)),
+        names_(trajectory_columns(test.campaign.scene)), samples_(samples_of(test, names_.size())),
+        motion_(test.campaign.scene, samples_) {
+    const RunPlan plan(campaign_, place_in_prior, samples_);
+    Runner runner(plan);
+    for (long k = 0; k < prior_runs; ++k) {
+      std::vector<double> numbers = runner.run(k).outputs;
+      if (motion_.is_whole(numbers)) runs_.push_back(std::move(numbers));
+    }
+  }
+
+  /// The other explanation of the test's column c; nothing if there is none.
+  [[nodiscard]] std::optional<Explanation> explain(std::size_t c) const {
+    const std::size_t own = test_.columns[c].index - 1;
+    const Misfit as_given = misfit(c, {own});
+    if (runs_.empty() || !(as_given.rms > own_misfit * as_given.range)) return std::nullopt;
+    Misfit least;
+    std::optional<Explanation> best;
+    for (const Explanation& other : others(c)) {
+      const Misfit found = misfit(c, other);
+      if (!(found.rms < other_fit * found.range && found.rms < least.rms)) continue;
+      least = found;
+      best = other;
+    }
+    return as_given.rms > times_better * least.rms ? best : std::nullopt;
+  }
+
+  [[nodiscard]] const std::string& name_of(const Explanation& other) const {
+    return names_[other.column + 1];
+  }
+
+private:
+  static SampledColumns samples_of(const FitTest& test, std::size_t count) {
+    SampledColumns samples;
+    for (std::size_t k = 1; k < count; ++k) samples.columns.push_back(k);
+    samples.t_end = std::min(test.times.back(), test.campaign.integration.t_end);
+    samples.interval = samples.t_end / static_cast<double>(most_compared);
+    return samples;
+  }
+
+  [[nodiscard]] std::vector<Explanation> others(std::size_t c) const {
+    constexpr double degrees = 180 / std::numbers::pi;
+    const FitColumn& column = test_.columns[c];
+    const std::size_t own = column.index - 1;
+    std::vector<Explanation> list;
+    for (const double factor : {-1.0, degrees, 1 / degrees, 1e3, 1e-3})
+      list.push_back({own, factor});
+    list.push_back({own, 1, 1e-3});
+    list.push_back({own, 1, 1, test_.times.front()});
+    for (std::size_t k = 1; k < names_.size(); ++k)
+      if (k != column.index && unit_of_column(names_[k]) == column.unit) list.push_back({k - 1});
+    return list;
+  }
+
+  /// The least over the runs.
+  [[nodiscard]] Misfit misfit(std::size_t c, const Explanation& other) const {
+    const std::vector<double>& measured = test_.columns[c].measured;
+    const std::size_t stride = measured.size() / most_compared + 1;
+    Misfit least;
+    for (const std::vector<double>& run : runs_) {
+      double sum = 0, low = std::numeric_limits<double>::infinity(), high = -low;
+      long count = 0;
+      for (std::size_t i = 0; i < measured.size(); i += stride, ++count) {
+        const double t = test_.times[i] * other.time_factor - other.time_shift;
+        const double predicted = other.factor * motion_.at(run, other.column, t);
+        sum += std::pow(measured[i] - predicted, 2);
+        low = std::min(low, predicted), high = std::max(high, predicted);
+      }
+      const double rms = std::sqrt(sum / static_cast<double>(count));
+      if (rms < least.rms) least = {rms, high - low};
+    }
+    return least;
+  }
+
+  const FitTest& test_;
+  const Campaign campaign_;
+  const std::vector<std::string> names_;
+  const SampledColumns samples_;
+  const SampledMotion motion_;
+  std::vector<std::vector<double>> runs_; ///< their samples
+};
+
+/// @param at the column's, `time` the time's
+void refuse(const TraceColumn& at, const TraceColumn& time, const std::string& own,
+            const Explanation& other, const std::string& its_name) {
+  if (other.time_factor != 1)
+    return void(time.at.refuse("times a thousand times too long for the motion, as in milliseconds",
+                               "seconds, or \"time\": { \"column\": \"" + time.header +
+                                   "\", \"unit\": \"ms\" }"));
+  if (other.time_shift != 0)
+    return void(
+        time.at.refuse(fmt::format("times that begin at {:g} s, with a motion that begins there",
+                                   other.time_shift),
+                       "times since the release"));
+  if (its_name != own)
+    return void(at.at.refuse(fmt::format("the motion of {}", its_name),
+                             fmt::format("the motion of {}: is it another hinge's column?", own)));
+  if (other.factor < 0)
+    return void(at.at.refuse(
+        "the motion in the opposite sense",
+        fmt::format("the sense of {}, towards the latched angle as in the scene", own)));
+  at.at.refuse(fmt::format("numbers {:.3g} times those of the motion", other.factor),
+               other.factor == 1e3 || other.factor == 1e-3
+                   ? "a \"unit\" that fits the numbers"
+                   : "a \"unit\" that fits the numbers: \"rad\" or \"deg\"?");
+}
+
+} // namespace
+
+void refuse_foreign_trace(const FitTest& test, const std::vector<std::size_t>& fitted,
+                          std::span<const TraceColumn> columns) {
+  if (test.times.size() < least_compared || !(test.times.back() > 0)) return;
+  const Comparison comparison(test, fitted);
+  for (std::size_t c = 0; c < test.columns.size(); ++c) {
+    const auto other = comparison.explain(c);
+    if (!other) continue;
+    refuse(columns[c + 1], columns[0], test.columns[c].name, *other, comparison.name_of(*other));
+    if (other->time_factor != 1 || other->time_shift != 0) return; // the same for all columns
+  }
+}
+
+} // namespace wingspread
