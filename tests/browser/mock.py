@@ -92,7 +92,7 @@ def requirements_of(rows, hinges, limit):
          "observed_value": known[int(0.99 * (len(known) - 1))] if known else None, "guaranteed_value": guaranteed,
          "margin": limit - guaranteed if guaranteed else None, "broken": len(broken), "name": "L-1", "id": "SYS-1", "source": "specification 4.2",
          "rationale": "strength of the root fitting", "runs": count, **split, "beyond": len(beyond), "beyond_runs": beyond[:5], "worst": largest,
-         "evidence": f"{len(broken)} of {count} runs break it, and {allowed} may"},
+         "evidence": f"{len(broken)} of {count} runs break it; at most {allowed} may"},
         {"text": "D-1: deployed, 99 % at 90 %", "output": "deployed", "kind": "status", "limit": None, "upper": False,
          "verdict": "open" if count < 230 else "passed" if lower >= 0.99 else "failed", "probability": 0.99, "confidence": 0.9,
          "observed": good / count, "guaranteed": lower, "observed_value": None, "guaranteed_value": None, "margin": None,

@@ -98,6 +98,16 @@ std::string degrees_text(double radians) {
   return fmt::format("{:.4g}", degrees == 0 ? 0 : degrees); // no "-0"
 }
 
+std::string as_written(double value, std::string_view unit) {
+  const std::string number = fmt::format("{}", value);
+  if (unit != "rad" && unit != "rad/s")
+    return unit.empty() ? number : fmt::format("{} {}", number, unit);
+  // twelve digits: the conversion from degrees and back costs a rounding
+  const std::string degrees = fmt::format("{:.12g}", value * 180 / std::numbers::pi);
+  return degrees.size() < number.size() ? fmt::format("{} deg{}", degrees, unit.substr(3))
+                                        : fmt::format("{} {}", number, unit);
+}
+
 std::string spaced(std::string_view name) {
   std::string words(name);
   std::ranges::replace(words, '_', ' ');

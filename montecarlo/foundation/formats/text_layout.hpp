@@ -39,6 +39,10 @@ inline constexpr int table_width = 100;
 /// Four digits of an angle in degrees: "90" of π/2.
 [[nodiscard]] std::string degrees_text(double radians);
 
+/// A value as its author wrote it: an angle or a rate in degrees where that number is shorter, "8 deg/s" of
+/// 0.13962634015954636 rad/s; else all its digits, "1.5 rad/s".
+[[nodiscard]] std::string as_written(double value, std::string_view unit);
+
 /// "timed out" of "timed_out".
 [[nodiscard]] std::string spaced(std::string_view name);
 

@@ -163,7 +163,7 @@
       ["skewness", F.fixed(output.skewness, 2)],
       ["kurtosis", F.fixed(output.kurtosis, 2)],
     ];
-    return W.table(`Moments of ${F.name(output)}`, ["Statistic", number("Value")], rows, {
+    return W.table(`Statistics of ${F.name(output)}`, ["Statistic", number("Value")], rows, {
       showCaption: true,
     });
   }

@@ -21,14 +21,13 @@ std::vector<LatchJump> latch_jumps(const Scene& scene, const Outcome& outcome) {
 }
 
 std::string warning(std::span<const LatchJump> jumps) {
-  std::vector<std::string> peaks;
+  std::vector<std::string> hinges;
   for (const LatchJump& jump : jumps)
-    peaks.push_back(
-        fmt::format("{}.peak_moment ({:.4g} of {:.4g} N·m)", jump.hinge, jump.moment, jump.peak));
-  return fmt::format("where a latch engages, its moment jumps to damping times rate, which decides "
-                     "{}; a latch with "
-                     "\"dissipation\" in place of \"damping\" has no jump",
-                     fmt::join(peaks, ", "));
+    hinges.push_back(fmt::format("{} ({:.0f} %)", jump.hinge, 100 * jump.moment / jump.peak));
+  return fmt::format("latch damping makes most of the peak moment of {}: as a latch engages, its "
+                     "moment jumps to damping times rate; a latch with \"dissipation\" in place of "
+                     "\"damping\" has no jump",
+                     fmt::join(hinges, ", "));
 }
 
 } // namespace wingspread

@@ -262,7 +262,7 @@ std::string evidence(const Verdict& verdict) {
                          verdict.cut == 1 ? "its peaks" : "their peaks");
   if (verdict.allowed) {
     const bool open = verdict.decision == Decision::fail && !verdict.disproved;
-    return fmt::format("{}, and {} may{}{}", found, *verdict.allowed,
+    return fmt::format("{}; at most {} may{}{}", found, *verdict.allowed,
                        open ? ": not shown, and not disproved either" : "", joint_risk(verdict));
   }
   if (verdict.disproved) return found + ": disproved";
