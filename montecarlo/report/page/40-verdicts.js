@@ -142,7 +142,7 @@
       side = one.upper ? "above" : "below",
       limit = F.written(one.limit, unitOf(one, set)),
       name = F.nameOf(one.output);
-    const known = W.isNumber(one.guaranteed_value) && W.isNumber(one.margin);
+    const known = W.isNumber(one.guaranteed_value) && W.isNumber(one.margin) && one.margin < 0;
     const runs = (one.beyond_runs || []).map((each) => each.run);
     return h(
       "li",

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 using namespace wingspread;
@@ -46,6 +47,14 @@ TEST_CASE("numbers in five digits", "[text_layout]") {
   CHECK(in_digits(-123456) == "-1.2346e+05");
   CHECK(in_digits(12345) == "12345.0");
   CHECK(in_digits(std::numeric_limits<double>::quiet_NaN()) == "–");
+}
+
+TEST_CASE("angles and rates are printed as their author wrote them", "[text_layout]") {
+  CHECK(as_written(5 * std::numbers::pi / 180, "rad/s") == "5 deg/s");
+  CHECK(as_written(-12.5 * std::numbers::pi / 180, "rad") == "-12.5 deg");
+  CHECK(as_written(1.5, "rad/s") == "1.5 rad/s"); // 85.943669… deg/s
+  CHECK(as_written(0.1, "s") == "0.1 s");
+  CHECK(as_written(3, "") == "3");
 }
 
 TEST_CASE("text that goes on a line is broken at blanks, and no word is cut", "[text_layout]") {
