@@ -58,6 +58,20 @@ std::string wrapped(std::string_view text, std::size_t indent) {
   return lines;
 }
 
+std::string wrapped_lines(std::string_view text) {
+  std::string lines;
+  std::istringstream in{std::string(text)};
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+    const std::string words = line.substr(begin);
+    const bool fits = count_characters(line) <= table_width;
+    const bool has_columns = words.find("   ") != std::string::npos;
+    lines += fits || has_columns ? line : std::string(begin, ' ') + wrapped(words, begin + 4);
+    lines += '\n';
+  }
+  return lines;
+}
+
 std::string in_digits(double value) {
   if (std::isnan(value)) return "–";
   std::string text = fmt::format("{:#.5g}", value);

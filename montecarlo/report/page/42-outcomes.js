@@ -67,11 +67,13 @@
     ];
   }
   // A reason without the clauses whose numbers differ from run to run: "lacks … J".
+  // "energy: no hinge can reach its latch" names its proof first.
   const common = (reason) =>
     reason
       .split(", ")
       .filter((clause, at) => !at || !clause.includes("…"))
-      .join(", ");
+      .join(", ")
+      .replace(/^energy: (.*)$/, "$1: too little energy");
   function reasons(set, label) {
     if (!(set.reasons || []).length) return null;
     return h(

@@ -161,7 +161,7 @@
       ["minimum", value(output.min)],
       ["maximum", value(output.max)],
       ["skewness", F.fixed(output.skewness, 2)],
-      ["kurtosis", F.fixed(output.kurtosis, 2)],
+      ["excess kurtosis", F.fixed(output.kurtosis, 2)],
     ];
     return W.table(`Statistics of ${F.name(output)}`, ["Statistic", number("Value")], rows, {
       showCaption: true,

@@ -133,6 +133,10 @@
   });
   window.addEventListener("afterprint", () => opened.splice(0).forEach((one) => (one.open = false)));
 
+  // "largest tip.peak_moment" in words, as the output is named everywhere else.
+  const inWords = (text) => text && text.replace(/^(largest|least) (\S+)/, (_, most, name) => `${most} ${W.format.nameOf(name)}`);
+  W.sets.flatMap((set) => set.motions || []).forEach((motion) => Object.assign(motion, { label: inWords(motion.label), why: inWords(motion.why) }));
+
   theme();
   angles();
   cases();

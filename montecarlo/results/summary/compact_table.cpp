@@ -293,9 +293,13 @@ std::string compact_cases_table(const std::vector<CaseSummary>& cases, std::stri
   text += worst_accuracy(cases) + warning_lines(warnings(cases));
   for (const CaseSummary& each : cases)
     if (each.partial) text += fmt::format("\n{} lacks runs of the campaign\n", each.name);
-  return text + fmt::format("\nFILES  {}: cases.json, and a results folder for each case; --all "
-                            "prints every statistic\n",
-                            folder);
+  return text + "\nFILES  " +
+         wrapped(
+             fmt::format("{}: cases.json, and a results folder for each case; --all prints every "
+                         "statistic",
+                         folder),
+             7) +
+         '\n';
 }
 
 } // namespace wingspread

@@ -1,5 +1,6 @@
 #include "montecarlo/results/summary/verdict.hpp"
 
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
@@ -269,8 +270,8 @@ std::string evidence(const Verdict& verdict) {
   const std::string least = verdict.least_runs
                                 ? fmt::format("it takes {}", *verdict.least_runs)
                                 : fmt::format("it takes more than {}", most_runs_sized);
-  return fmt::format("{} runs cannot show it, even if none breaks it: {} ({})", verdict.runs, least,
-                     found);
+  return fmt::format("{} cannot show it, even if none breaks it: {} ({})",
+                     counted(verdict.runs, "run", "runs"), least, found);
 }
 
 std::string replay_command(std::string_view folder, long run) {

@@ -37,8 +37,8 @@ std::string kind_of(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     // digits of a name ("panel_2") follow a letter or an underscore, those of a number do not
     const bool digit = std::isdigit(static_cast<unsigned char>(text[i])) != 0;
-    const bool in_name = i > 0 && (std::isalpha(static_cast<unsigned char>(text[i - 1])) != 0 ||
-                                   text[i - 1] == '_');
+    const bool in_name =
+        i > 0 && (std::isalpha(static_cast<unsigned char>(text[i - 1])) != 0 || text[i - 1] == '_');
     if (!digit || in_name) kind += text[i];
   }
   return kind;
@@ -82,9 +82,8 @@ std::vector<std::string> warnings(std::span<const CaseSummary> cases) {
   std::vector<SharedWarning> found;
   for (const CaseSummary& each : cases)
     for (const std::string& text : warnings(each.summary)) {
-      const auto known = std::ranges::find_if(found, [&](const SharedWarning& other) {
-        return kind_of(other.text) == kind_of(text);
-      });
+      const auto known = std::ranges::find_if(
+          found, [&](const SharedWarning& other) { return kind_of(other.text) == kind_of(text); });
       if (known == found.end())
         found.push_back({text, {each.name}});
       else

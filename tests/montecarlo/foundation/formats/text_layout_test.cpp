@@ -65,6 +65,15 @@ TEST_CASE("text that goes on a line is broken at blanks, and no word is cut", "[
   CHECK(wrapped(word + word, 10) == word + word);
 }
 
+TEST_CASE("long lines of a text go on below, deeper", "[text_layout]") {
+  const std::string word(40, 'w'), short_line = "  a b\n";
+  CHECK(wrapped_lines(short_line) == short_line);
+  CHECK(wrapped_lines("  " + word + ' ' + word + ' ' + word + "\nend") ==
+        "  " + word + ' ' + word + "\n      " + word + "\nend\n");
+  const std::string columns = word + "   " + word + "   " + word + '\n';
+  CHECK(wrapped_lines(columns) == columns);
+}
+
 TEST_CASE("shares in percent, and counted things", "[text_layout]") {
   CHECK(percent(0.123456) == "12.346 %");
   CHECK(percent(0.126, 0) == "13 %");

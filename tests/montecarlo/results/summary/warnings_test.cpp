@@ -63,7 +63,8 @@ TEST_CASE("a warning of several cases is told once, with its cases") {
                            Catch::EndsWith(" (cold, ambient; numbers of cold)"));
   CHECK_THAT(found[1], Catch::Contains("of panel_3 (60 %): ") && Catch::EndsWith(" (hot)"));
   CHECK_THAT(warnings(std::span(cases).first(1)).at(0), Catch::EndsWith(" (every case)"));
-  for (const std::string& table : {cases_table(cases, "t", "f"), compact_cases_table(cases, "t", "f")})
+  for (const std::string& table :
+       {cases_table(cases, "t", "f"), compact_cases_table(cases, "t", "f")})
     CHECK_THAT(table, Catch::Contains(warning_lines(found)));
 }
 
