@@ -19,10 +19,12 @@ import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "studies" / "plots"))
 try:
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
     import pages
+    import print_report
     from mark_checks import MarkChecks
     from number_checks import NumberChecks, Numbers, parsed
     from pose_checks import PoseChecks
@@ -140,9 +142,10 @@ class Quick(PoseChecks, MarkChecks, NumberChecks, Page):
 
     def test_contents_have_the_numbers_of_their_pages_where_they_are_given(self):
         """print_report.py prints twice: the second time the page's address has the numbers."""
-        path = pages.made_up("cases")
+        told = 'Page  Destination                 Name\n   1 [ XYZ    0  627 null      ] "verdicts"\n  37 [ XYZ    0  830 null      ] "outputs"\n'
+        numbers = print_report.destinations(told)  # as pdfinfo prints them
         self.driver.get("about:blank")
-        self.driver.get(path.as_uri() + "#pages=verdicts:1,outputs:37")
+        self.driver.get(print_report.address(pages.made_up("cases"), numbers))
         pages.settle(self.driver)
         self.driver.execute_script("dispatchEvent(new Event('beforeprint'))")
         entries = self.run_script("return [...document.querySelectorAll('.contents li')].map(li => [li.querySelector('a').hash, li.querySelector('.page')?.textContent ?? null])")

@@ -66,7 +66,7 @@
   function convergence() {
     const set = W.set(),
       output = W.output(set);
-    if (!output || !output.convergence || !(output.convergence.runs || []).length)
+    if (!output || !output.convergence || (output.convergence.runs || []).length < 2)
       return W.fill(
         host,
         h(
