@@ -132,12 +132,17 @@
     const items = rows
       .filter(({ requirement: one }) => verdictOf(one.verdict) === "failed" && W.isNumber(one.limit) && one.beyond)
       .filter(({ requirement: one }) => !seen.has(keyOf(one)) && seen.add(keyOf(one)))
-      .map(finding);
+      .map((row) => finding(row, alsoIn(rows, row)));
     if (!items.length) return null;
     const more = items.splice(4).length;
     return [h("ul.findings", items), more ? h("p.note", `${F.counted(more, "more requirement")} below.`) : null];
   }
-  function finding({ requirement: one, set, at }) {
+  // The other sets in which the requirement of a row fails.
+  const alsoIn = (rows, { requirement, at }) =>
+    rows
+      .filter((row) => row.at !== at && keyOf(row.requirement) === keyOf(requirement) && verdictOf(row.requirement.verdict) === "failed")
+      .map((row) => row.set.label);
+  function finding({ requirement: one, set, at }, also) {
     const several = W.sets.length > 1,
       side = one.upper ? "above" : "below",
       limit = F.written(one.limit, unitOf(one, set)),
@@ -151,6 +156,7 @@
       known
         ? `With ${F.given(100 * one.confidence)} % confidence ${F.given(100 * one.probability)} % of all wings stay ${one.upper ? "below" : "above"} ${valueText(one.guaranteed_value, one, set)}: ${marginText({ ...one, margin: Math.abs(one.margin) }, set).replace("+", "")} too ${one.upper ? "much" : "little"}. `
         : null,
+      also.length ? `Also fails in ${listed(also)}. ` : null,
       runs.length ? [`The worst run is `, h("button.run", { onclick: () => W.selectRun(at, runs[0]) }, String(runs[0])), ". "] : null,
       W.influences(set, one.output).length
         ? [h("a", { href: "#why" }, "Causes"), ": ", W.influences(set, one.output)]

@@ -134,8 +134,14 @@
   window.addEventListener("afterprint", () => opened.splice(0).forEach((one) => (one.open = false)));
 
   // "largest tip.peak_moment" in words, as the output is named everywhere else.
-  const inWords = (text) => text && text.replace(/^(largest|least) (\S+)/, (_, most, name) => `${most} ${W.format.nameOf(name)}`);
-  W.sets.flatMap((set) => set.motions || []).forEach((motion) => Object.assign(motion, { label: inWords(motion.label), why: inWords(motion.why) }));
+  const inWords = (set, text) =>
+    text &&
+    text.replace(/^(largest|least|worst:) (\S+)/, (all, most, name) =>
+      W.outputsOf(set).some((output) => output.name === name) ? `${most} ${W.format.nameOf(name)}` : all,
+    );
+  for (const set of W.sets)
+    for (const motion of set.motions || [])
+      Object.assign(motion, { label: inWords(set, motion.label), why: inWords(set, motion.why) });
 
   theme();
   angles();

@@ -52,6 +52,8 @@ TEST_CASE("a latch whose damping times its own rate exceeds half the peak is war
   wing.outcome.peak_moment[0].value = 210;
   CHECK_THAT(warning(latch_jumps(wing.scene, wing.outcome)),
              Catch::Contains(" of root (95 %), mid (51 %): ")); // one line for both
+  wing.outcome.peak_moment[0].value = 199; // the jump, less the spring's moment
+  CHECK_THAT(warning(latch_jumps(wing.scene, wing.outcome)), Catch::Contains(" root (100 %), "));
 }
 
 TEST_CASE("no latch is warned of without a jump, or without known peaks") {
