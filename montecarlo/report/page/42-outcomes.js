@@ -73,7 +73,8 @@
       .split(", ")
       .filter((clause, at) => !at || !clause.includes("…"))
       .join(", ")
-      .replace(/^energy: (.*)$/, "$1: too little energy");
+      .replace(/^energy: (.*)$/, "$1: too little energy")
+      .replace(/^every hinge sticks, and .*$/, "every hinge sticks, under loads that no longer change");
   function reasons(set, label) {
     if (!(set.reasons || []).length) return null;
     return h(

@@ -261,7 +261,7 @@
         ? [
             h(
               "p.lead",
-              "Differences of the means with confidence intervals. Filled point: the interval excludes zero. |…|: of magnitudes. “By case, overlaid” above compares the distributions.",
+              "Differences of the means with confidence intervals. Filled point: the interval excludes zero. |Output|: its magnitudes are compared. “By case, overlaid” above compares the distributions.",
             ),
             comparisons.map((one, at) => compared(one, folders.length ? one.folders : at < 2)),
           ]
