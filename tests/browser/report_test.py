@@ -11,7 +11,6 @@ import collections
 import csv
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -19,12 +18,11 @@ import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "studies" / "plots"))
 try:
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
     import pages
-    import print_report
+    from finding_checks import FindingChecks
     from mark_checks import MarkChecks
     from number_checks import NumberChecks, Numbers, parsed
     from pose_checks import PoseChecks
@@ -72,7 +70,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(PoseChecks, MarkChecks, NumberChecks, Page):
+class Quick(PoseChecks, MarkChecks, FindingChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")
@@ -96,67 +94,6 @@ class Quick(PoseChecks, MarkChecks, NumberChecks, Page):
         rank = {"failed": 0, "open": 1, "passed": 2}
         self.assertEqual(order, sorted(order, key=rank.get))
         self.assertEqual(order[0], "failed")
-
-    def test_each_failed_requirement_has_its_finding(self):
-        """Where, how many runs, the guaranteed value, its distance from the limit and the worst run, against the data."""
-        self.open(pages.made_up("loads"))
-        judged = self.run_script("return W.verdicts.judged().map(row => ({ ...row.requirement, set: row.set.label, runs: row.set.runs }))")
-        worst = {}
-        for one in judged:
-            if one["verdict"] == "failed" and one["limit"] is not None and one["beyond"]:
-                worst.setdefault(one["text"], one)
-        self.assertTrue(worst)
-        found = [item.text for item in self.all(".findings li")]
-        self.assertEqual(len(found), min(4, len(worst)))
-        for text, one in zip(found, worst.values()):
-            self.assertIn(f"in {one['set']} {one['beyond']:,} of {one['runs']:,} runs", text)
-            self.assertIn("above" if one["upper"] else "below", text)
-            if one["guaranteed_value"] is not None and one["margin"] is not None and one["margin"] < 0:
-                bound, distance = re.search(r"of all wings stay \w+ ([\d.,−]+) .*?: ([\d.,]+) .*? too (?:much|little)", text).groups()
-                factor = self.run_script("return W.format.shown(W.verdicts.unitOf(arguments[0], W.set())).factor", one)
-                self.assertAlmostEqual(parsed(bound)[0][0], one["guaranteed_value"] * factor, delta=2 * parsed(bound)[0][1])
-                self.assertAlmostEqual(parsed(distance)[0][0], abs(one["margin"]) * factor, delta=2 * parsed(distance)[0][1])
-            also = [other["set"] for other in judged if other["text"] == one["text"] and other["verdict"] == "failed" and other["set"] != one["set"]]
-            self.assertEqual("Also fails in" in text, bool(also))
-            for label in also:
-                self.assertRegex(text, rf"Also fails in [^.]*{label}")
-            if one["beyond_runs"]:
-                self.assertIn(f"The worst run is {one['beyond_runs'][0]['run']}.", text)
-
-    def test_the_slider_ends_with_the_displayed_interval(self):
-        self.open(pages.made_up("plain"))
-        whole, last, shown = self.run_script("const m = W.player.motion; return [m.t[m.t.length - 1], Math.max(...m.latches.map(l => l.time)), W.player.interval()]")
-        self.assertTrue(last < shown[1] <= whole)
-        stop = lambda: float(self.one(".scrub").get_attribute("max"))
-        self.assertAlmostEqual(stop(), shown[1])
-        self.assertIn(f"of {shown[1]:.2f} s", self.one(".time").text)
-        [one for one in self.all(".buttons button") if one.text == "whole run"][0].click()
-        self.assertAlmostEqual(stop(), whole)
-
-    def test_the_label_of_an_upright_line_crosses_no_other_line(self):
-        self.open(pages.made_up("plain"))
-        crossed = self.run_script("""const svg = document.querySelector('figure.histogram svg'), group = d3.create('svg:svg');
-            svg.append(group.node());
-            W.marks.uprights(group, { left: 0, right: 400, top: 0, bottom: 100 }, [{ x: 200, text: 'nominal', kind: 'nominal' }, { x: 210, text: '≤ 70', kind: 'limit' }]);
-            const [first, second] = [...group.node().querySelectorAll('text')].map(text => text.getBBox());
-            return [first.x + first.width, second.x, second.x + second.width]""")
-        self.assertLess(crossed[0], 200)  # left of its line
-        self.assertGreater(crossed[1], 210)
-        self.assertLess(crossed[2], 400)
-
-    def test_contents_have_the_numbers_of_their_pages_where_they_are_given(self):
-        """print_report.py prints twice: the second time the page's address has the numbers."""
-        told = 'Page  Destination                 Name\n   1 [ XYZ    0  627 null      ] "verdicts"\n  37 [ XYZ    0  830 null      ] "outputs"\n'
-        numbers = print_report.destinations(told)  # as pdfinfo prints them
-        self.driver.get("about:blank")
-        self.driver.get(print_report.address(pages.made_up("cases"), numbers))
-        pages.settle(self.driver)
-        self.driver.execute_script("dispatchEvent(new Event('beforeprint'))")
-        entries = self.run_script("return [...document.querySelectorAll('.contents li')].map(li => [li.querySelector('a').hash, li.querySelector('.page')?.textContent ?? null])")
-        self.assertEqual(dict(entries)["#outputs"], "37")
-        self.assertEqual(dict(entries)["#verdicts"], "1")
-        self.assertIsNone(dict(entries)["#inputs"])
-        self.driver.execute_script("dispatchEvent(new Event('afterprint'))")
 
     def test_histogram_has_a_mark_for_every_filled_bin_of_every_order(self):
         self.open(pages.made_up("plain"))
