@@ -92,7 +92,7 @@ def requirements_of(rows, hinges, limit):
          "observed_value": known[int(0.99 * (len(known) - 1))] if known else None, "guaranteed_value": guaranteed,
          "margin": limit - guaranteed if guaranteed else None, "broken": len(broken), "name": "L-1", "id": "SYS-1", "source": "specification 4.2",
          "rationale": "strength of the root fitting", "runs": count, **split, "beyond": len(beyond), "beyond_runs": beyond[:5], "worst": largest,
-         "evidence": f"{len(broken)} of {count} runs break it, and {allowed} may"},
+         "evidence": f"{len(broken)} of {count} runs break it; at most {allowed} may"},
         {"text": "D-1: deployed, 99 % at 90 %", "output": "deployed", "kind": "status", "limit": None, "upper": False,
          "verdict": "open" if count < 230 else "passed" if lower >= 0.99 else "failed", "probability": 0.99, "confidence": 0.9,
          "observed": good / count, "guaranteed": lower, "observed_value": None, "guaranteed_value": None, "margin": None,
@@ -140,7 +140,7 @@ def scatter(rows, index, draw, name, values, rho):
             "points": dict(zip(("run", "x", "y", "order"), map(list, zip(*points))))}
 
 
-def make_set(label, seed, hinge_count=3, count=2000, shift=0.0, stalls=0.0, all_failed=False, case=None, full=True):
+def make_set(label, seed, hinge_count=3, count=2000, shift=0.0, stalls=0.0, all_failed=False, case=None, full=True, limit=215):
     rng = random.Random(seed)
     hinges = ["root", "mid", "tip"] if hinge_count == 3 else [f"h{k + 1}" for k in range(hinge_count)]
     rows = make_runs(rng, hinges, count, shift, stalls, all_failed)
@@ -149,7 +149,7 @@ def make_set(label, seed, hinge_count=3, count=2000, shift=0.0, stalls=0.0, all_
     for name, family, hinge, unit, column, nominal in columns_of(rows, hinges):
         values[name] = column
         outputs.append(numbers.output(name, family, hinge, unit, column, nominal + (shift if unit == "s" else 0), index, len(orders)))
-    requirements = requirements_of(rows, hinges, 215)
+    requirements = requirements_of(rows, hinges, limit)
     for output in outputs:
         output["limits"] = [k for k, req in enumerate(requirements) if req["output"] == output["name"]]
     effects = sensitivity_of(rows, values, hinges) if hinge_count < 10 and count > 10 else []
@@ -250,6 +250,7 @@ KINDS = {
     "cases": lambda: block([make_set("cold", 1, shift=0.4, stalls=0.03, case="cold"), make_set("ambient", 1, case="ambient"),
                             make_set("hot", 1, shift=-0.2, case="hot")]),
     "stalls": lambda: block([make_set("mock_wing", 2, count=300, stalls=0.05)]),
+    "loads": lambda: block([make_set("cold", 1, case="cold", limit=150), make_set("hot", 1, shift=-0.2, case="hot", stalls=0.02, limit=120)]),
     "all_failed": lambda: block([make_set("mock_wing", 3, count=50, all_failed=True, full=False)]),
     "single": lambda: block([make_set("mock_wing", 4, count=1, full=False)]),
     "studies": lambda: block(studies()),

@@ -84,7 +84,7 @@ class Numbers:
             self.check(row[1], one["value"] * factor, about=about)
             self.check(row[2], one["lower"] * factor, one["upper"] * factor, about=about)
         keys = ("count", "missing", "nominal", "mean", "mean_error", "std", "min", "max", "skewness", "kurtosis")
-        for place, (key, row) in enumerate(zip(keys, self.table(f"Moments of {name}"), strict=True)):
+        for place, (key, row) in enumerate(zip(keys, self.table(f"Statistics of {name}"), strict=True)):
             self.check(row[1], output[key] * (factor if 2 <= place < 8 else 1), about=f"{about}, {key}")
 
     def output_pictures(self, one_set, output, factor, about):

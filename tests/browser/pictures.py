@@ -27,7 +27,7 @@ def main(page, folder):
     driver.get(pathlib.Path(page).resolve().as_uri())
     pages.settle(driver)
     part(driver, folder / "report_first_screen.png", ".bar", ".again")
-    driver.execute_script("""const W = window.wingspread, judged = W.verdicts.judged()[0], worst = W.set().motions.findIndex(m => judged && m.label.includes(judged.requirement.output));
+    driver.execute_script("""const W = window.wingspread, judged = W.verdicts.judged()[0], worst = W.set().motions.findIndex(m => judged && m.label.includes(W.format.nameOf(judged.requirement.output)));
         W.player.span = "latches"; W.choose("motion", worst < 0 ? 0 : worst);
         const first = Math.min(...W.player.motion.latches.map(latch => latch.time)); W.player.seek(0.985 * first)""")
     pages.settle(driver)

@@ -22,6 +22,7 @@ try:
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
     import pages
+    from finding_checks import FindingChecks
     from mark_checks import MarkChecks
     from number_checks import NumberChecks, Numbers, parsed
     from pose_checks import PoseChecks
@@ -29,7 +30,7 @@ try:
 except ImportError as missing:
     raise SystemExit(f"left out: {missing}")
 
-KINDS = ("plain", "cases", "stalls", "all_failed", "single", "studies", "beside", "forty")
+KINDS = ("plain", "cases", "stalls", "loads", "all_failed", "single", "studies", "beside", "forty")
 
 
 class Page(unittest.TestCase):
@@ -69,7 +70,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(PoseChecks, MarkChecks, NumberChecks, Page):
+class Quick(PoseChecks, MarkChecks, FindingChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")

@@ -58,6 +58,20 @@ std::string wrapped(std::string_view text, std::size_t indent) {
   return lines;
 }
 
+std::string wrapped_lines(std::string_view text) {
+  std::string lines;
+  std::istringstream in{std::string(text)};
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+    const std::string words = line.substr(begin);
+    const bool fits = count_characters(line) <= table_width;
+    const bool has_columns = words.find("   ") != std::string::npos;
+    lines += fits || has_columns ? line : std::string(begin, ' ') + wrapped(words, begin + 4);
+    lines += '\n';
+  }
+  return lines;
+}
+
 std::string in_digits(double value) {
   if (std::isnan(value)) return "–";
   std::string text = fmt::format("{:#.5g}", value);
@@ -96,6 +110,16 @@ std::string percent_range(double lower, double upper) {
 std::string degrees_text(double radians) {
   const double degrees = radians * 180 / std::numbers::pi;
   return fmt::format("{:.4g}", degrees == 0 ? 0 : degrees); // no "-0"
+}
+
+std::string as_written(double value, std::string_view unit) {
+  const std::string number = fmt::format("{}", value);
+  if (unit != "rad" && unit != "rad/s")
+    return unit.empty() ? number : fmt::format("{} {}", number, unit);
+  // twelve digits: the conversion from degrees and back costs a rounding
+  const std::string degrees = fmt::format("{:.12g}", value * 180 / std::numbers::pi);
+  return degrees.size() < number.size() ? fmt::format("{} deg{}", degrees, unit.substr(3))
+                                        : fmt::format("{} {}", number, unit);
 }
 
 std::string spaced(std::string_view name) {

@@ -24,6 +24,10 @@ inline constexpr int table_width = 100;
 /// A single word may be longer.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t indent);
 
+/// Every line of a text, broken at blanks to stay within `table_width`; what goes on below is indented by four columns more
+/// than the line. A line with columns (three blanks in a row) stays as it is.
+[[nodiscard]] std::string wrapped_lines(std::string_view text);
+
 /// Five significant digits with trailing zeros, so that columns line up; "–" of NaN.
 [[nodiscard]] std::string in_digits(double value);
 
@@ -38,6 +42,10 @@ inline constexpr int table_width = 100;
 
 /// Four digits of an angle in degrees: "90" of π/2.
 [[nodiscard]] std::string degrees_text(double radians);
+
+/// A value as its author wrote it: an angle or a rate in degrees where that number is shorter, "8 deg/s" of
+/// 0.13962634015954636 rad/s; else all its digits, "1.5 rad/s".
+[[nodiscard]] std::string as_written(double value, std::string_view unit);
 
 /// "timed out" of "timed_out".
 [[nodiscard]] std::string spaced(std::string_view name);

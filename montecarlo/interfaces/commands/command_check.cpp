@@ -1,6 +1,7 @@
 #include "montecarlo/engine/runs/run_cost.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
@@ -79,7 +80,7 @@ int check(const CheckOptions& options) {
   const std::variant<Scene, Campaign> read = read_changed(options);
   const std::vector<InputWarning> warnings = check_file(read, options.file);
   if (options.strict) print_warnings(warnings, true);
-  fmt::print("{}", std::visit([](const auto& spec) { return text_of(spec); }, read));
+  fmt::print("{}", wrapped_lines(std::visit([](const auto& spec) { return text_of(spec); }, read)));
   draw(options.draw, std::visit([](const auto& spec) { return scene_of(spec); }, read));
   print_warnings(warnings, false); // last, where the user sees them
   return exit_code::done;

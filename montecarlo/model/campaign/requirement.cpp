@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
 
 #include <fmt/format.h>
@@ -210,9 +211,8 @@ std::string to_string(const Requirement& requirement) {
   std::string text = requirement.name.empty() ? "" : requirement.name + ": ";
   text += requirement.absolute ? '|' + requirement.output + '|' : requirement.output;
   const std::string unit = parse_output_name(requirement.output).unit;
-  const std::string after = unit.empty() ? "" : ' ' + unit;
-  if (requirement.max) text += fmt::format(" ≤ {}{}", *requirement.max, after);
-  if (requirement.min) text += fmt::format(" ≥ {}{}", *requirement.min, after);
+  if (requirement.max) text += " ≤ " + as_written(*requirement.max, unit);
+  if (requirement.min) text += " ≥ " + as_written(*requirement.min, unit);
   text += fmt::format(", {:.10g} % at {:.10g} %", 100 * requirement.probability,
                       100 * requirement.confidence);
   return requirement.group.empty() ? text : text + " in group " + requirement.group;

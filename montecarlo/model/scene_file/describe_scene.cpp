@@ -44,9 +44,9 @@ std::string describe_base(const Base& base) {
   std::string text(base_motion_names[static_cast<std::size_t>(base.motion)]);
   if (base.motion == BaseMotion::fixed) return text;
   if (base.motion == BaseMotion::free)
-    text +=
-        fmt::format(", mass {} kg, inertia {} kg·m², position {} m, velocity {} m/s", base.mass,
-                    base.inertia, describe_vector(base.position), describe_vector(base.velocity));
+    text += fmt::format(", mass {:.6g} kg, inertia {:.6g} kg·m², position {} m, velocity {} m/s",
+                        base.mass, base.inertia, describe_vector(base.position),
+                        describe_vector(base.velocity));
   else
     text += describe_prescribed(base);
   text += fmt::format(", angle {} deg", degrees_text(base.angle));
@@ -210,7 +210,7 @@ std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
 
 std::string describe_body(const Body& body) {
   std::string text =
-      fmt::format("{}: mass {} kg, inertia {} kg·m²", body.name, body.mass, body.inertia);
+      fmt::format("{}: mass {:.6g} kg, inertia {:.6g} kg·m²", body.name, body.mass, body.inertia);
   if (const auto& plate = body.plate)
     text += fmt::format("; plate from {} to {} m, {} m wide, drag coefficient {}",
                         describe_vector(plate->from), describe_vector(plate->to), plate->width,

@@ -79,7 +79,7 @@ void add_worst_of(const PageSource& source, const Verdict& verdict, Choice& choi
   const BrokenRuns broken = broken_runs(verdict, source.results, 1);
   const std::string label = "worst: " + name_of(verdict.requirement);
   if (broken.worst)
-    choice.add(label, broken.beyond > 0 ? "beyond the limit by most" : "nearest to the limit",
+    choice.add(label, broken.beyond > 0 ? "farthest beyond the limit" : "nearest to the limit",
                broken.worst->run);
   else if (!broken.not_deployed_runs.empty())
     choice.add(label, "did not deploy, with the fewest latched hinges",

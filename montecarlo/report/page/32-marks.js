@@ -183,7 +183,8 @@
     for (const line of lines) {
       if (line.x < box.left - 0.5 || line.x > box.right + 0.5) continue;
       const wide = M.textWidth(line.text, 12) + 12,
-        rightwards = line.x + wide < box.right;
+        crosses = lines.some((one) => one.x > line.x && one.x < line.x + wide), // a label lies on no other line
+        rightwards = line.x + wide < box.right && !(crosses && line.x - wide > box.left);
       const from = rightwards ? line.x : line.x - wide;
       let row = 0;
       while (taken.some((one) => one.row === row && from < one.to && from + wide > one.from)) ++row;

@@ -126,6 +126,43 @@
     });
     return sentences.filter(Boolean).map((text) => h("p.lead", text));
   }
+  // For each requirement that values beyond its limit break: where, how many runs, by how much, and what moves the output.
+  function findings(rows) {
+    const seen = new Set();
+    const items = rows
+      .filter(({ requirement: one }) => verdictOf(one.verdict) === "failed" && W.isNumber(one.limit) && one.beyond)
+      .filter(({ requirement: one }) => !seen.has(keyOf(one)) && seen.add(keyOf(one)))
+      .map((row) => finding(row, alsoIn(rows, row)));
+    if (!items.length) return null;
+    const more = items.splice(4).length;
+    return [h("ul.findings", items), more ? h("p.note", `${F.counted(more, "more requirement")} below.`) : null];
+  }
+  // The other sets in which the requirement of a row fails.
+  const alsoIn = (rows, { requirement, at }) =>
+    rows
+      .filter((row) => row.at !== at && keyOf(row.requirement) === keyOf(requirement) && verdictOf(row.requirement.verdict) === "failed")
+      .map((row) => row.set.label);
+  function finding({ requirement: one, set, at }, also) {
+    const several = W.sets.length > 1,
+      side = one.upper ? "above" : "below",
+      limit = F.written(one.limit, unitOf(one, set)),
+      name = F.nameOf(one.output);
+    const known = W.isNumber(one.guaranteed_value) && W.isNumber(one.margin) && one.margin < 0;
+    const runs = (one.beyond_runs || []).map((each) => each.run);
+    return h(
+      "li",
+      h("b", shortOf(one)),
+      `: ${several ? `in ${set.label} ` : ""}${F.count(one.beyond)} of ${F.runs(set.runs)} ${one.beyond === 1 ? "has" : "have"} ${one.abs ? `|${name}|` : name} ${side} ${limit}. `,
+      known
+        ? `With ${F.given(100 * one.confidence)} % confidence ${F.given(100 * one.probability)} % of all wings stay ${one.upper ? "below" : "above"} ${valueText(one.guaranteed_value, one, set)}: ${marginText({ ...one, margin: Math.abs(one.margin) }, set).replace("+", "")} too ${one.upper ? "much" : "little"}. `
+        : null,
+      also.length ? `Also fails in ${listed(also)}. ` : null,
+      runs.length ? [`The worst run is `, h("button.run", { onclick: () => W.selectRun(at, runs[0]) }, String(runs[0])), ". "] : null,
+      W.influences(set, one.output).length
+        ? [h("a", { href: "#why" }, "Causes"), ": ", W.influences(set, one.output)]
+        : null,
+    );
+  }
   const listed = (names) =>
     names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}` : names[0];
 
@@ -211,7 +248,10 @@
   const runButtons = (runs, at) =>
     (runs || [])
       .slice(0, 3)
-      .flatMap((run, k) => [k ? ", " : " ", h("button.run", { onclick: () => W.selectRun(at, run) }, String(run))]);
+      .flatMap((run, k, all) => [
+        " ",
+        h("span.nowrap", h("button.run", { onclick: () => W.selectRun(at, run) }, String(run)), k + 1 < all.length ? "," : null),
+      ]);
   // How many runs break a requirement, by cause, each with the runs that tell most.
   function brokenRuns(one, set, at) {
     const first = (count, runs) => (count > Math.min(3, (runs || []).length) ? " worst:" : count === 1 ? " run" : " runs");
@@ -297,7 +337,7 @@
       "Verdict and margin by case",
       ["Requirement", ...W.sets.map((set) => number(set.label))],
       texts.map((text) => [words(text), ...W.sets.map((set, at) => cell(text, at))]),
-      { class: "matrix", showCaption: true },
+      { class: "matrix", showCaption: true, stacks: true },
     );
   }
 
@@ -319,11 +359,12 @@
     return [
       headline(rows),
       cause(rows),
+      findings(rows),
       several ? [matrix(rows), h("h3", "The worst case of each requirement")] : null,
       requirementTable(shown),
       h(
         "p.note",
-        "99 % at 90 %: at least 99 % of all wings keep the limit, shown with a confidence of 90 %. pass: the runs show it. fail: enough runs were made and do not show it, or they disprove it. undecided: too few runs. ● observed: the quantile (or share) of these runs. ┃ guaranteed: its one-sided bound at the stated confidence; the requirement passes when the bound lies on the shaded side of the limit. Margin: from the guaranteed value to the limit, or from the observed one where too few runs guarantee any. Shares stand on a logarithmic scale: 90, 99, 99.9 % are equally far apart.",
+        "“99 % at 90 %” requires that 99 % of all wings keep the limit, shown with a confidence of 90 %. Pass: the runs show it. Fail: the runs are enough and do not show it; “disproved”: they show that fewer wings keep the limit. Undecided: the runs are too few. ● Observed: the quantile (or the share) of these runs. ┃ Guaranteed: the bound of that quantile at the required confidence; on the shaded side of the limit the requirement passes. Margin: the distance from the guaranteed value to the limit; “observed”: from the observed value, because the runs are too few to guarantee one. The margin of a share is in percentage points, and its picture is logarithmic: 90, 99, 99.9 % are equally far apart.",
       ),
       more,
     ];

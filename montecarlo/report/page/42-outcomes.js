@@ -67,11 +67,14 @@
     ];
   }
   // A reason without the clauses whose numbers differ from run to run: "lacks … J".
+  // "energy: no hinge can reach its latch" names its proof first.
   const common = (reason) =>
     reason
       .split(", ")
       .filter((clause, at) => !at || !clause.includes("…"))
-      .join(", ");
+      .join(", ")
+      .replace(/^energy: (.*)$/, "$1: too little energy")
+      .replace(/^every hinge sticks, and .*$/, "every hinge sticks, under loads that no longer change");
   function reasons(set, label) {
     if (!(set.reasons || []).length) return null;
     return h(
@@ -299,13 +302,20 @@
       : null;
   }
 
+  // "2 folders (A, B) of 3 cases (cold, ambient, hot)", "3 cases: cold, ambient, hot".
+  function extent() {
+    const distinct = (read) => [...new Set(W.sets.map(read))],
+      cases = distinct((set) => set.case).filter(Boolean),
+      folders = distinct((set) => (set.case ? set.label.split(" · ").slice(0, -1).join(" · ") : set.label)).filter(Boolean);
+    if (cases.length && folders.length > 1 && W.sets.length === cases.length * folders.length)
+      return `${folders.length} folders (${folders.join(", ")}) of ${cases.length} cases (${cases.join(", ")})`;
+    return `${W.sets.length} ${cases.length ? "cases" : "folders"}: ${W.sets.map((set) => set.label).join(", ")}`;
+  }
   function subtitle() {
     const set = W.set(),
       one = (read) => [...new Set(W.sets.map(read))];
     const facts = [
-      W.sets.length > 1
-        ? `${W.sets.length} ${W.sets.some((each) => each.case) ? "cases" : "folders"}: ${W.sets.map((each) => each.label).join(", ")}`
-        : null,
+      W.sets.length > 1 ? extent() : null,
       W.onlyStudies
         ? null
         : one((each) => each.runs).length === 1

@@ -161,9 +161,9 @@
       ["minimum", value(output.min)],
       ["maximum", value(output.max)],
       ["skewness", F.fixed(output.skewness, 2)],
-      ["kurtosis", F.fixed(output.kurtosis, 2)],
+      ["excess kurtosis", F.fixed(output.kurtosis, 2)],
     ];
-    return W.table(`Moments of ${F.name(output)}`, ["Statistic", number("Value")], rows, {
+    return W.table(`Statistics of ${F.name(output)}`, ["Statistic", number("Value")], rows, {
       showCaption: true,
     });
   }

@@ -7,8 +7,21 @@
   const player = (W.player = { time: 0, playing: false, speed: 1, quantity: "moments", span: "latches", motion: null });
   const listeners = [];
 
+  const lastTime = () => player.motion.t[player.motion.t.length - 1];
+  // The displayed interval of time: the whole run, or the latches with a margin on both sides.
+  function interval() {
+    const { motion } = player,
+      whole = d3.extent(motion.t),
+      latches = d3.extent(motion.latches || [], (latch) => latch.time);
+    if (player.span === "whole" || latches[0] === undefined) return whole;
+    const room = Math.max(0.06 * latches[1], 0.25 * (latches[1] - latches[0]));
+    return [Math.max(whole[0], latches[0] - room), Math.min(whole[1], latches[1] + 5 * room)];
+  }
+  // Where play stops: at the end of the displayed interval, or of the run for a time beyond it.
+  const stopTime = () => (player.time <= interval()[1] ? interval()[1] : lastTime());
+
   function seek(time) {
-    const end = player.motion.t[player.motion.t.length - 1];
+    const end = lastTime();
     player.time = Math.max(player.motion.t[0], Math.min(end, time));
     listeners.forEach((listener) => listener());
   }
@@ -18,20 +31,20 @@
     if (!player.playing) return;
     const passed = last === null ? 0 : (now - last) / 1000;
     last = now;
-    const end = player.motion.t[player.motion.t.length - 1];
+    const end = stopTime();
     if (calm()) {
       // for readers who prefer reduced motion: two stills a second, each a twentieth of the run after the previous one
       sinceStep += passed;
       if (sinceStep > 0.5) {
         sinceStep = 0;
-        seek(player.time + end / 20);
+        seek(Math.min(end, player.time + end / 20));
       }
-    } else seek(player.time + passed * player.speed);
+    } else seek(Math.min(end, player.time + passed * player.speed));
     if (player.time >= end) play(false);
     else requestAnimationFrame(frame);
   }
   function play(on) {
-    if (on && player.time >= player.motion.t[player.motion.t.length - 1]) seek(player.motion.t[0]);
+    if (on && (player.time >= lastTime() || player.time === interval()[1])) seek(player.motion.t[0]);
     player.playing = on;
     last = null;
     if (on) requestAnimationFrame(frame);
@@ -44,7 +57,7 @@
     return first === undefined ? 0.4 * motion.t[motion.t.length - 1] : Math.max(0.8 * first, 0.35 * last);
   }
   function byKeys(event) {
-    const end = player.motion.t[player.motion.t.length - 1],
+    const end = stopTime(),
       inside = event.target.matches("input, select, button, summary, .scroll");
     const actions = {
       " ": () => play(!player.playing),
@@ -52,7 +65,7 @@
       ArrowRight: () => seek(player.time + end / 200),
       ArrowLeft: () => seek(player.time - end / 200),
       Home: () => seek(0),
-      End: () => seek(end),
+      End: () => seek(lastTime()),
     };
     if (!actions[event.key] || (inside && event.key !== "k")) return;
     actions[event.key]();
@@ -67,5 +80,5 @@
     player.time = Math.min(player.time, motion.t[motion.t.length - 1]);
     if (!player.time) player.time = opening(motion);
   }
-  Object.assign(player, { seek, play, byKeys, load, listen: (listener) => listeners.push(listener) });
+  Object.assign(player, { seek, play, byKeys, load, interval, stopTime, listen: (listener) => listeners.push(listener) });
 })();

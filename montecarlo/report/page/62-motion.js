@@ -105,7 +105,7 @@
           bottom: top + Math.max(210, Math.min(330, width * 0.5)),
         };
         y.range([box.bottom, box.top]);
-        x = d3.scaleLinear(spanOf(motion), [box.left, box.right]);
+        x = d3.scaleLinear(player.interval(), [box.left, box.right]);
         M.axes(svg, box, x, y, { xText: "time (s)", yText: `${text.toLowerCase()} (${unit})` });
         for (const latch of motion.latches || [])
           M.upright(svg, "line.latch-line", x(latch.time), box).style("stroke", colour(latch.hinge));
@@ -143,15 +143,6 @@
     return element;
   }
 
-  // The displayed interval of time: the whole run, or the latches with a margin on both sides.
-  function spanOf(motion) {
-    const whole = d3.extent(motion.t),
-      latches = d3.extent(motion.latches || [], (latch) => latch.time);
-    if (player.span === "whole" || latches[0] === undefined) return whole;
-    const room = Math.max(0.06 * latches[1], 0.25 * (latches[1] - latches[0]));
-    return [Math.max(whole[0], latches[0] - room), Math.min(whole[1], latches[1] + 5 * room)];
-  }
-
   // The hinges' state at the cursor.
   function readout(wing, motion) {
     const cells = wing.hinges.map(() => d3.range(4).map(() => document.createTextNode("")));
@@ -182,13 +173,12 @@
 
   function controls(motion) {
     const end = motion.t[motion.t.length - 1],
-      step = end / 200,
       name = (event) => W.set().wing.hinges[event.hinge].name;
     const button = h("button.play", { onclick: () => player.play(!player.playing) }, "Play");
     const scrub = h("input.scrub", {
       type: "range",
       min: motion.t[0],
-      max: end,
+      max: player.stopTime(),
       step: "any",
       value: player.time,
       "aria-label": "Time",
@@ -198,7 +188,7 @@
       },
       onkeydown: (event) => {
         if (event.key === "ArrowRight" || event.key === "ArrowLeft") {
-          player.seek(player.time + (event.key === "ArrowRight" ? step : -step));
+          player.seek(player.time + (event.key === "ArrowRight" ? 1 : -1) * (player.stopTime() / 200));
           event.preventDefault();
         }
       },
@@ -212,9 +202,11 @@
     const move = function () {
       if (button.textContent !== (player.playing ? "Pause" : "Play"))
         button.textContent = player.playing ? "Pause" : "Play";
+      const stop = player.stopTime();
+      scrub.max = stop;
       scrub.value = player.time;
       scrub.setAttribute("aria-valuetext", `${F.fixed(player.time, 2)} seconds`);
-      clock.textContent = `${F.fixed(player.time, 3)} of ${F.fixed(end, 2)} s`;
+      clock.textContent = `${F.fixed(player.time, 3)} of ${F.fixed(stop, 2)} s`;
     };
     player.listen(move);
     move();
@@ -270,6 +262,7 @@
     const choose = (key) => (value) => {
       player[key] = value;
       show();
+      player.seek(player.time); // the slider's end follows the displayed interval
     };
     const show = () =>
       W.fill(

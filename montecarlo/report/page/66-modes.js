@@ -105,8 +105,8 @@
       W.section("modes"),
       h(
         "p",
-        "Small swings of the nominal wing about rest, all latches engaged: without Coulomb friction, backlash and air. ",
-        `Every picture swings once in ${SECONDS} seconds, whatever its frequency.`,
+        "Small vibrations of the deployed nominal wing with all latches engaged, without Coulomb friction, backlash and air. ",
+        `The pictures move once in ${SECONDS} seconds, whatever the mode's frequency.`,
       ),
       h("p.controls", player.button),
       h(

@@ -109,9 +109,9 @@
   }
 
   // What an output increases and decreases with most, of the effects that the bounds show, and what those dispersions act on.
-  function sentence(set, name) {
+  function influences(set, name) {
     const { kind, rows } = effectsOf(set, name);
-    if (kind !== "rank") return null;
+    if (kind !== "rank") return [];
     const strength = (one) => (Math.abs(one.prcc) > Math.abs(one.spearman) ? one.prcc : one.spearman),
       shown = (one) => one.spearman_lower * one.spearman_upper > 0 || one.prcc_lower * one.prcc_upper > 0;
     const acts = function (draw) {
@@ -126,13 +126,12 @@
       return one ? [text, h("b", one.draw), acts(one.draw)] : null;
     };
     const parts = [most(1, "increases most with "), most(-1, "decreases most with ")].filter(Boolean);
-    if (!parts.length) return null;
-    return h(
-      "p.effects",
-      `${F.nameOf(name)} `,
-      parts.map((part, at) => [at ? " and " : "", part]),
-      ".",
-    );
+    return parts.length ? [`${F.nameOf(name)} `, parts.map((part, at) => [at ? " and " : "", part]), "."] : [];
+  }
+  W.influences = influences;
+  function sentence(set, name) {
+    const found = influences(set, name);
+    return found.length ? h("p.effects", found) : null;
   }
 
   // Dispersions without a visible effect: they may act on the wrong parameter.

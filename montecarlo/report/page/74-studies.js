@@ -106,6 +106,7 @@
       W.figure({
         title: `Static margin of torque along the travel${kind ? ` (${kind})` : ""}`,
         class: "static-margins",
+        printed: 860,
         note: `Thick: nominal.${W.isNumber(share) ? ` Thin: the ${quantile} over ${F.count(draws)} draws.` : ""} 0 is enough.${hinges.length > part.length ? ` The picture has the first ${part.length} of ${hinges.length} hinges; the table has all.` : ""}`,
         description: () =>
           hinges

@@ -38,7 +38,7 @@
         // The first quarter of the points may have very wide bounds, so only the others set the scale.
         const later = rows.slice(Math.floor(rows.length / 4)),
           y = M.linear([...later.flatMap((row) => row.slice(1)), ...rows.map((row) => row[1])], [0, 1], 0.06);
-        const box = M.boxFor(y, width, top, 220, 14);
+        const box = M.boxFor(y, width, top, 220, Math.max(14, M.textWidth(F.count(d3.max(rows, (row) => row[0])), 11.5) / 2 + 3));
         y.clamp(true);
         const span = d3.extent(rows, (row) => row[0]),
           x = d3.scaleLog(span[0] === span[1] ? [span[0] / 2, span[1] * 2] : span, [box.left, box.right]);
@@ -66,7 +66,7 @@
   function convergence() {
     const set = W.set(),
       output = W.output(set);
-    if (!output || !output.convergence || !(output.convergence.runs || []).length)
+    if (!output || !output.convergence || (output.convergence.runs || []).length < 2)
       return W.fill(
         host,
         h(

@@ -39,6 +39,7 @@
       : W.figure({
           title: `Change of the means: ${W.sets[j].label} against ${W.sets[i].label}`,
           class: "forest",
+          printed: 860,
           note: `${comparison.paired ? `Paired over the ${F.count(comparison.runs)} runs of both sets with the same draws, so scatter between runs cancels. Each difference is over the runs that have the output in both sets.` : "Not paired: the sets have different draws."}${rows.length > drawn.length ? ` The picture has the ${drawn.length} largest of ${rows.length} changes; the table has all.` : ""}`,
           description: () =>
             drawn
@@ -260,7 +261,7 @@
         ? [
             h(
               "p.lead",
-              "Differences of the means with confidence intervals. Filled point: the interval excludes zero. |…|: of magnitudes. “By case, overlaid” above compares the distributions.",
+              "Differences of the means with confidence intervals. Filled point: the interval excludes zero. |Output|: its magnitudes are compared. “By case, overlaid” above compares the distributions.",
             ),
             comparisons.map((one, at) => compared(one, folders.length ? one.folders : at < 2)),
           ]

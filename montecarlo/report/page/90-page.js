@@ -88,7 +88,14 @@
     return;
   }
   // The printed contents: the sections and their parts, and the document's number at the foot of each page.
+  // Chromium cannot tell the number of a page to its contents (it lacks target-counter): studies/plots/print_report.py
+  // prints twice, and the second time gives them in the page's address, "#pages=verdicts:1,outputs:3".
+  function pageNumbers() {
+    const given = /^#pages=(.*)$/.exec(decodeURIComponent(location.hash));
+    return new Map(given ? given[1].split(",").map((entry) => entry.split(":")) : []);
+  }
   function contents() {
+    const numbers = pageNumbers();
     const sections = [...document.querySelectorAll("main > section:not([hidden])")];
     const parts = (section) =>
       [...section.querySelectorAll("h3")].filter((one) => !one.closest("details:not([open])")).map((one) => one.firstChild.textContent);
@@ -100,6 +107,7 @@
         sections.map((section) =>
           h(
             "li",
+            numbers.has(section.id) ? h("span.page", numbers.get(section.id)) : null,
             h("a", { href: `#${section.id}` }, section.querySelector("h2").textContent),
             h("span.faint", parts(section).length ? `: ${[...new Set(parts(section))].join(" · ")}` : ""),
           ),
@@ -124,6 +132,16 @@
     contents();
   });
   window.addEventListener("afterprint", () => opened.splice(0).forEach((one) => (one.open = false)));
+
+  // "largest tip.peak_moment" in words, as the output is named everywhere else.
+  const inWords = (set, text) =>
+    text &&
+    text.replace(/^(largest|least|worst:) (\S+)/, (all, most, name) =>
+      W.outputsOf(set).some((output) => output.name === name) ? `${most} ${W.format.nameOf(name)}` : all,
+    );
+  for (const set of W.sets)
+    for (const motion of set.motions || [])
+      Object.assign(motion, { label: inWords(set, motion.label), why: inWords(set, motion.why) });
 
   theme();
   angles();

@@ -18,10 +18,9 @@ constexpr std::array outputs{
           "the hinge's relative rate at that instant; the sign is the sense of rotation, "
           "counter-clockwise positive"},
     Entry{"HINGE.rate_at.OTHER", "the hinge's relative rate when hinge OTHER latches, signed"},
-    Entry{
-        "HINGE.peak_moment",
-        "largest |moment| about the hinge's axis over the whole run, including the instants after "
-        "each engagement: springs, harness, friction, dampers, motor, stops, loops and latch"},
+    Entry{"HINGE.peak_moment", "largest |moment| that the hinge transmits about its axis in the "
+                               "whole run: springs, harness, "
+                               "friction, dampers, motor, stops, loops and latch together"},
     Entry{"HINGE.peak_force", "largest force across the hinge over the whole run"},
     Entry{
         "HINGE.overtravel",

@@ -111,7 +111,7 @@ std::string final_state(const Scene& scene, const Outcome& outcome) {
 std::string warnings(const Scene& scene, const Outcome& outcome) {
   std::string text;
   for (const std::string& line : outcome_warnings(scene, outcome))
-    text += fmt::format("  {}\n", line);
+    text += "  " + wrapped(line, 2) + '\n';
   return text.empty() ? "" : "\nWARNING\n" + text;
 }
 

@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
+#include "montecarlo/results/summary/warnings.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -205,6 +206,20 @@ std::string accuracy_line(const Summary& summary) {
   return line;
 }
 
+/// The line of the case with the largest error; empty if no case has repeated runs.
+std::string worst_accuracy(CompactCases cases) {
+  const CaseSummary* worst = nullptr;
+  double largest = -1;
+  for (const CaseSummary& each : cases) {
+    if (!each.summary.accuracy) continue;
+    const double share = largest_share(each.summary);
+    if (worst && !(share > largest)) continue;
+    worst = &each, largest = std::isnan(share) ? -1 : share;
+  }
+  if (!worst) return "";
+  return "\nACCURACY  " + wrapped(worst->name + ": " + accuracy_line(worst->summary), 10) + '\n';
+}
+
 /// How the errors were measured, and for which share of all runs they hold.
 std::string accuracy_note(const Summary& summary) {
   const Accuracy& found = *summary.accuracy;
@@ -275,11 +290,16 @@ std::string compact_cases_table(const std::vector<CaseSummary>& cases, std::stri
     text += compact_outcomes(block) + compact_outputs(cases, block) + compact_requirements(block);
   }
   if (const std::string quiet = quiet_outputs(cases); !quiet.empty()) text += '\n' + quiet;
+  text += worst_accuracy(cases) + warning_lines(warnings(cases));
   for (const CaseSummary& each : cases)
     if (each.partial) text += fmt::format("\n{} lacks runs of the campaign\n", each.name);
-  return text + fmt::format("\nFILES  {}: cases.json, and a results folder for each case; --all "
-                            "prints every statistic\n",
-                            folder);
+  return text + "\nFILES  " +
+         wrapped(
+             fmt::format("{}: cases.json, and a results folder for each case; --all prints every "
+                         "statistic",
+                         folder),
+             7) +
+         '\n';
 }
 
 } // namespace wingspread

@@ -5,6 +5,7 @@
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/model/campaign/campaign.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
+#include "montecarlo/results/summary/warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -190,7 +191,7 @@ std::string cases_table(const std::vector<CaseSummary>& cases, std::string_view 
   }
   for (const CaseSummary& each : cases)
     if (each.partial) text += fmt::format("\n{} lacks runs of the campaign\n", each.name);
-  return text +
+  return text + warning_lines(warnings(cases)) +
          fmt::format("\nFILES  {}: cases.json, and a results folder for each case\n", folder);
 }
 

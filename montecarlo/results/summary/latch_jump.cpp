@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace wingspread {
@@ -21,14 +22,15 @@ std::vector<LatchJump> latch_jumps(const Scene& scene, const Outcome& outcome) {
 }
 
 std::string warning(std::span<const LatchJump> jumps) {
-  std::vector<std::string> peaks;
+  std::vector<std::string> hinges;
   for (const LatchJump& jump : jumps)
-    peaks.push_back(
-        fmt::format("{}.peak_moment ({:.4g} of {:.4g} N·m)", jump.hinge, jump.moment, jump.peak));
-  return fmt::format("where a latch engages, its moment jumps to damping times rate, which decides "
-                     "{}; a latch with "
-                     "\"dissipation\" in place of \"damping\" has no jump",
-                     fmt::join(peaks, ", "));
+    // a jump against the spring's moment exceeds the peak, by a little
+    hinges.push_back(
+        fmt::format("{} ({:.0f} %)", jump.hinge, std::min(100.0, 100 * jump.moment / jump.peak)));
+  return fmt::format("latch damping makes most of the peak moment of {}: as a latch engages, its "
+                     "moment jumps to damping times rate; a latch with \"dissipation\" in place of "
+                     "\"damping\" has no jump",
+                     fmt::join(hinges, ", "));
 }
 
 } // namespace wingspread

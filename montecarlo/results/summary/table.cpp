@@ -267,13 +267,6 @@ std::string requirements(const Summary& summary, std::string_view folder) {
   return text;
 }
 
-std::string warning_lines(const Summary& summary) {
-  const std::vector<std::string> lines = warnings(summary);
-  std::string text = lines.empty() ? "" : "\nWARNING\n";
-  for (const std::string& line : lines) text += "  " + wrapped(line, 2) + '\n';
-  return text;
-}
-
 /// The width as the goal states it: a share of the quantile, or in the output's unit.
 std::string found_text(const GoalFound& found) {
   const WidthGoal* goal = std::get_if<WidthGoal>(&found.goal);
@@ -330,7 +323,7 @@ std::string summary_table(const Summary& summary, std::string_view title, std::s
   return std::string(title) + '\n' + outcomes(summary, all) + reasons(summary) +
          stalled_at(summary) + latch_orders(summary) + outputs(summary, all) +
          accuracy_text(summary, all) + tolerance(summary) + requirements(summary, folder) +
-         stopping(summary) + warning_lines(summary) + files(summary, folder);
+         stopping(summary) + warning_lines(warnings(summary)) + files(summary, folder);
 }
 
 std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,

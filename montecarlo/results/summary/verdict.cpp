@@ -1,5 +1,6 @@
 #include "montecarlo/results/summary/verdict.hpp"
 
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
@@ -262,15 +263,15 @@ std::string evidence(const Verdict& verdict) {
                          verdict.cut == 1 ? "its peaks" : "their peaks");
   if (verdict.allowed) {
     const bool open = verdict.decision == Decision::fail && !verdict.disproved;
-    return fmt::format("{}, and {} may{}{}", found, *verdict.allowed,
+    return fmt::format("{}; at most {} may{}{}", found, *verdict.allowed,
                        open ? ": not shown, and not disproved either" : "", joint_risk(verdict));
   }
   if (verdict.disproved) return found + ": disproved";
   const std::string least = verdict.least_runs
                                 ? fmt::format("it takes {}", *verdict.least_runs)
                                 : fmt::format("it takes more than {}", most_runs_sized);
-  return fmt::format("{} runs cannot show it, even if none breaks it: {} ({})", verdict.runs, least,
-                     found);
+  return fmt::format("{} cannot show it, even if none breaks it: {} ({})",
+                     counted(verdict.runs, "run", "runs"), least, found);
 }
 
 std::string replay_command(std::string_view folder, long run) {

@@ -132,7 +132,7 @@ struct GroupVerdict {
 /// In order of first mention.
 [[nodiscard]] std::vector<GroupVerdict> judge_groups(std::span<const Verdict> verdicts);
 
-/// The reason for the verdict: "25 of 10000 runs break it, and 19 may".
+/// The reason for the verdict: "25 of 10000 runs break it; at most 19 may".
 [[nodiscard]] std::string evidence(const Verdict& verdict);
 
 /// "wingspread replay DIR --run 17".

@@ -1,6 +1,12 @@
 #include "montecarlo/results/summary/warnings.hpp"
 
+#include "montecarlo/foundation/formats/text_layout.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
 
 namespace wingspread {
 namespace {
@@ -24,6 +30,26 @@ std::string warn_of_moved_runs(const Accuracy& accuracy) {
                      "than 1 %: the tolerance does not decide it; try a smaller rtol",
                      accuracy.moved.size(), accuracy.runs);
 }
+
+/// The text without the digits of its numbers: equal for warnings of the same kind about the same parts.
+std::string kind_of(std::string_view text) {
+  std::string kind;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    // digits of a name ("panel_2") follow a letter or an underscore, those of a number do not
+    const bool digit = std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+    const bool in_name =
+        i > 0 && (std::isalpha(static_cast<unsigned char>(text[i - 1])) != 0 || text[i - 1] == '_');
+    if (!digit || in_name) kind += text[i];
+  }
+  return kind;
+}
+
+/// A warning, and the cases that have it.
+struct SharedWarning {
+  std::string text;
+  std::vector<std::string> cases;
+  bool same = true; ///< the numbers are equal in all of them
+};
 
 } // namespace
 
@@ -50,6 +76,32 @@ std::vector<std::string> warnings(const Summary& summary) {
   for (const Verdict& verdict : summary.requirements)
     if (verdict.beyond_zero) lines.push_back(warn_of_far_limit(verdict));
   return lines;
+}
+
+std::vector<std::string> warnings(std::span<const CaseSummary> cases) {
+  std::vector<SharedWarning> found;
+  for (const CaseSummary& each : cases)
+    for (const std::string& text : warnings(each.summary)) {
+      const auto known = std::ranges::find_if(
+          found, [&](const SharedWarning& other) { return kind_of(other.text) == kind_of(text); });
+      if (known == found.end())
+        found.push_back({text, {each.name}});
+      else
+        known->cases.push_back(each.name), known->same = known->same && known->text == text;
+    }
+  std::vector<std::string> lines;
+  for (const auto& [text, names, same] : found)
+    lines.push_back(fmt::format(
+        "{} ({}{})", text,
+        names.size() == cases.size() ? "every case" : fmt::format("{}", fmt::join(names, ", ")),
+        same ? "" : "; numbers of " + names.front()));
+  return lines;
+}
+
+std::string warning_lines(const std::vector<std::string>& lines) {
+  std::string text = lines.empty() ? "" : "\nWARNING\n";
+  for (const std::string& line : lines) text += "  " + wrapped(line, 2) + '\n';
+  return text;
 }
 
 } // namespace wingspread

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 using namespace wingspread;
@@ -48,12 +49,29 @@ TEST_CASE("numbers in five digits", "[text_layout]") {
   CHECK(in_digits(std::numeric_limits<double>::quiet_NaN()) == "–");
 }
 
+TEST_CASE("angles and rates are printed as their author wrote them", "[text_layout]") {
+  CHECK(as_written(5 * std::numbers::pi / 180, "rad/s") == "5 deg/s");
+  CHECK(as_written(-12.5 * std::numbers::pi / 180, "rad") == "-12.5 deg");
+  CHECK(as_written(1.5, "rad/s") == "1.5 rad/s"); // 85.943669… deg/s
+  CHECK(as_written(0.1, "s") == "0.1 s");
+  CHECK(as_written(3, "") == "3");
+}
+
 TEST_CASE("text that goes on a line is broken at blanks, and no word is cut", "[text_layout]") {
   CHECK(wrapped("", 3).empty());
   CHECK(wrapped("a  b", 3) == "a b");
   const std::string word(60, 'w');
   CHECK(wrapped(word + " x " + word, 10) == word + " x\n" + std::string(10, ' ') + word);
   CHECK(wrapped(word + word, 10) == word + word);
+}
+
+TEST_CASE("long lines of a text go on below, deeper", "[text_layout]") {
+  const std::string word(40, 'w'), short_line = "  a b\n";
+  CHECK(wrapped_lines(short_line) == short_line);
+  CHECK(wrapped_lines("  " + word + ' ' + word + ' ' + word + "\nend") ==
+        "  " + word + ' ' + word + "\n      " + word + "\nend\n");
+  const std::string columns = word + "   " + word + "   " + word + '\n';
+  CHECK(wrapped_lines(columns) == columns);
 }
 
 TEST_CASE("shares in percent, and counted things", "[text_layout]") {

@@ -36,6 +36,10 @@ TEST_CASE("Requirements are read, written in full and said in words", "[requirem
   CHECK(write_requirements(requirements) == two());
   CHECK(to_string(requirements[0]) == "root.peak_moment ≤ 400 N·m, 99.73 % at 90 %");
   CHECK(to_string(requirements[1]) == "M-12: root.latch_rate ≥ -1.5 rad/s, 99 % at 95 %");
+  const Json degrees = parse_json(
+      R"([{ "output": "root.latch_rate", "max": "8 deg/s", "probability": 0.99, "confidence": 0.9 }])");
+  CHECK(to_string(read_list_of_requirements(degrees)[0]) ==
+        "root.latch_rate ≤ 8 deg/s, 99 % at 90 %");
   const Json deployed =
       parse_json(R"([{ "output": "deployed", "probability": 0.999, "confidence": 0.9 }])");
   CHECK(to_string(read_list_of_requirements(deployed)[0]) == "deployed, 99.9 % at 90 %");

@@ -51,6 +51,22 @@ TEST_CASE("cases have a line for each output, with its outermost quantiles, and 
         "statistic\n");
 }
 
+TEST_CASE("the accuracy of cases is that of the worst one") {
+  std::vector<CaseSummary> cases{compact_case("hot", 0), compact_case("cold", 4)};
+  CHECK(compact_cases_table(cases, "title", "out").find("ACCURACY") == std::string::npos);
+  const auto with_error = [](double largest) {
+    Accuracy made;
+    made.runs = 10;
+    made.outputs.assign(3, {"root.latch_time", 10, largest, largest});
+    return made;
+  };
+  for (CaseSummary& each : cases)
+    for (OutputSummary& output : each.summary.outputs) output.mean_error = 1e-3;
+  cases[0].summary.accuracy = with_error(1e-6), cases[1].summary.accuracy = with_error(3e-6);
+  CHECK_THAT(compact_cases_table(cases, "title", "out"),
+             Catch::Contains("\nACCURACY  cold: integration errors ≤ 0.3 % of a standard error"));
+}
+
 TEST_CASE("an output is shown if it varies in any case, and lines keep within the width") {
   std::vector<CaseSummary> cases{compact_case("hot", 0), compact_case("cold", 0, 0.02)};
   cases[0].partial = true;

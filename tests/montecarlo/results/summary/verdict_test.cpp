@@ -51,9 +51,9 @@ TEST_CASE("a requirement passes up to the number of failures that the table allo
     CHECK(fail.decision == Decision::fail);
     CHECK(fail.margin == -1);
     CHECK(fail.guaranteed_share < p);
-    CHECK(evidence(pass) == std::to_string(allowed) + " of 10000 runs break it, and " +
+    CHECK(evidence(pass) == std::to_string(allowed) + " of 10000 runs break it; at most " +
                                 std::to_string(allowed) + " may");
-    CHECK(evidence(fail) == std::to_string(allowed + 1) + " of 10000 runs break it, and " +
+    CHECK(evidence(fail) == std::to_string(allowed + 1) + " of 10000 runs break it; at most " +
                                 std::to_string(allowed) +
                                 " may: not shown, and not disproved either");
   }
@@ -354,7 +354,7 @@ TEST_CASE("a peak that t_end cut breaks every requirement on it, whatever it had
   CHECK(verdict.broken == std::vector<long>{0, 1, 2});
   CHECK(verdict.cut == 3);
   CHECK(evidence(verdict) ==
-        "3 of 1000 runs break it (3 of them because t_end cut their peaks), and "
+        "3 of 1000 runs break it (3 of them because t_end cut their peaks); at most "
         "5 may");
   peak.max.reset();
   peak.min = 0;

@@ -1,3 +1,4 @@
+#include "montecarlo/results/summary/compact_table.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "montecarlo/results/summary/table.hpp"
 #include "montecarlo/results/summary/warnings.hpp"
@@ -45,6 +46,26 @@ TEST_CASE("what is to be warned of stands in the table and in summary.json") {
   CHECK_THAT(summary_table(summary, "four", ""),
              Catch::Contains("\nWARNING\n  " + expected[0] + "\n  " + expected[1].substr(0, end) +
                              "\n  " + expected[1].substr(end + 1) + "\n"));
+}
+
+TEST_CASE("a warning of several cases is told once, with its cases") {
+  const auto of_case = [](const std::string& name, std::vector<LatchJump> jumps) {
+    CaseSummary made{name, summarize(four_runs(), {})};
+    made.summary.latch_jumps = std::move(jumps);
+    return made;
+  };
+  const std::vector<CaseSummary> cases{of_case("cold", {{"panel_2", 6, 10}}),
+                                       of_case("ambient", {{"panel_2", 9, 10}}),
+                                       of_case("hot", {{"panel_3", 6, 10}})};
+  const std::vector<std::string> found = warnings(cases);
+  REQUIRE(found.size() == 2); // numbers may differ, hinges may not
+  CHECK_THAT(found[0], Catch::Contains("of panel_2 (60 %): ") &&
+                           Catch::EndsWith(" (cold, ambient; numbers of cold)"));
+  CHECK_THAT(found[1], Catch::Contains("of panel_3 (60 %): ") && Catch::EndsWith(" (hot)"));
+  CHECK_THAT(warnings(std::span(cases).first(1)).at(0), Catch::EndsWith(" (every case)"));
+  for (const std::string& table :
+       {cases_table(cases, "t", "f"), compact_cases_table(cases, "t", "f")})
+    CHECK_THAT(table, Catch::Contains(warning_lines(found)));
 }
 
 TEST_CASE("nothing is warned of where there is nothing, or it was not recorded") {
