@@ -182,6 +182,8 @@ class MarkChecks:
         self.assertIn(f"the {100 * static['lower_p']:g} % quantile over {static['draws']:,} draws", note)
         rows = [row[4] for row in self.table("Least static margins")]
         self.assertEqual(["pass" in text for text in rows], [one["least"] >= one["required"] for one in static["hinges"]])
+        rows = [row[5] for row in self.table("Least static margins")]
+        self.assertEqual(["pass" in text for text in rows], [one["lower"] >= one["required"] for one in static["hinges"]])
         x, y = self.scale("rare", "x"), self.scale("rare", "y", math.log10)
         points = [(one["threshold"], one["probability"]) for one in rare["levels"]]
         self.line(self.paths("rare", ".trace")[0], x, y, points, "rare")

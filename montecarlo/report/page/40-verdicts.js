@@ -137,11 +137,11 @@
     const more = items.splice(4).length;
     return [h("ul.findings", items), more ? h("p.note", `${F.counted(more, "more requirement")} below.`) : null];
   }
-  // The other sets in which the requirement of a row fails.
+  // The other sets in which the requirement of a row fails, each with its margin.
   const alsoIn = (rows, { requirement, at }) =>
     rows
       .filter((row) => row.at !== at && keyOf(row.requirement) === keyOf(requirement) && verdictOf(row.requirement.verdict) === "failed")
-      .map((row) => row.set.label);
+      .map((row) => (marginText(row.requirement, row.set) === F.none ? row.set.label : `${row.set.label} (${marginText(row.requirement, row.set)})`));
   function finding({ requirement: one, set, at }, also) {
     const several = W.sets.length > 1,
       side = one.upper ? "above" : "below",
@@ -154,12 +154,12 @@
       h("b", shortOf(one)),
       `: ${several ? `in ${set.label} ` : ""}${F.count(one.beyond)} of ${F.runs(set.runs)} ${one.beyond === 1 ? "has" : "have"} ${one.abs ? `|${name}|` : name} ${side} ${limit}. `,
       known
-        ? `With ${F.given(100 * one.confidence)} % confidence ${F.given(100 * one.probability)} % of all wings stay ${one.upper ? "below" : "above"} ${valueText(one.guaranteed_value, one, set)}: ${marginText({ ...one, margin: Math.abs(one.margin) }, set).replace("+", "")} too ${one.upper ? "much" : "little"}. `
+        ? `The runs show, with ${F.given(100 * one.confidence)} % confidence, that ${F.given(100 * one.probability)} % of all deployments stay ${one.upper ? "below" : "above"} ${valueText(one.guaranteed_value, one, set)}, which is ${marginText({ ...one, margin: Math.abs(one.margin) }, set).replace("+", "")} ${one.upper ? "above" : "below"} the limit. `
         : null,
       also.length ? `Also fails in ${listed(also)}. ` : null,
       runs.length ? [`The worst run is `, h("button.run", { onclick: () => W.selectRun(at, runs[0]) }, String(runs[0])), ". "] : null,
       W.influences(set, one.output).length
-        ? [h("a", { href: "#why" }, "Causes"), ": ", W.influences(set, one.output)]
+        ? [several ? `Within ${set.label} ` : "Among the runs ", W.influences(set, one.output), " ", h("a", { href: "#why" }, "More causes"), "."]
         : null,
     );
   }
@@ -210,9 +210,9 @@
     const { factor, unit } = F.shown(unitOf(one, set)),
       margin = marginOf(one);
     if (margin !== null)
-      return `${margin > 0 ? "+" : ""}${F.number(margin * factor, 3)} ${unit}`.trim() + (W.isNumber(one.margin) ? "" : " observed");
+      return `${margin > 0 ? "+" : ""}${F.number(margin * factor, 3)} ${unit}`.trim() + (W.isNumber(one.margin) ? "" : " (observed)");
     return W.isNumber(one.guaranteed) && !W.isNumber(one.limit)
-      ? `${one.guaranteed > one.probability ? "+" : ""}${F.fixed(100 * (one.guaranteed - one.probability), 2)} points`
+      ? `${one.guaranteed > one.probability ? "+" : ""}${F.fixed(100 * (one.guaranteed - one.probability), 2)} %-points`
       : F.none;
   }
 
@@ -351,7 +351,7 @@
     const more =
       rows.length > shown.length
         ? h(
-            "details",
+            "details.printed",
             h("summary", `Every requirement in every case (${rows.length} verdicts)`),
             requirementTable(rows),
           )
@@ -364,7 +364,7 @@
       requirementTable(shown),
       h(
         "p.note",
-        "“99 % at 90 %” requires that 99 % of all wings keep the limit, shown with a confidence of 90 %. Pass: the runs show it. Fail: the runs are enough and do not show it; “disproved”: they show that fewer wings keep the limit. Undecided: the runs are too few. ● Observed: the quantile (or the share) of these runs. ┃ Guaranteed: the bound of that quantile at the required confidence; on the shaded side of the limit the requirement passes. Margin: the distance from the guaranteed value to the limit; “observed”: from the observed value, because the runs are too few to guarantee one. The margin of a share is in percentage points, and its picture is logarithmic: 90, 99, 99.9 % are equally far apart.",
+        "“99 % at 90 %”: 99 % of all deployments must keep the limit, and the runs must show it with a confidence of 90 %. So fewer runs may break it than 1 % of them. Pass: the runs show it. Fail: they do not, though there are enough of them; “disproved”: they show the opposite, that fewer deployments keep the limit. Undecided: too few runs. ● Observed: the quantile (or the share) of these runs. ┃ Guaranteed by the model: the bound of that quantile at the required confidence. Shaded: where the requirement passes; each picture has a scale of its own. Margin: the distance from the guaranteed value to the limit, of a share in percentage points.",
       ),
       more,
     ];

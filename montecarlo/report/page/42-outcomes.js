@@ -233,10 +233,10 @@
             )
           : "They agree to the last digit, or the statistical error is unknown.",
         one.order_in_doubt
-          ? ` In ${F.runs(one.order_in_doubt)} the status or the latch order is in doubt${one.in_doubt ? `: ${one.in_doubt.join(", ")}` : ""}.`
-          : " No status and no latch order is in doubt.",
+          ? ` In ${F.runs(one.order_in_doubt)} the outcome or the latch order is in doubt${one.in_doubt ? `: ${one.in_doubt.join(", ")}` : ""}.`
+          : ` In none of them the outcome or the latch order is in doubt.`,
         one.beyond_largest
-          ? ` With ${100 * set.confidence} % confidence at most ${F.share(one.beyond_largest.share_at_most)} of all runs have a larger error than these.`
+          ? ` So few repeated runs exclude, with ${100 * set.confidence} % confidence, only that more than ${F.share(one.beyond_largest.share_at_most)} of all runs have a larger error.`
           : null,
         one.moved && one.moved.runs
           ? ` In ${F.runs(one.moved.runs)} an output moves by more than 1 %: at most ${F.share(one.moved.share_at_most)} of all.`

@@ -145,7 +145,7 @@
           h(
             "p.note",
             names.join(", "),
-            ". Rank correlations miss an effect that first increases and then decreases; Sobol' indices show it.",
+            ". Rank correlations miss an effect that first increases and then decreases; the Sobol' indices of wingspread sensitivity show it.",
           ),
         )
       : null;

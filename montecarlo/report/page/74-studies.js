@@ -93,6 +93,7 @@
     const travel = (one) => one.angle.map((angle) => Math.abs(angle - one.angle[0]) * factor);
     // Too few draws for a quantile: the least of them.
     const quantile = W.isNumber(share) && share * draws < 1 ? "least" : `${F.level(share)} quantile`;
+    const enough = (margin, { required }) => (W.isNumber(margin) ? W.badge(margin >= required ? "passed" : "failed") : F.none);
     const part = hinges.slice(0, 7),
       dispersed = !W.isNumber(share) ? "Least, dispersed" : quantile === "least" ? "Least of all draws" : `Least, ${quantile}`,
       least = hinges.map((one) => [
@@ -100,7 +101,8 @@
         F.fixed(one.least, 2),
         F.fixed(one.lower, 2),
         F.fixed(one.required, 2),
-        W.isNumber(one.least) ? W.badge(one.least >= one.required ? "passed" : "failed") : F.none,
+        enough(one.least, one),
+        ...(W.isNumber(share) ? [enough(one.lower, one)] : []),
       ]);
     return [
       W.figure({
@@ -156,7 +158,7 @@
       }),
       W.table(
         "Least static margins",
-        ["Hinge", number("Least, nominal"), number(dispersed), number("Required"), "Nominal verdict"],
+        ["Hinge", number("Least, nominal"), number(dispersed), number("Required"), "Nominal verdict", ...(W.isNumber(share) ? [`Verdict, ${quantile}`] : [])],
         least,
       ),
     ];

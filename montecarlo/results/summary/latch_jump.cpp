@@ -27,10 +27,11 @@ std::string warning(std::span<const LatchJump> jumps) {
     // a jump against the spring's moment exceeds the peak, by a little
     hinges.push_back(
         fmt::format("{} ({:.0f} %)", jump.hinge, std::min(100.0, 100 * jump.moment / jump.peak)));
-  return fmt::format("latch damping makes most of the peak moment of {}: as a latch engages, its "
-                     "moment jumps to damping times rate; a latch with \"dissipation\" in place of "
-                     "\"damping\" has no jump",
-                     fmt::join(hinges, ", "));
+  return fmt::format(
+      "latch damping makes most of the peak moment of {}: as a latch engages, its "
+      "moment jumps to damping times rate; with \"dissipation\" in place of \"damping\" "
+      "in the scene it does not",
+      fmt::join(hinges, ", "));
 }
 
 } // namespace wingspread

@@ -34,9 +34,10 @@ TEST_CASE("a latch whose damping times its own rate exceeds half the peak is war
   const std::vector<LatchJump> found = latch_jumps(wing.scene, wing.outcome); // mid: 21 of 50
   REQUIRE(found.size() == 1);
   CHECK((found[0].hinge == "root" && found[0].moment == 200 && found[0].peak == 350));
-  const std::string text = "latch damping makes most of the peak moment of root (57 %): as a latch "
-                           "engages, its moment jumps to damping times rate; a latch with "
-                           "\"dissipation\" in place of \"damping\" has no jump";
+  const std::string text =
+      "latch damping makes most of the peak moment of root (57 %): as a latch "
+      "engages, its moment jumps to damping times rate; with \"dissipation\" in "
+      "place of \"damping\" in the scene it does not";
   CHECK(warning(found) == text);
   CHECK(outcome_warnings(wing.scene, wing.outcome) == std::vector{text});
   CHECK(outcome_json(wing.scene, wing.outcome)["warnings"] == Json::array({text}));
