@@ -303,7 +303,7 @@ class MarkChecks:
         times = parsed(re.search(r"integration error is (.+) times", text)[1])[0]
         self.assertLessEqual(abs(times[0] - worst["standard_error"] / worst["largest"]) / times[0], 0.05)
         self.assertIn(f"{accuracy['runs']} runs repeated with {accuracy['reference_method']}", text)
-        self.assertIn(f"In {accuracy['order_in_doubt']} runs the status", text)
+        self.assertIn(f"In {accuracy['order_in_doubt']} runs the outcome", text)
         rows = self.table("Numerical and statistical error of each output")
         for row, each in zip(rows, sorted(accuracy["outputs"], key=lambda row: -row["largest"] / row["standard_error"]), strict=True):
             for cell, key in zip(row[2:], ("largest", "rms", "standard_error")):
