@@ -145,7 +145,7 @@ template <class T>
                            larger(larger(first, last), floor), close);
 }
 
-/// Whether a function may exceed `floor`, its ends and `close` more inside the step, as far as samples of it tell; for a
+/// Whether a function may exceed `floor` and its larger end by more than `close` between samples of it; for a
 /// pack: in which lanes. @param samples by ascending s, the first at 0, the last at 1
 template <class T, std::size_t count>
 [[nodiscard]] Truth<T> may_crest_between(const std::array<Sampled<T>, count>& samples,

@@ -97,7 +97,7 @@ public:
   /// The sum of the magnitudes that L_i consists of, at most, N·m: rounding and errors of integration are parts of it.
   [[nodiscard]] T size(int i) const { return loads_[i].size; }
 
-  /// Excess of the friction that holds hinge i over the larger of its values at two fractions of the step.
+  /// Bounds the excess of the friction that holds hinge i over the larger of its values at two fractions of the step.
   [[nodiscard]] Bulge<T> friction(int i) const {
     Bulge<T> bulge{rise(i), of_motor(i)};
     if (!loops_.empty()) bulge += loops_[i];

@@ -91,8 +91,7 @@ struct LaneResult {
   StepHistory<double> history{};
   bool peaks_searched = false; ///< the last trial step is accepted, and its peaks are searched
   bool forces_may_rise = true; ///< over that step
-  bool has_no_event =
-      false; ///< that step is accepted and holds no event: the lane asks for a peak alone
+  bool has_no_event = false;   ///< that step is accepted, and the lane has found no event in it
 };
 
 } // namespace wingspread

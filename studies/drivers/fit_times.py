@@ -11,35 +11,20 @@ The data are simulated from a draw of the priors.
 """
 
 import argparse
-import csv
 import json
-import math
 import pathlib
 import random
 import resource
 import shutil
-import subprocess
-import sys
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-NOISE = math.radians(0.3)
+from fit_ground_tests import NOISE, ROOT, call, read_csv
+
 SPRING = {"type": "normal", "mean": 1, "std": 0.04, "truncate": {"lower": 0.84, "upper": 1.16}}
 CASES = {
     "seed": {"scene": "three_panel_flight.json", "columns": ["root.angle", "mid.angle", "tip.angle"], "until": 8, "samples": 10000},
     "satellite": {"scene": "satellite.json", "columns": ["left_root.angle", "right_tip.angle"], "until": 2.4, "samples": 1000},
 }
-
-
-def call(*command, allowed=(0,)):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
-    if done.returncode not in allowed:
-        sys.exit(f"{' '.join(map(str, command))}: exit code {done.returncode}\n{done.stderr}")
-
-
-def read_csv(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def make_test(program, case, folder, samples):
