@@ -4,7 +4,9 @@
 ///
 /// Estimates of extrapolation, of implicit methods and of Fehlberg's formula expect a smooth right-hand side: they may
 /// accept a step over a kink and be wrong by a thousand tolerances. Their steps therefore end at the kinks that matter. So
-/// do all methods' steps at the limits of motors, where loads have their peaks.
+/// do all methods' steps at the limits of motors, where loads have their peaks, and where moments jump: at angles between
+/// those at which its strands go slack, a loop damps twice as much as outside, and a step may leap over them with no
+/// stage there.
 ///
 /// Let the law's change across the kink be jump + turn·abs(u − b) + bend·(u − b)². A step that meets the kink at the
 /// time τ from its nearer end differs from one under the smooth law, by the impulse of that change:
@@ -24,7 +26,7 @@ namespace wingspread {
 /// Tolerance of a step, by which kinks matter.
 struct KinkLimit {
   double rtol, atol;
-  bool motors_only = false; ///< of methods that do not need smooth laws
+  bool peaks_and_jumps_only = false; ///< of methods that do not need smooth laws
 };
 
 /// A function u of the state and its value b at a kink.
@@ -91,6 +93,57 @@ template <class T, class AnySystem>
   return T(8 * epsilon_of<T>) * size;
 }
 
+/// K e of a loop over a step, N·m; of a gear by table approximately.
+template <class T, class AnySystem>
+[[nodiscard]] Quintic<T> elastic_over_step(const AnySystem& system, const Step<T>& step, int l) {
+  const Kink<T> taut{Kink<T>::Of::strands, l, T(0), T(0)};
+  const Jet<T> start = argument(system, taut, step.x, step.dxdt, step.t),
+               end = argument(system, taut, step.x1, step.dxdt1, T(step.t + step.h));
+  return hermite<T>(step.h, start, end);
+}
+
+/// The largest jump of a loop's torque over a step in which it moves by `elastic`: half of D ė, N·m.
+/// @pre jumps(loop)
+template <class T>
+[[nodiscard]] T jump_of_loop(const LoopTerms<T>& loop, const Quintic<T>& elastic, const T& h) {
+  return T(0.5) * (loop.damping / loop.stiffness) * bound(derivative(elastic, h));
+}
+
+/// (1) for a jump alone, beyond the tolerance. @param tau s
+template <class T, class AnySystem>
+[[nodiscard]] Truth<T> jump_matters(const AnySystem& system, const Step<T>& step, int hinge,
+                                    const T& jump, const T& tau, const T& rtol, const T& atol) {
+  using std::abs;
+  const int r = system.layout().rate(hinge);
+  const T rate = larger(T(abs(step.x[r])), T(abs(step.x1[r])));
+  return mobility_bound(system, hinge) * (tau * jump) > fused(rtol, rate, atol);
+}
+
+/// Whether a strand of any loop may go slack or taut inside a step, and its jump may matter: the first test of
+/// KinkSearch. For a pack: in which lanes. Cost: about twenty operations a loop, and twenty more where it damps.
+template <class T, class AnySystem>
+[[nodiscard]] Truth<T> moments_may_jump(const AnySystem& system, const Step<T>& step, const T& rtol,
+                                        const T& atol) {
+  Truth<T> found{};
+  const std::vector<LoopTerms<T>>& loops = system.wing().loops;
+  for (int l = 0; l < static_cast<int>(loops.size()); ++l) {
+    const LoopTerms<T>& loop = loops[l];
+    if (!any(jumps(loop))) continue;
+    const Quintic<T> elastic = elastic_over_step(system, step, l);
+    Truth<T> passes{};
+    for (const T& at : {T(-loop.slack_beyond), loop.slack_beyond})
+      for (const T& c : elastic) passes = passes || !((c - at) * (elastic[0] - at) > T(0));
+    passes = passes && jumps(loop);
+    if (!any(passes)) continue;
+    const T jump = jump_of_loop(loop, elastic, step.h), most = T(0.5) * step.h;
+    const T geared = largest_gear(loop) * jump;
+    found = found ||
+            (passes && (jump_matters(system, step, loop.second, jump, most, rtol, atol) ||
+                        jump_matters(system, step, loop.first, geared, most, rtol, atol)));
+  }
+  return found;
+}
+
 /// Finds the first kink that matters in a step.
 template <class T, class AnySystem> class KinkSearch {
 public:
@@ -103,13 +156,13 @@ public:
   };
 
   [[nodiscard]] std::optional<Found> first() {
-    const int hinges = limit_.motors_only ? 0 : static_cast<int>(system_.wing().real.size());
+    const int hinges = limit_.peaks_and_jumps_only ? 0 : static_cast<int>(system_.wing().real.size());
     for (int i = 1; i < hinges; ++i)
       if (!system_.sticks(i)) search_hinge(i);
     const int motors = static_cast<int>(system_.wing().motors.size());
     for (int i = 1; i < motors; ++i)
       if (!system_.sticks(i) && system_.motor_runs(i)) search_motor(i);
-    const int loops = limit_.motors_only ? 0 : static_cast<int>(system_.wing().loops.size());
+    const int loops = static_cast<int>(system_.wing().loops.size());
     for (int l = 0; l < loops; ++l) search_loop(l);
     return first_;
   }
@@ -189,23 +242,21 @@ private:
   }
 
   void search_loop(int l) {
-    using std::abs;
     const LoopTerms<T>& loop = system_.wing().loops[l];
     if (system_.sticks(loop.first) && system_.sticks(loop.second)) return;
-    const Kink<T> taut{Of::strands, l, loop.slack_beyond, T(0)};
-    const Jet<T> start = argument(system_, taut, step_.x, step_.dxdt, step_.t),
-                 end = argument(system_, taut, step_.x1, step_.dxdt1, T(step_.t + step_.h));
-    const Quintic<T> elastic = hermite<T>(step_.h, start, end);
-    if (loop.table) search_gear(loop, largest(start.value, end.value));
+    const bool only_jumps = limit_.peaks_and_jumps_only;
+    if (only_jumps && !jumps(loop)) return;
+    const Quintic<T> elastic = elastic_over_step(system_, step_, l);
+    if (loop.table && !only_jumps)
+      search_gear(loop, largest(elastic.front(), elastic.back()));
     if (!(bound(elastic) > loop.slack_beyond)) return;
-    const T jump = loop.stiffness > T(0)
-                       ? T(T(0.5) * loop.damping / loop.stiffness * largest(start.first, end.first))
-                       : T(0);
-    for (const T& at : {T(-loop.slack_beyond), T(loop.slack_beyond)}) {
-      offer_passage({Of::strands, l, at, T(0)}, elastic, {loop.second, jump, T(0.5), T(0)});
+    const T jump = jumps(loop) ? jump_of_loop(loop, elastic, step_.h) : T(0);
+    const T turn(only_jumps ? 0 : 0.5);
+    for (const T& at : {T(-loop.slack_beyond), loop.slack_beyond}) {
+      offer_passage({Of::strands, l, at, T(0)}, elastic, {loop.second, jump, turn, T(0)});
       const T gear = largest_gear(loop);
       offer_passage({Of::strands, l, at, T(0)}, elastic,
-                    {loop.first, gear * jump, gear * T(0.5), T(0)});
+                    {loop.first, gear * jump, gear * turn, T(0)});
     }
   }
 
@@ -269,7 +320,7 @@ private:
     const T impulse =
         tau * (change.jump + way * fused(T(0.5), change.turn, way * change.bend / T(3)));
     const T rate = larger(T(abs(step_.x[r])), T(abs(step_.x1[r])));
-    return T(mobility_bound(system_, change.hinge)) * impulse >
+    return mobility_bound(system_, change.hinge) * impulse >
            fused(T(limit_.rtol), rate, T(limit_.atol));
   }
 

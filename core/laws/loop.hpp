@@ -26,12 +26,14 @@
 
 namespace wingspread {
 
+inline constexpr double never_slack = 1e300; ///< N·m
+
 template <class T> struct LoopTerms {
   int first, second;  ///< bodies of the hinges a and b
   const Curve* table; ///< g; null: ratio·x
   T ratio;
   T stiffness, damping;
-  T slack_beyond;       ///< 2 M_p; where the loop never goes slack, more than any K |e|
+  T slack_beyond;       ///< 2 M_p, or never_slack
   T stowed_a, stowed_b; ///< rad
   T sense_a, sense_b;
 };
@@ -68,6 +70,11 @@ template <class T> [[nodiscard]] T carried_by_strands(const LoopTerms<T>& loop, 
 template <class T> [[nodiscard]] T taut_share(const LoopTerms<T>& loop, const T& elastic) {
   using std::abs;
   return select(abs(elastic) > loop.slack_beyond, T(0.5), T(1));
+}
+
+/// Whether τ jumps where a strand goes slack.
+template <class T> [[nodiscard]] Truth<T> jumps(const LoopTerms<T>& loop) {
+  return loop.damping > T(0) && loop.stiffness > T(0) && loop.slack_beyond < T(never_slack);
 }
 
 /// τ of (1), N·m.

@@ -88,10 +88,10 @@ void loop_resistances(const System<T, Topology, M>& system, const State<T>& x,
 /// centres of mass, and 1/J_p = 0 for a base that does not move freely. Joints between bodies only make them less free
 /// to turn [Gauss's principle].
 template <class T, class Topology, BaseMotion M>
-[[nodiscard]] double mobility_bound(const System<T, Topology, M>& system, int i) {
+[[nodiscard]] T mobility_bound(const System<T, Topology, M>& system, int i) {
   const auto alone = [&](int body) {
     const bool held = body == 0 && M != BaseMotion::free;
-    return held ? 0.0 : 1 / static_cast<double>(system.wing().bodies[body].central_inertia);
+    return held ? T(0) : T(T(1) / system.wing().bodies[body].central_inertia);
   };
   return alone(i) + alone(system.topology().parent_of(i));
 }

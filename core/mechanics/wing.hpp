@@ -218,7 +218,7 @@ void set_loop(const Wing<T>& wing, const Synchronisation& loop, LoopTerms<T>& te
   terms.table = loop.table.get();
   terms.ratio = T(loop.ratio);
   terms.stiffness = T(loop.stiffness), terms.damping = T(loop.damping);
-  terms.slack_beyond = loop.preload ? T(2) * T(*loop.preload) : T(1e300);
+  terms.slack_beyond = loop.preload ? T(2) * T(*loop.preload) : T(never_slack);
   terms.stowed_a = a.stowed, terms.stowed_b = b.stowed;
   terms.sense_a = a.sense, terms.sense_b = b.sense;
 }

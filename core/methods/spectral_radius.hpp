@@ -30,7 +30,7 @@ template <class T, class AnySystem>
   for (int i = 1; i <= wing.size(); ++i) {
     const LinearLaw<T>& law = system.work().laws[i];
     const HingeTerms<T>& hinge = wing.hinges[i];
-    const double sigma = mobility_bound(system, i);
+    const double sigma = static_cast<double>(mobility_bound(system, i));
     T resisted = law.damping;
     if (hinge.regularized_friction > T(0))
       resisted = resisted + regularized_friction_damping(hinge, T(0)); // where it is largest

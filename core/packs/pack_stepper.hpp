@@ -205,6 +205,8 @@ private:
     asks_after_[0] = asks;
     asks = asks || (accepted && events_.lie_inside(system_, step_));
     if (!wing_.motors.empty()) asks = asks || (accepted && motors_may_pass_limit());
+    if (!wing_.loops.empty())
+      asks = asks || (accepted && moments_may_jump(system_, step_, rtol_, atol_));
     asks_after_[1] = asks;
     if (work_.stuck > 0) asks = asks || (accepted && holds_.may_release(system_, step_));
     asks_after_[2] = asks;

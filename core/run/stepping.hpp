@@ -79,7 +79,8 @@ public:
   /// Which kinks end a step of the method, if any does.
   [[nodiscard]] std::optional<KinkLimit> kinks() const {
     const bool smooth = needs_smooth_laws(method());
-    if (!smooth && run_.system.wing().motors.empty()) return std::nullopt;
+    const Wing<T>& wing = run_.system.wing();
+    if (!smooth && wing.motors.empty() && wing.loops.empty()) return std::nullopt;
     return KinkLimit{tolerance().rtol, tolerance().atol, !smooth};
   }
 
