@@ -85,6 +85,14 @@ public:
     return first;
   }
 
+  /// The first instant in a step that is refused at which a loop's moment jumps, if that matters.
+  [[nodiscard]] std::optional<Due<T>> first_jump(const Step<T>& step, KinkLimit limit) const {
+    limit.refused = true;
+    const auto found = KinkSearch<T, AnySystem>(system_, step, limit).first();
+    if (!found || found->kink.of != Kink<T>::Of::strands) return std::nullopt;
+    return Due<T>{Event::kink, 0, found->s, T(0), Edge::stop, found->kink};
+  }
+
   /// A function of the state that reaches 0 from below at the event.
   struct Indicator {
     T value, slope;

@@ -27,6 +27,7 @@ namespace wingspread {
 struct KinkLimit {
   double rtol, atol;
   bool peaks_and_jumps_only = false; ///< of methods that do not need smooth laws
+  bool refused = false; ///< the step is refused: it is not known on which side of a kink its last stage was
 };
 
 /// A function u of the state and its value b at a kink.
@@ -121,9 +122,10 @@ template <class T, class AnySystem>
 
 /// Whether a strand of any loop may go slack or taut inside a step, and its jump may matter: the first test of
 /// KinkSearch. For a pack: in which lanes. Cost: about twenty operations a loop, and twenty more where it damps.
+/// @param tau as in (1), the longest
 template <class T, class AnySystem>
-[[nodiscard]] Truth<T> moments_may_jump(const AnySystem& system, const Step<T>& step, const T& rtol,
-                                        const T& atol) {
+[[nodiscard]] Truth<T> moments_may_jump(const AnySystem& system, const Step<T>& step, const T& tau,
+                                        const T& rtol, const T& atol) {
   Truth<T> found{};
   const std::vector<LoopTerms<T>>& loops = system.wing().loops;
   for (int l = 0; l < static_cast<int>(loops.size()); ++l) {
@@ -135,11 +137,11 @@ template <class T, class AnySystem>
       for (const T& c : elastic) passes = passes || !((c - at) * (elastic[0] - at) > T(0));
     passes = passes && jumps(loop);
     if (!any(passes)) continue;
-    const T jump = jump_of_loop(loop, elastic, step.h), most = T(0.5) * step.h;
+    const T jump = jump_of_loop(loop, elastic, step.h);
     const T geared = largest_gear(loop) * jump;
     found = found ||
-            (passes && (jump_matters(system, step, loop.second, jump, most, rtol, atol) ||
-                        jump_matters(system, step, loop.first, geared, most, rtol, atol)));
+            (passes && (jump_matters(system, step, loop.second, jump, tau, rtol, atol) ||
+                        jump_matters(system, step, loop.first, geared, tau, rtol, atol)));
   }
   return found;
 }
@@ -315,7 +317,7 @@ private:
   [[nodiscard]] bool matters(const T& s, const T& speed, const KinkChange<T>& change) const {
     using std::abs;
     const int r = system_.layout().rate(change.hinge);
-    const T tau = step_.h * smaller(s, T(T(1) - s));
+    const T tau = limit_.refused ? step_.h : T(step_.h * smaller(s, T(T(1) - s)));
     const T way = speed * tau;
     const T impulse =
         tau * (change.jump + way * fused(T(0.5), change.turn, way * change.bend / T(3)));

@@ -205,8 +205,10 @@ private:
     asks_after_[0] = asks;
     asks = asks || (accepted && events_.lie_inside(system_, step_));
     if (!wing_.motors.empty()) asks = asks || (accepted && motors_may_pass_limit());
-    if (!wing_.loops.empty())
-      asks = asks || (accepted && moments_may_jump(system_, step_, rtol_, atol_));
+    if (!wing_.loops.empty()) {
+      const P tau = select(accepted, P(P(0.5) * step_.h), step_.h);
+      asks = asks || (busy && moments_may_jump(system_, step_, tau, rtol_, atol_));
+    }
     asks_after_[1] = asks;
     if (work_.stuck > 0) asks = asks || (accepted && holds_.may_release(system_, step_));
     asks_after_[2] = asks;

@@ -132,7 +132,9 @@ public:
     run_.system.made_elsewhere().evaluations += result.evaluations;
     run_.system.command(T(run_.step.t + result.h)); // the lane's last evaluation
     if (result.trial_steps > 0) {
-      ending_.count_lane_steps(stepping_.resume(result));
+      const long steps = stepping_.resume(result);
+      ending_.count_lane_steps(steps);
+      if (steps > 0) landing_.expect_no_event();
       run_.step.h = asked_.h = result.h;
     } else if (asked_.stage == Stage::step) {
       stepping_.fit(result.h);
@@ -246,19 +248,27 @@ private:
   }
 
   void judge_step(const StepVerdict& verdict) {
-    if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_)))
-      return ask_for_step(stepping_.plan_again());
+    if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_))) return refuse_step();
     stepping_.choose_next_size();
     if (has_no_event_)
       landing_.expect_no_event();
-    else if (landing_.cut_at_event(stepping_.kinks()))
+    else if (landing_.cut_at_event(stepping_.kinks(), stepping_.rtol_of_landing()))
       return ask_to_end(Stage::landing);
     accept();
   }
 
+  void refuse_step() {
+    if (!stepping_.is_finite()) return ask_for_step(stepping_.plan_again());
+    const T h = run_.step.h;
+    if (!landing_.cut_refused_step(stepping_.kinks(), stepping_.rtol_of_landing())) return ask_for_step(stepping_.plan_again());
+    stepping_.plan_to_jump(h);
+    ask_to_end(Stage::landing);
+  }
+
   void judge_landing(const StepVerdict& verdict) {
     if (!stepping_.count_trial(verdict)) return ask_for_step(stepping_.plan_again());
-    if (landing_.correct_end(stepping_.rtol_of_landing())) return ask_to_end(Stage::landing);
+    if (landing_.correct_end() || landing_.cut_at_earlier_event())
+      return ask_to_end(Stage::landing);
     accept();
   }
 

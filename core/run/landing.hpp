@@ -20,27 +20,42 @@ public:
   Landing(Underway<T, AnySystem>& run, Events<T, AnySystem>& events) : run_(run), events_(events) {}
 
   /// Cuts a step just accepted at the first event inside. @param kinks which kinks are events
+  /// @param rtol relative tolerance of the step, 0 where the method does not resolve accelerations
   /// @return whether there is one: the step must then be made again, to the event
-  [[nodiscard]] bool cut_at_event(const std::optional<KinkLimit>& kinks) {
+  [[nodiscard]] bool cut_at_event(const std::optional<KinkLimit>& kinks, double rtol) {
+    nearest_ = nearest(rtol);
+    missed_ = false;
     due_ = events_.first(run_.step, run_.x, run_.dxdt, kinks);
     if (due_) begin();
     return due_.has_value();
   }
 
+  /// Cuts a refused step where a loop's moment jumps inside: the jump may be why it is refused.
+  /// @return whether it does
+  [[nodiscard]] bool cut_refused_step(const std::optional<KinkLimit>& kinks, double rtol) {
+    nearest_ = nearest(rtol);
+    if (!kinks || !kinks->peaks_and_jumps_only || missed_) return false;
+    due_ = events_.first_jump(run_.step, *kinks);
+    if (!due_) return false;
+    begin(); 
+    of_refused_ = true;
+    return true;
+  }
+
   /// As cut_at_event where a lane has found that there is none.
-  void expect_no_event() { due_.reset(); }
+  void expect_no_event() { due_.reset(), missed_ = false; }
 
   /// Corrects the end of a cut step that was accepted: Newton's step to the event.
-  /// @param rtol relative tolerance of the step, 0 where the method does not resolve accelerations
   /// @return whether the step is cut anew, and must be made again; if not, its end is the event
-  [[nodiscard]] bool correct_end(double rtol) {
+  [[nodiscard]] bool correct_end() {
     if (due_->event == Event::graze) return cut_at_release();
     Step<T>& step = run_.step;
     const auto at = events_.indicator(*due_, step);
     const T late = at.value / at.slope, size = larger(late, T(-late));
-    if (!(at.slope > T(0) && is_near(at, size) && corrections_ < 4)) return false;
+    missed_ = !(at.slope > T(0) && is_near(at, size) && corrections_ < 4);
+    if (missed_) return false;
     const bool bent = !keeps_slope(at, size);
-    if (size > (bent ? T(round_off) : nearest(rtol)) * step.h) {
+    if (size > (bent ? T(round_off) : nearest_) * step.h) {
       ++corrections_;
       cut(step.h - late);
       return true;
@@ -53,6 +68,18 @@ public:
         run_.system.work().stuck > 0)
       run_.system(step.x1, step.dxdt1, step.t + step.h);
     return false;
+  }
+
+  /// Looks for other events in a step that ends at the jump for which a longer one was refused: none was sought in that.
+  /// @return whether there is one: the step must then be made again, to the event
+  [[nodiscard]] bool cut_at_earlier_event() {
+    if (!of_refused_) return false;
+    of_refused_ = false;
+    const std::optional<Due<T>> seen = events_.first(run_.step, run_.x, run_.dxdt);
+    if (!seen) return false;
+    due_ = seen;
+    begin();
+    return true;
   }
 
   /// Whether the step under way ends at an event.
@@ -86,6 +113,7 @@ public:
 private:
   void begin() {
     corrections_ = 0;
+    of_refused_ = false;
     longest_ = run_.step.h;
     cut(due_->s * longest_);
   }
@@ -120,7 +148,9 @@ private:
     return size * abs(at.bend) < T(0.1) * at.slope;
   }
 
-  void cut(const T& h) {
+  /// Before a jump, so that no stage is beyond it: the method's error estimate would refuse the step.
+  void cut(const T& to) {
+    const T h = at_jump() ? T(to * (T(1) - T(0.5) * nearest_)) : to;
     const T shortest = T(8 * epsilon_of<T>) * larger(run_.step.t, longest_);
     run_.step.h = smaller(larger(h, shortest), longest_);
   }
@@ -170,6 +200,9 @@ private:
   Events<T, AnySystem>& events_;
   std::optional<Due<T>> due_; ///< the event that ends the step
   int corrections_ = 0;       ///< made to its instant
+  bool missed_ = false;       ///< the last landing ended before its event
+  T nearest_ = T(0);          ///< how far the end may miss it, in steps
+  bool of_refused_ = false;   ///< the step in which it was found was refused
   T longest_ = T(0);          ///< the step in which it was found
 };
 

@@ -191,6 +191,9 @@ public:
     return verdict_.accepted();
   }
 
+  /// Whether the last trial step's error is a number.
+  [[nodiscard]] bool is_finite() const { return verdict_.error < 1e100; }
+
   /// Chooses the size of the step after the planned one, which was accepted.
   void choose_next_size() {
     const T next = run_.step.h * T(verdict_.factor);
@@ -207,6 +210,14 @@ public:
     if (fixed) return why_fixed_step_fails();
     h_ = run_.step.h * T(verdict_.factor);
     return plan();
+  }
+
+  /// Counts a refused step that is made again up to a jump inside. The next one is tried as long as this.
+  void plan_to_jump(const T& h) {
+    ++rejected_;
+    steppers_.with(method(), [](auto& stepper) { stepper.rejected(); });
+    h_ = h;
+    last_ = false;
   }
 
   /// Moves the run to the end of an accepted step. @param at_event whether the step ends at an event
