@@ -94,6 +94,21 @@ template <class T, class AnySystem>
   return T(8 * epsilon_of<T>) * size;
 }
 
+/// Moves a state that stands just before a kink of strands to just beyond, by twice beyond_rounding.
+template <class T, class AnySystem>
+void cross(const AnySystem& system, const Kink<T>& kink, State<T>& x) {
+  const LoopTerms<T>& loop = system.wing().loops[kink.index];
+  const T way = kink.way * T(2) * beyond_rounding(system, kink, x) / loop.stiffness; // of e
+  const T gear = system.state_of(loop, x).gear;
+  if (!system.is_locked(loop.second) || gear == T(0)) {
+    T& angle = x[system.layout().angle(loop.second)];
+    angle = angle - loop.sense_b * way;
+  } else {
+    T& angle = x[system.layout().angle(loop.first)];
+    angle = angle + loop.sense_a * way / gear;
+  }
+}
+
 /// K e of a loop over a step, N·m; of a gear by table approximately.
 template <class T, class AnySystem>
 [[nodiscard]] Quintic<T> elastic_over_step(const AnySystem& system, const Step<T>& step, int l) {

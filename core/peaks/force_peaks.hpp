@@ -44,12 +44,6 @@ public:
     }
   }
 
-  /// Raises the peaks to those forces, in the middle of a step.
-  void raise_only(const AnySystem& system, const T& t) {
-    for (std::size_t i = 1; i < peaks.size(); ++i)
-      peaks[i].raise(magnitude(system, static_cast<int>(i)), t);
-  }
-
   /// Raises the peaks over a step. @pre the last evaluation was at the step's end
   /// Maxima inside the step that only the dense output has become doubts, to be confirmed.
   /// @param may_rise whether any force may exceed its peak inside the step, as far as the caller knows

@@ -276,7 +276,6 @@ private:
   void accept() {
     if constexpr (M == BaseMotion::free)
       if (run_.system.wing().plates.empty()) restore_momentum(); // with plates the air takes some
-    if (landing_.at_jump()) peaks_.include_before_jump();
     confirm_peaks(peaks_.first_doubt(by_lane_));
   }
 
@@ -292,6 +291,7 @@ private:
   void finish_step() {
     diary_.notify_inside([this](const T& s) { return stepping_.evaluate_inside(s); });
     stepping_.advance(landing_.at_event());
+    if (landing_.at_jump()) landing_.cross_jump();
     Step<T>& step = run_.step;
     diary_.watch_energy();
     if (run_.system.work().stuck > 0) {
@@ -305,7 +305,10 @@ private:
       if (diary_.is_watched() || !ending_.ends_at_latch()) restart(landing_.let_go());
     } else {
       if (stepping_.choose_method()) diary_.begin_phase(stepping_.method(), stepping_.steps());
-      if (at_knot) pass_knot();
+      if (at_knot)
+        pass_knot();
+      else if (landing_.at_jump())
+        pass_jump();
     }
     if (!angles_are_known(run_.at, step.x)) return fail("a hinge has turned past 1e8 rad");
     end_or_plan();
@@ -315,6 +318,12 @@ private:
   void pass_knot() {
     begin_anew(0);
     stepping_.restart_at_knot();
+  }
+
+  /// The moments jump, and the run goes on.
+  void pass_jump() {
+    begin_anew(0);
+    if (stepping_.method() == Method::adams_bashforth_moulton) stepping_.restart_at_knot();
   }
 
   void restore_momentum() {

@@ -90,6 +90,9 @@ public:
     return due_ && due_->event == Event::kink && due_->kink.of == Kink<T>::Of::strands;
   }
 
+  /// Moves the state across that jump, from a step's end to the next one's start. @pre at_jump()
+  void cross_jump() { cross(run_.system, due_->kink, run_.step.x); }
+
   /// Whether that event is a hinge with exact friction that comes to rest or lets go.
   [[nodiscard]] bool at_friction() const {
     return due_ && (due_->event == Event::rest || due_->event == Event::release);

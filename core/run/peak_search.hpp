@@ -74,17 +74,6 @@ public:
     if (run_.goal.peak_force) forces_.sample(run_.system, run_.step.t);
   }
 
-  /// Takes the peaks next to the end of a step that ends just beyond a jump of the moments.
-  /// @pre, and afterwards: the last evaluation was at its end
-  void include_before_jump() {
-    const Step<T>& step = run_.step;
-    const T s(1 - next_to_an_end), t = step.t + s * step.h;
-    run_.evaluate_at(s);
-    include_moments(run_.x, t);
-    if (run_.goal.peak_force) forces_.raise_only(run_.system, t);
-    run_.system(step.x1, run_.dxdt, step.t + step.h);
-  }
-
   /// What a lane has found of the peaks of a step.
   struct LaneSearch {
     bool done = false;           ///< it has written moments_may_rise

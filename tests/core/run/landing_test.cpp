@@ -59,14 +59,14 @@ struct Arriving {
 TEST_CASE(
     "a step that ends a little late is moved back to its event: state, accelerations, forces") {
   Arriving at(Goal{});
-  REQUIRE(at.landing.cut_at_event({}));
+  REQUIRE(at.landing.cut_at_event({}, 1e-8));
   const double exact = at.run.step.h;
   CHECK(at.run.step.x1[0] < 0); // of the whole step: beyond the latch
   const double late = at.overshoot();
   REQUIRE(late > 1e-10);
   const double beyond = at.run.step.x1[0];
   CHECK(beyond < -1e-11);
-  CHECK_FALSE(at.landing.correct_end(1e-8)); // it is not made again
+  CHECK_FALSE(at.landing.correct_end()); // it is not made again
   CHECK(at.landing.at_event());
   CHECK(at.run.step.h == Approx(exact).margin(1e-15));
   CHECK(std::abs(at.run.step.x1[0]) < 1e-16);
@@ -79,21 +79,21 @@ TEST_CASE(
 
 TEST_CASE("where nobody asks for peaks, a step is moved to its event without an evaluation") {
   Arriving at(latches_only);
-  REQUIRE(at.landing.cut_at_event({}));
+  REQUIRE(at.landing.cut_at_event({}, 1e-8));
   at.overshoot();
   const long before = at.work.evaluations;
-  CHECK_FALSE(at.landing.correct_end(1e-8));
+  CHECK_FALSE(at.landing.correct_end());
   CHECK(at.work.evaluations == before);
   CHECK(std::abs(at.run.step.x1[0]) < 1e-16);
 }
 
 TEST_CASE("a step that ends much too late is made again") {
   Arriving at(Goal{});
-  REQUIRE(at.landing.cut_at_event({}));
+  REQUIRE(at.landing.cut_at_event({}, 1e-8));
   const double exact = at.run.step.h;
   at.run.step.h *= 1.001;
   at.run.step.x1 = at.state_after(at.run.step.h);
-  CHECK(at.landing.correct_end(1e-8));
+  CHECK(at.landing.correct_end());
   CHECK(at.run.step.h == Approx(exact).epsilon(1e-6));
 }
 
@@ -105,9 +105,9 @@ TEST_CASE("how far a step may be moved to its event depends on the tolerance, if
     for (const double share : {0.9 * most, 1.1 * most}) {
       CAPTURE(rtol, share);
       Arriving at(latches_only);
-      REQUIRE(at.landing.cut_at_event({}));
+      REQUIRE(at.landing.cut_at_event({}, rtol));
       at.overshoot(share);
-      CHECK(at.landing.correct_end(rtol) == (share > most));
+      CHECK(at.landing.correct_end() == (share > most));
     }
   }
 }
@@ -125,13 +125,13 @@ TEST_CASE("a step is moved along a curved way: the state stays that of the motio
   for (const double share : {-1e-4, 1e-4, 1e-6}) {
     CAPTURE(share);
     Arriving at(latches_only);
-    REQUIRE(at.landing.cut_at_event({}));
+    REQUIRE(at.landing.cut_at_event({}, 1e-4));
     Step<double>& step = at.run.step;
     const auto first = state(-h), last = state(share * h);
     step.h = h * (1 + share);
     step.x = {first[0], first[1]}, step.dxdt = {first[1], first[2]};
     step.x1 = {last[0], last[1]}, step.dxdt1 = {last[1], last[2]};
-    CHECK_FALSE(at.landing.correct_end(1e-4));
+    CHECK_FALSE(at.landing.correct_end());
     // to first order alone: ½ ω² way² = 1.6e-9 off in the angle
     CHECK(std::abs(step.x1[0]) < 1e-12);
     CHECK(step.x1[1] == Approx(state(0)[1]).epsilon(1e-10)); // 3e-9
@@ -145,7 +145,7 @@ TEST_CASE(
     "made again") {
   // past the latch by 1 nrad, at 20 µrad/s, and turning back at 1 rad/s²: the slope is lost within the way
   Arriving at(latches_only);
-  REQUIRE(at.landing.cut_at_event({}));
+  REQUIRE(at.landing.cut_at_event({}, 1e-8));
   Step<double>& step = at.run.step;
   const auto arrives = [&step](double rate) {
     step.h = 1;
