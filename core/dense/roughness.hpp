@@ -28,7 +28,7 @@ template <class T> [[nodiscard]] T roughness(const Layout& at, const Step<T>& st
   for (int k = 0; k < at.freedoms(); ++k) {
     const int a = at.freedoms() + k;
     const T even = fused(T(h / T(32)), dxdt[k] - dxdt1[k], h * h / T(64) * (dxdt[a] + dxdt1[a]));
-    const T twelfth = fused(h * h / T(12), dxdt1[a] - dxdt[a],
+    const T twelfth = fused(h * h * (T(1) / T(12)), dxdt1[a] - dxdt[a],
                             fused(T(-0.5) * h, dxdt[k] + dxdt1[k], step.x1[k] - step.x[k]));
     const T rounding = T(4 * 0x1p-52) * larger(T(abs(step.x[k])), T(abs(step.x1[k])));
     const T odd = T(0.12 / 2.2360679774997896) * (abs(twelfth) - rounding);

@@ -24,7 +24,7 @@ template <class T> struct Step {
   /// @param path coordinate(k, freedoms)
   [[nodiscard]] Quintic<T> rate_of(const Quintic<T>& path, int k, int freedoms) const {
     const int r = k + freedoms;
-    const T way = fused(T(0.5) * h, x[r] + x1[r], h * h * (dxdt[r] - dxdt1[r]) / T(12));
+    const T way = fused(T(0.5) * h, x[r] + x1[r], h * h * (T(1) / T(12)) * (dxdt[r] - dxdt1[r]));
     const auto drowned = is_rounding(T((x1[k] - x[k]) - way), k);
     if (!any(drowned)) return derivative(path, h);
     return chosen(drowned, cubic_hermite(h, x[r], dxdt[r], x1[r], dxdt1[r]), derivative(path, h));
@@ -46,7 +46,8 @@ template <class T> struct Step {
     for (int k = 0; k < n; ++k) {
       const T v = h * x[k + n], a = h * h * dxdt[k + n]; // the same quintic about the start
       const T V = fused(h, x1[k + n] - x[k + n], -a), A = fused(h * h, dxdt1[k + n], -a);
-      const T way = (x1[k] - x[k]) - fused(T(0.5), a, v), by_rates = fused(T(0.5), V, -A / T(12));
+      const T way = (x1[k] - x[k]) - fused(T(0.5), a, v),
+              by_rates = fused(T(0.5), V, A * (T(-1) / T(12)));
       const T D = select(is_rounding(T(way - by_rates), k), by_rates, way);
       const T c3 = fused(T(10), D, fused(T(-4), V, T(0.5) * A));
       const T c4 = fused(T(-15), D, fused(T(7), V, -A));

@@ -27,7 +27,8 @@ namespace wingspread {
 struct KinkLimit {
   double rtol, atol;
   bool peaks_and_jumps_only = false; ///< of methods that do not need smooth laws
-  bool refused = false; ///< the step is refused: it is not known on which side of a kink its last stage was
+  bool refused =
+      false; ///< the step is refused: it is not known on which side of a kink its last stage was
 };
 
 /// A function u of the state and its value b at a kink.
@@ -154,9 +155,8 @@ template <class T, class AnySystem>
     if (!any(passes)) continue;
     const T jump = jump_of_loop(loop, elastic, step.h);
     const T geared = largest_gear(loop) * jump;
-    found = found ||
-            (passes && (jump_matters(system, step, loop.second, jump, tau, rtol, atol) ||
-                        jump_matters(system, step, loop.first, geared, tau, rtol, atol)));
+    found = found || (passes && (jump_matters(system, step, loop.second, jump, tau, rtol, atol) ||
+                                 jump_matters(system, step, loop.first, geared, tau, rtol, atol)));
   }
   return found;
 }
@@ -173,7 +173,8 @@ public:
   };
 
   [[nodiscard]] std::optional<Found> first() {
-    const int hinges = limit_.peaks_and_jumps_only ? 0 : static_cast<int>(system_.wing().real.size());
+    const int hinges =
+        limit_.peaks_and_jumps_only ? 0 : static_cast<int>(system_.wing().real.size());
     for (int i = 1; i < hinges; ++i)
       if (!system_.sticks(i)) search_hinge(i);
     const int motors = static_cast<int>(system_.wing().motors.size());
@@ -264,8 +265,7 @@ private:
     const bool only_jumps = limit_.peaks_and_jumps_only;
     if (only_jumps && !jumps(loop)) return;
     const Quintic<T> elastic = elastic_over_step(system_, step_, l);
-    if (loop.table && !only_jumps)
-      search_gear(loop, largest(elastic.front(), elastic.back()));
+    if (loop.table && !only_jumps) search_gear(loop, largest(elastic.front(), elastic.back()));
     if (!(bound(elastic) > loop.slack_beyond)) return;
     const T jump = jumps(loop) ? jump_of_loop(loop, elastic, step_.h) : T(0);
     const T turn(only_jumps ? 0 : 0.5);

@@ -28,8 +28,8 @@ template <class T> struct Jet {
 template <class T>
 [[nodiscard, gnu::always_inline]] inline Quintic<T> hermite(const T& h, const Jet<T>& a,
                                                             const Jet<T>& b) {
-  const T fifth = h / T(5);
-  const T twentieth = h * h / T(20);
+  const T fifth = h * (T(1) / T(5)); // the constants are folded
+  const T twentieth = h * h * (T(1) / T(20));
   return {a.value,
           fused(fifth, a.first, a.value),
           fused(twentieth, a.second, fused(T(2) * fifth, a.first, a.value)),
@@ -76,7 +76,7 @@ template <class T>
 template <class T>
 [[nodiscard]] Quintic<T> cubic_hermite(const T& h, const T& a, const T& da, const T& b,
                                        const T& db) {
-  const T third = h / T(3), inner = fused(third, da, a), outer = fused(-third, db, b);
+  const T third = h * (T(1) / T(3)), inner = fused(third, da, a), outer = fused(-third, db, b);
   return raised<T>(
       {a, (a + T(3) * inner) / T(4), (inner + outer) / T(2), (T(3) * outer + b) / T(4), b});
 }

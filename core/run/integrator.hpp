@@ -260,7 +260,8 @@ private:
   void refuse_step() {
     if (!stepping_.is_finite()) return ask_for_step(stepping_.plan_again());
     const T h = run_.step.h;
-    if (!landing_.cut_refused_step(stepping_.kinks(), stepping_.rtol_of_landing())) return ask_for_step(stepping_.plan_again());
+    if (!landing_.cut_refused_step(stepping_.kinks(), stepping_.rtol_of_landing()))
+      return ask_for_step(stepping_.plan_again());
     stepping_.plan_to_jump(h);
     ask_to_end(Stage::landing);
   }

@@ -37,7 +37,7 @@ public:
     if (!kinks || !kinks->peaks_and_jumps_only || missed_) return false;
     due_ = events_.first_jump(run_.step, *kinks);
     if (!due_) return false;
-    begin(); 
+    begin();
     of_refused_ = true;
     return true;
   }

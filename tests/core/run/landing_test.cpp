@@ -145,7 +145,7 @@ TEST_CASE(
     "made again") {
   // past the latch by 1 nrad, at 20 µrad/s, and turning back at 1 rad/s²: the slope is lost within the way
   Arriving at(latches_only);
-  REQUIRE(at.landing.cut_at_event({}, 1e-8));
+  REQUIRE(at.landing.cut_at_event({}, 1e-6));
   Step<double>& step = at.run.step;
   const auto arrives = [&step](double rate) {
     step.h = 1;
@@ -154,8 +154,8 @@ TEST_CASE(
   };
   constexpr double slow = 2e-5, quick = 2e-4; // rad/s; the ways take 5e-5 and 5e-6 s
   arrives(slow);
-  CHECK(at.landing.correct_end(1e-6));
+  CHECK(at.landing.correct_end());
   arrives(quick);
-  CHECK_FALSE(at.landing.correct_end(1e-6));
+  CHECK_FALSE(at.landing.correct_end());
   CHECK(std::abs(step.x1[0]) < 1e-12);
 }
