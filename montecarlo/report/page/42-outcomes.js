@@ -372,8 +372,10 @@
       h(
         "div.first",
         h("div.judgement", W.verdicts.requirements()),
+        W.withoutRowsNote(),
         h("div.columns", h("div", outcomes()), h("div", orders()), h("div", warnings(), accuracy())),
         traced(),
+        W.assumptions(),
         again(),
       ),
     );
