@@ -123,9 +123,9 @@ class FitChecks:
             self.same_numbers(got, [float(cell) for cell in rows[1 + int(at * step + 1e-9)]], f"sample {at}")
         self.assertEqual(len(self.all("figure.fit-pairs circle.sample")), 3 * len(cells))
         values = fit["tests"][0]["values"]
-        units = {"root.latch_time": ("s", 1), "root.latch_rate": ("deg/s", DEGREES)}
+        units = {"root.latch_time": ("s", 1), "root.latch_rate": ("deg/s", DEGREES), "hinges.root.friction.coulomb": ("N·m", 1)}
         for row, (name, one) in zip(self.table("Measured values"), values.items(), strict=True):
-            unit, factor = units.get(name, ("", 1))
+            unit, factor = units[name]
             self.assertEqual((row[0], row[2]), ("ground", unit))
             for cell, key, scale in zip(row[3:], ("measured", "fitted", "sigmas", "p_value"), (factor, factor, 1, 1), strict=True):
                 self.check(cell, one[key] * scale, about=f"{name}, {key}")
@@ -145,7 +145,7 @@ class FitChecks:
                 hinge, _, quantity = name.rpartition(".")
                 self.assertEqual(row[0], f"{hinge} {quantity.replace('_', ' ')}".strip())
                 scale = factor if quantity in ("latch_rate", "overtravel") else 1
-                self.assertIn(row[1], {"latch_rate": (f"{unit}/s",), "peak_moment": ("N·m",), "peak_force": ("N",)}.get(quantity, ("s",)), name)
+                self.assertEqual(row[1], {"latch_rate": f"{unit}/s", "overtravel": unit, "peak_moment": "N·m", "peak_force": "N"}.get(quantity, "s"), name)
                 for cell, when in zip(row[2:], ("before", "after"), strict=True):
                     low, middle, high = (value * scale for value in one[when])
                     self.check(cell, middle, low, high, about=f"{name} {when}, {unit}")

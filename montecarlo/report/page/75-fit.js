@@ -168,9 +168,12 @@
     });
   }
 
-  // A predicted output: its median and the quantiles around it, all to a tenth of their spread.
+  // A predicted output: its median and the quantiles around it, with four digits, or as many as tell them apart.
   function range([low, middle, high], unit) {
-    const text = (value) => F.value(value, unit, (high - low) / 10);
+    const { factor } = F.shown(unit),
+      size = (value) => Math.floor(Math.log10(Math.abs(value) || 1)),
+      digits = Math.max(4, high > low ? size(high) - size(high - low) + 3 : 4),
+      text = (value) => F.number(value * factor, digits);
     return `${text(middle)} (${text(low)} … ${text(high)})`;
   }
   const spread = (mean, std) => `${F.sized(mean, std)} ± ${F.sized(std, std)}`;
