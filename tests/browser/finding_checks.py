@@ -1,9 +1,12 @@
 """The first screen's findings and bullets, the cases as causes, assumptions, limits, digits, and the numbers of printed pages."""
 
+import base64
 import math
 import pathlib
 import re
+import shutil
 import statistics
+import subprocess
 import sys
 
 import pages
@@ -174,3 +177,20 @@ class FindingChecks:
         self.assertEqual(len(names), 14)
         self.assertEqual(names[-1], "27 others")
         self.assertEqual(len(set(strokes)), 14)
+
+    def test_no_printed_page_is_half_empty(self):
+        """But the last: how far down each page has ink, above its foot."""
+        if not shutil.which("pdftoppm"):
+            self.skipTest("pdftoppm is missing (Debian: poppler-utils)")
+        self.open(pages.made_up("cases"))
+        printed = self.driver.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "preferCSSPageSize": True})
+        subprocess.run(["pdftoppm", "-r", "20", "-gray", "-", pages.SCRATCH / "printed"], input=base64.b64decode(printed["data"]), check=True)
+        filled = []
+        for path in sorted(pages.SCRATCH.glob("printed-*.pgm")):
+            _, size, _, pixels = path.read_bytes().split(b"\n", 3)
+            width, height = map(int, size.split())
+            top, bottom = height * 14 // 297, height * 280 // 297  # style_print.css: the margins of @page
+            ink = [y for y in range(top, bottom) if min(pixels[y * width:(y + 1) * width]) < 200]
+            filled.append((max(ink, default=top) - top) / (bottom - top))
+        self.assertGreater(min(filled[:-1]), 0.5, filled)
+        self.assertGreater(statistics.mean(filled[:-1]), 0.8, filled)

@@ -126,7 +126,7 @@ class FitChecks:
         units = {"root.latch_time": ("s", 1), "root.latch_rate": ("deg/s", DEGREES), "hinges.root.friction.coulomb": ("N·m", 1)}
         for row, (name, one) in zip(self.table("Measured values"), values.items(), strict=True):
             unit, factor = units[name]
-            self.assertEqual((row[0], row[2]), ("ground", unit))
+            self.assertEqual((row[0], row[1].replace(" ", "_"), row[2]), ("ground", name if name.startswith("hinges") else name.replace(".", "_"), unit))
             for cell, key, scale in zip(row[3:], ("measured", "fitted", "sigmas", "p_value"), (factor, factor, 1, 1), strict=True):
                 self.check(cell, one[key] * scale, about=f"{name}, {key}")
         for row, one in zip(self.table("What further tests would tell"), fit["candidates"], strict=True):

@@ -168,6 +168,7 @@ TEST_CASE(
   };
   const Json full = data_of(made.rows), found = data_of(made.none);
   CHECK((full["rows"] == true && found["rows"] == false));
+  CHECK(found["made_by"].get<std::string>().ends_with(" --no-rows --out again"));
   for (const char* key : {"runs", "planned", "statuses", "reasons", "orders", "order_kinds",
                           "without_latch", "wing", "inputs"})
     CHECK(found[key] == full[key]);

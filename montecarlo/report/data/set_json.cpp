@@ -28,6 +28,7 @@ std::string made_by(const PageSource& source) {
   for (const std::string& name : source.made_cases) text += " --case " + name;
   if (const auto& shard = stored.stamp.shard)
     text += fmt::format(" --shard {}/{}", shard->index, shard->of);
+  if (!source.has_rows()) text += " --no-rows";
   return text + " --out again";
 }
 

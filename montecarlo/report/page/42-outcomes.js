@@ -358,7 +358,7 @@
       const labels = W.studySets.map((set) => `${set.label}${set.made_by ? ` (${set.made_by})` : ""}`);
       W.fill(
         W.section("verdicts"),
-        h("p.headline", "Results of margin, sensitivity or rare, without runs of a campaign."),
+        h("p.headline", "Results of margin, sensitivity, rare or fit, without runs of a campaign."),
         h(
           "p",
           `${labels.join(", ")}: see “Causes”. Add a results folder of wingspread run to this report for verdicts and distributions.`,

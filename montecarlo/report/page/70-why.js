@@ -41,7 +41,7 @@
     return W.figure({
       title: `Influences on ${F.nameOf(name)}${W.caseEffect(set, name) ? `, inside ${set.label}` : ""}`,
       class: "tornado",
-      printed: 860,
+      printed: 940,
       note:
         kind === "sobol"
           ? "First order: the dispersion alone. Total: with its interactions. Lines are confidence bounds."
@@ -223,7 +223,7 @@
             more(4, 12, pairs.length === 5 ? "One more pair" : `${pairs.length - 4} more pairs`),
           ]
         : set.rows === false
-          ? h("p.nothing", W.withoutRows(set, "A rank correlation, its bounds and a picture of pairs"), " Above are linear correlations (Pearson).")
+          ? h("p.nothing", W.withoutRows(set, "Rank correlations, their bounds and pictures of pairs", "need"), " Above are linear correlations (Pearson).")
           : null,
       W.studies([set, ...W.studySets]),
     );

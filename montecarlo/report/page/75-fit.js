@@ -203,7 +203,7 @@
             ["Test", "Value", "Unit", number("Measured"), number("Fitted"), number("Difference", "σ"), number("p")],
             fit.values.map((one) => [
               one.test,
-              F.nameOf(one.name),
+              one.name.split(".").length > 2 ? one.name : F.nameOf(one.name), // a parameter of the scene by its path
               F.shown(one.unit).unit,
               ...[one.measured, one.fitted].map((value) => F.number(value * F.shown(one.unit).factor, 5)),
               F.sized(one.sigmas, 1),
