@@ -1,7 +1,12 @@
-"""The first screen's findings, the slider's end, labels of lines, and the page numbers of a printed table of contents."""
+"""The first screen's findings and bullets, the cases as causes, assumptions, limits, digits, and the numbers of printed pages."""
 
+import base64
+import math
 import pathlib
 import re
+import shutil
+import statistics
+import subprocess
 import sys
 
 import pages
@@ -72,3 +77,120 @@ class FindingChecks:
         self.assertEqual(dict(entries)["#verdicts"], "1")
         self.assertIsNone(dict(entries)["#inputs"])
         self.driver.execute_script("dispatchEvent(new Event('afterprint'))")
+
+    def bullet_axis(self, at, one, edge, far, share):
+        """Each number of the axis stands at its mark, in the displayed unit, which follows the last number."""
+        marks, texts = self.run_script("""const svg = document.querySelectorAll('svg.bullet')[arguments[0]];
+            return [[...svg.querySelector('.scale').getAttribute('d').matchAll(/M([\\d.]+),20v/g)].map(one => Number(one[1])),
+                    [...svg.querySelectorAll('text')].map(one => [one.textContent, Number(one.getAttribute('x'))])]""", at)
+        factor = self.limit_factor(one) if one["limit"] is not None else 100
+        unit = self.run_script("return W.format.shown(W.verdicts.unitOf(arguments[0], W.set())).unit", one) if one["limit"] is not None else "%"
+        self.assertTrue(texts and max(texts, key=lambda text: text[1])[0].endswith(unit), one["text"])
+        for text, x in texts:
+            value = parsed(text)[0][0] / factor
+            here = 70 + 68 * ((value if one["limit"] is not None else share(value)) - edge) / (1.15 * far)
+            self.assertLess(min(abs(mark - here) for mark in marks), 0.5, f"{text} of {one['text']}")
+            self.assertLess(abs(x - here), 30, one["text"])
+
+    def test_bullets_stand_on_the_side_of_their_limit(self):
+        self.open(pages.made_up("plain"))
+        wanted = self.run_script("return W.verdicts.judged().map(row => row.requirement)")
+        for at, one in enumerate(wanted):
+            observed, guaranteed, limit, good = self.run_script("""const svg = document.querySelectorAll('svg.bullet')[arguments[0]], read = (s, n) => { const e = svg.querySelector(s); return e && e.getAttribute(n); };
+                return [Number(read('.observed', 'cx')), Number((read('.guaranteed', 'd') ?? 'MNaN,').slice(1).split(',')[0]), Number(read('.limit-mark', 'x1')),
+                        [Number(read('.good', 'x')), Number(read('.good', 'width'))]]""", at)
+            values = one["limit"] is not None
+            share = lambda p: min(5, -math.log10(max(1e-5, 1 - p)))
+            here, sure, edge = (one["observed_value"], one["guaranteed_value"], one["limit"]) if values else map(share, (one["observed"], one["guaranteed"], one["probability"]))
+            self.assertAlmostEqual(limit, 70, msg=one["text"])
+            far = max(abs(here - edge), abs(sure - edge), abs(edge) * 0.02)
+            self.assertAlmostEqual(observed, 70 + 68 * (here - edge) / (1.15 * far), places=3, msg=one["text"])
+            self.assertAlmostEqual(guaranteed, 70 + 68 * (sure - edge) / (1.15 * far), places=3, msg=one["text"])
+            self.bullet_axis(at, one, edge, far, share)
+            self.assertEqual(good, [0, 70] if values and one["upper"] else [70, 70], one["text"])
+
+    def test_the_case_as_a_cause(self):
+        """The shift between the cases against the spread inside them: the sentence, the table and the finding."""
+        self.open(pages.made_up("cases"))
+        sets = self.run_script("return W.sets")
+        for name in ("deployment_time", "root.latch_time"):
+            self.run_script("W.choose('output', arguments[0])", name)
+            outputs = [next(one for one in each["outputs"] if one["name"] == name) for each in sets]
+            between = statistics.pvariance([one["mean"] for one in outputs])
+            inside = statistics.mean(one["std"] ** 2 for one in outputs)
+            low, high = (pick(outputs, key=lambda one: one["mean"]) for pick in (min, max))
+            sentence = self.all("#why .effects")[0].text
+            self.check(sentence, low["mean"], high["mean"], 100 * between / (between + inside), math.sqrt(inside), about=name)
+            for one in (low, high):
+                self.assertIn(f"in {sets[outputs.index(one)]['label']}", sentence)
+            rows = self.table(f"Between the cases and inside them: {self.run_script('return W.format.nameOf(arguments[0])', name)}")
+            quantiles = [one["quantiles"][-1]["value"] for one in outputs]
+            for row, each, one, quantile in zip(rows, sets, outputs, quantiles, strict=True):
+                self.assertEqual(row[0], each["label"])
+                first = one is outputs[0]
+                for cell, value in zip(row[1:], (one["mean"], None if first else one["mean"] - outputs[0]["mean"], one["std"], quantile, None if first else quantile - quantiles[0]), strict=True):
+                    self.check(cell.replace("+", ""), value, about=f"{name} of {row[0]}")
+            self.assertEqual(len({text.partition(".")[2].__len__() for row in rows for text in row[1:] if text != "–"}), 1)  # as many decimals everywhere
+        self.open(pages.made_up("loads"))
+        for item in self.all(".findings li"):
+            self.assertRegex(item.text, r"The case .*(moves|does not move) the mean of")
+        self.open(pages.made_up("plain"))
+        self.assertNotIn("The case", self.one("#why").text)
+
+    def test_assumptions_are_those_of_the_scene(self):
+        self.open(pages.made_up("plain"))
+        text = self.one(".assumptions").text
+        for words in ("parallel", "one plane", "Bodies are rigid.", "No hinge has a stop", "have no mass"):
+            self.assertIn(words, text)
+        self.run_script("""W.set().inputs.scene.push({ path: 'bodies.panel_1.flexible.stiffness', label: '', value: 1, unit: '' }, { path: 'hinges.mid.stop.stiffness', label: '', value: 1, unit: '' });
+            W.outcomes()""")
+        self.assertRegex(self.one(".assumptions").text, r"rigid, but for panel_1, which bend.*the stops of mid")
+        self.assertIn("Assumptions of the model", self.run_script("return document.querySelector('.contents').textContent"))
+
+    def test_the_limit_is_a_line_of_the_quantile_s_convergence(self):
+        self.open(pages.made_up("plain"))
+        self.run_script("W.choose('output', 'root.peak_moment')")
+        pages.settle(self.driver)
+        limit = self.run_script("return W.set().requirements.find(one => one.output === 'root.peak_moment').limit")
+        ticks, lines, texts = self.run_script("""return [...document.querySelectorAll('figure.settling svg')].map(svg => [[...svg.querySelectorAll('.axis.y .tick')].map(t => [t.transform.baseVal[0].matrix.f - 0.5, t.textContent]),
+            [...svg.querySelectorAll('line.limit')].map(l => Number(l.getAttribute('y1'))), [...svg.querySelectorAll('.limit-text')].map(t => t.textContent)])[1]""")
+        (low, first), (high, last) = ((at, parsed(text)[0][0]) for at, text in (ticks[0], ticks[-1]))
+        self.assertEqual(len(lines), 1)
+        self.assertAlmostEqual(first + (lines[0] - low) * (last - first) / (high - low), limit, delta=abs(last - first) / 150)
+        self.assertEqual(texts, [f"≤ {limit} N·m"])
+        self.assertEqual(self.run_script("return document.querySelectorAll('figure.settling')[0].querySelectorAll('line.limit').length"), 0)  # no limit of a mean
+        self.run_script("W.choose('output', 'tip.latch_time')")
+        pages.settle(self.driver)
+        self.assertIn("The limit ≤ 60 s lies outside", self.all("figure.settling")[1].text)
+
+    def test_a_column_of_the_outputs_has_as_many_digits_in_every_row(self):
+        self.open(pages.made_up("plain"))
+        digits = lambda text: len(re.sub(r"\D", "", text).lstrip("0"))
+        rows = self.table(f"Outputs of {self.run_script('return W.set().label')}")
+        for place in range(4, len(rows[0])):
+            self.assertEqual({digits(row[place]) for row in rows}, {3 if place == 6 else 4})
+
+    def test_every_hinge_has_a_colour_and_dash_and_a_name(self):
+        self.open(pages.made_up("forty"))
+        names, strokes = self.run_script("""const svg = document.querySelector('figure.history svg'), items = [...svg.querySelectorAll('.legend g')];
+            return [items.map(one => one.textContent), items.map(one => one.querySelector('line').style.stroke + ' ' + one.querySelector('line').getAttribute('stroke-dasharray'))]""")
+        self.assertEqual(len(names), 14)
+        self.assertEqual(names[-1], "27 others")
+        self.assertEqual(len(set(strokes)), 14)
+
+    def test_no_printed_page_is_half_empty(self):
+        """But the last: how far down each page has ink, above its foot."""
+        if not shutil.which("pdftoppm"):
+            self.skipTest("pdftoppm is missing (Debian: poppler-utils)")
+        self.open(pages.made_up("cases"))
+        printed = self.driver.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "preferCSSPageSize": True})
+        subprocess.run(["pdftoppm", "-r", "20", "-gray", "-", pages.SCRATCH / "printed"], input=base64.b64decode(printed["data"]), check=True)
+        filled = []
+        for path in sorted(pages.SCRATCH.glob("printed-*.pgm")):
+            _, size, _, pixels = path.read_bytes().split(b"\n", 3)
+            width, height = map(int, size.split())
+            top, bottom = height * 14 // 297, height * 280 // 297  # style_print.css: the margins of @page
+            ink = [y for y in range(top, bottom) if min(pixels[y * width:(y + 1) * width]) < 200]
+            filled.append((max(ink, default=top) - top) / (bottom - top))
+        self.assertGreater(min(filled[:-1]), 0.5, filled)
+        self.assertGreater(statistics.mean(filled[:-1]), 0.8, filled)

@@ -371,19 +371,3 @@ class MarkChecks:
         self.assertIn(f"{len(one_set['scatters']) - 4} more pairs", more)
         self.run_script("document.getElementById('why').scrollIntoView()")
         self.wait(lambda: self.run_script("return [...document.querySelectorAll('nav [aria-current=true]')].map(a => a.getAttribute('href')).join()") == "#why")
-
-    def test_bullets_stand_on_the_side_of_their_limit(self):
-        self.open(pages.made_up("plain"))
-        wanted = self.run_script("return W.verdicts.judged().map(row => row.requirement)")
-        for at, one in enumerate(wanted):
-            observed, guaranteed, limit, good = self.run_script("""const svg = document.querySelectorAll('svg.bullet')[arguments[0]], read = (s, n) => { const e = svg.querySelector(s); return e && e.getAttribute(n); };
-                return [Number(read('.observed', 'cx')), Number((read('.guaranteed', 'd') ?? 'MNaN,').slice(1).split(',')[0]), Number(read('.limit-mark', 'x1')),
-                        [Number(read('.good', 'x')), Number(read('.good', 'width'))]]""", at)
-            values = one["limit"] is not None
-            share = lambda p: min(5, -math.log10(max(1e-5, 1 - p)))
-            here, sure, edge = (one["observed_value"], one["guaranteed_value"], one["limit"]) if values else map(share, (one["observed"], one["guaranteed"], one["probability"]))
-            self.assertAlmostEqual(limit, 60, msg=one["text"])
-            far = max(abs(here - edge), abs(sure - edge), abs(edge) * 0.02)
-            self.assertAlmostEqual(observed, 60 + 58 * (here - edge) / (1.15 * far), places=3, msg=one["text"])
-            self.assertAlmostEqual(guaranteed, 60 + 58 * (sure - edge) / (1.15 * far), places=3, msg=one["text"])
-            self.assertEqual(good, [0, 60] if values and one["upper"] else [60, 60], one["text"])

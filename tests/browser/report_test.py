@@ -23,9 +23,11 @@ try:
     from selenium.webdriver.common.keys import Keys
     import pages
     from finding_checks import FindingChecks
+    from fit_checks import FitChecks, made_fit
     from mark_checks import MarkChecks
     from number_checks import NumberChecks, Numbers, parsed
     from pose_checks import PoseChecks
+    from rowless_checks import RowlessChecks, rowless
     from sequence_checks import SequenceChecks
 except ImportError as missing:
     raise SystemExit(f"left out: {missing}")
@@ -285,7 +287,7 @@ class Quick(PoseChecks, MarkChecks, FindingChecks, NumberChecks, Page):
         self.one(".play").click()
 
 
-class Own(SequenceChecks, Numbers, Page):
+class Own(SequenceChecks, FitChecks, RowlessChecks, Numbers, Page):
     """The program's own pages: of the seed campaign, of a wing of which some stall, of three cases, of a satellite."""
 
     CAMPAIGNS = {"seed": 300, "stall": 300, "yoke_wing": 40, "satellite": 40}
@@ -439,6 +441,7 @@ class Everywhere(Page):
         found = [(kind, pages.made_up(kind)) for kind in KINDS]
         if pages.PROGRAM:
             found += [(f"real {name}", pages.real(name, runs)) for name, runs in Own.CAMPAIGNS.items()]
+            found += [("real fit", pages.reported("fit", made_fit())), ("real without rows", rowless())]
         return found
 
     def test_widths_and_themes(self):

@@ -4,7 +4,7 @@ import json
 import subprocess
 
 import pages
-from number_checks import parsed
+from number_checks import DEGREES, parsed
 
 RUNS = 24  # fewer than the page samples: its numbers are those of all runs
 KINDS = {"released": ("releases", "hold lets go"), "missed": ("missed", "passes too fast for its latch"), "latched": ("latches", "latch engages"),
@@ -29,6 +29,33 @@ def replayed(case):
 
 
 class SequenceChecks:
+    def test_modes_say_how_far_they_are_enlarged(self):
+        """The numbers below each mode, against the picture's own scale and the data."""
+        self.open(pages.real("seed", 300))
+        modes = self.run_script("return W.set().modes")
+        found = self.run_script("""return [...document.querySelectorAll('figure.mode')].map(figure => {
+            const points = group => [...group.querySelectorAll('path')].flatMap(path => [...path.getAttribute('d').matchAll(/(-?[\\d.]+)[, ](-?[\\d.]+)/g)].map(p => [Number(p[1]), Number(p[2])])),
+                [rest, , end] = [...figure.querySelectorAll('g.pose')].map(points),
+                bar = figure.querySelector('.bar-of-length'), width = bar.querySelector('path').getBBox().width, text = bar.querySelector('text').textContent;
+            return { off: Math.max(...rest.map((p, k) => Math.hypot(p[0] - end[k][0], p[1] - end[k][1]))), width, text, note: figure.querySelector('.note').textContent }; })""")
+        self.assertEqual(len(found), len(modes["modes"]))
+        for one, mode in zip(found, modes["modes"], strict=True):
+            (length, _), = parsed(one["text"])
+            (metres, half), (degrees, rounding) = parsed(one["note"])
+            self.assertAlmostEqual(metres, one["off"] * length / one["width"], delta=half + 0.02 * metres, msg=one["note"])
+            self.assertLessEqual(metres, 0.07 * modes["wing"]["scale"] * 1.05 + half)  # linear to some %
+            reach = self.run_script("""const [modes, mode, amplitude] = arguments, P = W.pose, points = size => P.outlines(modes.wing, P.frames(modes.wing,
+                modes.rest.map((angle, at) => angle + size * mode.shape[at]))).flat(), [rest, off] = [points(0), points(amplitude)];
+                return Math.max(...rest.map((p, at) => Math.hypot(p[0] - off[at][0], p[1] - off[at][1])))""", modes, mode, degrees / DEGREES / max(map(abs, mode["shape"])))
+            self.assertAlmostEqual(reach / metres, 1, delta=rounding / degrees + half / metres + 0.01)
+
+    def test_every_hinge_of_a_satellite_is_named(self):
+        self.open(pages.real("satellite", 40))
+        names, looks = self.run_script("""const items = [...document.querySelectorAll('figure.history .legend g')];
+            return [items.map(one => one.textContent), items.map(one => one.querySelector('line').style.stroke + one.querySelector('line').getAttribute('stroke-dasharray'))]""")
+        self.assertEqual(names, self.run_script("return W.set().wing.hinges.map(one => one.name)"))
+        self.assertEqual(len(set(looks)), 8)
+
     def test_releases_and_captures_are_those_of_the_runs(self):
         self.open(pages.reported("release", folder()))
         sets = self.run_script("return W.data.sets")

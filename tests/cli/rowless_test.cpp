@@ -144,15 +144,89 @@ TEST_CASE("what takes every row refuses a folder without rows; the rest works on
              HasFacts({"\nRun " + std::to_string(other) + " is not in broken_runs.csv"}));
   const HasFacts refusal{"error: " + made.none + ": found a campaign", "--no-rows", "runs.csv"};
   const std::vector<std::vector<std::string>> commands{
-      {"report", made.none},
-      {"sensitivity", made.none},
-      {"run", made.campaign, "--out", made.none, "--resume"}};
+      {"sensitivity", made.none}, {"run", made.campaign, "--out", made.none, "--resume"}};
   for (const auto& command : commands) {
     CAPTURE(command);
     const auto [code, out, error] = made.program(command);
     CHECK(code == 2);
     CHECK_THAT(error, refusal);
   }
+}
+
+TEST_CASE(
+    "the page of a folder without rows has what the page of the rows has, but for what takes rows",
+    "[parallel][page]") {
+  const Rowless made(6'000);
+  REQUIRE(made.program({"run", made.campaign, "--out", made.rows}).code <= 1);
+  REQUIRE(made.run(made.none).code <= 1);
+  const auto data_of = [&](const std::string& folder) {
+    REQUIRE(made.program({"report", folder}).code == 0);
+    const std::string page = read_text(std::filesystem::path(folder) / "report.html").value();
+    const std::string begin = "id=\"data\">";
+    const std::size_t from = page.find(begin) + begin.size();
+    return parse_json(page.substr(from, page.find("</script>", from) - from))["sets"][0];
+  };
+  const Json full = data_of(made.rows), found = data_of(made.none);
+  CHECK((full["rows"] == true && found["rows"] == false));
+  CHECK(found["made_by"].get<std::string>().ends_with(" --no-rows --out again"));
+  for (const char* key : {"runs", "planned", "statuses", "reasons", "orders", "order_kinds",
+                          "without_latch", "wing", "inputs"})
+    CHECK(found[key] == full[key]);
+  for (const char* key : {"verdict", "broken", "not_deployed", "without_value", "cut", "beyond",
+                          "worst", "beyond_runs", "not_deployed_runs", "guaranteed"})
+    CHECK(found["requirements"][0][key] == full["requirements"][0][key]);
+  CHECK(found["requirements"][0]["beyond"] > 0);
+  REQUIRE(found["outputs"].size() == full["outputs"].size());
+  for (std::size_t i = 0; i < full["outputs"].size(); ++i) {
+    const Json &mine = found["outputs"][i], &output = full["outputs"][i];
+    CAPTURE(output["name"]);
+    for (const char* key : {"name", "unit", "count", "missing", "nominal", "min", "max", "limits"})
+      CHECK(mine[key] == output[key]);
+    CHECK(mine["convergence"].is_null());
+    CHECK(mine["histogram"]["by_order"].empty());
+    long sum = 0;
+    for (const Json& count : mine["histogram"]["counts"]) sum += count.get<long>();
+    CHECK(sum == output["count"].get<long>());
+    // The curve at each knot of the rows' curve, by interpolation: within a bin and a rank of it.
+    const auto numbers = [](const Json& json, const char* key) {
+      return json["curve"][key].get<std::vector<double>>();
+    };
+    const auto x = numbers(output, "x"), p = numbers(output, "p"), mine_x = numbers(mine, "x"),
+               mine_p = numbers(mine, "p");
+    CHECK(mine_p.back() == 1);
+    for (std::size_t k = 0, j = 0; k < x.size(); ++k) {
+      while (j < mine_x.size() && mine_x[j] < x[k]) ++j;
+      if (j == 0 || j == mine_x.size()) continue;
+      CHECK(p[k] >= mine_p[j - 1] - 0.001);
+      CHECK(p[k] <= mine_p[j] + 0.001);
+    }
+  }
+  CHECK((found["sensitivity"].is_null() && found["scatters"].empty()));
+  CHECK(found["correlations"]["pearson"] == full["correlations"]["pearson"]);
+  CHECK(found["envelopes"]["runs"] == full["envelopes"]["runs"]);
+  const auto worst = [](const Json& set) {
+    for (const Json& motion : set["motions"])
+      if (motion["label"].get<std::string>().starts_with("worst")) return motion;
+    return Json();
+  };
+  CHECK(worst(found)["run"] == worst(full)["run"]);
+  CHECK(worst(found)["moments"] == worst(full)["moments"]);
+
+  // Beside a folder with rows: not paired, and the means' difference is 0.
+  const std::string both = made.folder.path() / "both.html";
+  REQUIRE(made.program({"report", made.rows, made.none, "--out", both}).code == 0);
+  CHECK(read_text(both)->find("not paired, because rows were not kept: 6000 and 6000 runs") !=
+        std::string::npos);
+}
+
+TEST_CASE("the page of a folder without rows leaves out rows beyond its saved statistics") {
+  const Rowless made(300);
+  REQUIRE(made.run(made.none).code <= 1);
+  const StoredCampaign stored = read_stored_campaign(made.none);
+  const StoredStatistics read = read_streaming_statistics(stored);
+  const std::size_t rows = read_broken_runs(stored, read.broken_bytes).size();
+  CHECK(rows > 1);
+  CHECK(read_broken_runs(stored, read.broken_bytes - 1).size() == rows - 1);
 }
 
 TEST_CASE("run --no-rows refuses what takes rows, and folders that have them") {

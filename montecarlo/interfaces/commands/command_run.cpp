@@ -152,8 +152,8 @@ risk of a wrong verdict. Use --until, or a new --seed and a number of runs fixed
 With --no-rows there is no runs.csv, and memory and disk space do not grow with the number of runs.
 Counts, moments, verdicts and the 4096 largest and smallest values of every output are the same as
 with rows; other quantiles come with an error bound. broken_runs.csv keeps the rows of the runs that
-did not deploy or broke a requirement. --resume, --shard, merge, replay and analyze work on such a
-folder; report, sensitivity, export and --until need rows and refuse it.
+did not deploy or broke a requirement. --resume, --shard, merge, replay, analyze and report work on
+such a folder; sensitivity, export and --until need rows and refuse it.
 
 Example:
   wingspread run campaign.json --out results/first --runs 2000 --threads 4

@@ -14,7 +14,7 @@ namespace wingspread {
 namespace {
 
 /// Fewer runs have no bounds of correlations.
-constexpr std::size_t fewest_runs = 4;
+constexpr long fewest_runs = 4;
 
 // ---- effects
 
@@ -138,7 +138,7 @@ Json correlations_json(const PageSource& source, const PageDetail& detail) {
   const Results& results = source.results;
   const std::size_t draws = std::min(results.draws.size(), detail.correlated_draws);
   const std::size_t outputs = std::min(results.outputs.size(), detail.outputs);
-  if (draws == 0 || results.size() < fewest_runs) return nullptr;
+  if (source.summary.correlations.empty() || source.summary.runs < fewest_runs) return nullptr;
   Json json{{"draws", Json::array()},
             {"outputs", Json::array()},
             {"spearman", Json::array()},
@@ -160,7 +160,8 @@ Json correlations_json(const PageSource& source, const PageDetail& detail) {
 }
 
 Json effects_json(const PageSource& source, const PageDetail& detail) {
-  if (source.results.draws.empty() || source.results.size() < fewest_runs) return nullptr;
+  if (!source.has_rows() || source.results.draws.empty() || source.summary.runs < fewest_runs)
+    return nullptr;
   Results first;
   const Results& runs = effect_runs(source, first);
   const RunsMade made{source.replication, source.summary.interim};

@@ -60,29 +60,33 @@ struct Sides {
   SameRuns rows;
 };
 
-/// An output in both sets.
-struct BothColumns {
-  const Column &first, &second;
-  double mean; ///< of the first
-};
-
-Difference output_difference(const Sides& sides, const BothColumns& columns) {
+/// The difference of an output's columns in both sets.
+Difference output_difference(const Sides& sides, const Column& first, const Column& second) {
   const double confidence = std::min(sides.first.confidence, sides.second.confidence);
   if (sides.paired)
-    return paired_difference(columns.first, columns.second, sides.rows, sides.first.replication,
-                             confidence);
-  Difference difference = unpaired_difference(moments(present(columns.first)),
-                                              moments(present(columns.second)), confidence);
+    return paired_difference(first, second, sides.rows, sides.first.replication, confidence);
+  Difference difference =
+      unpaired_difference(moments(present(first)), moments(present(second)), confidence);
   if (sides.first.replication.replicates + sides.second.replication.replicates > 0)
     difference.bounds = {};
   return difference;
 }
 
-Json entry_of(const Sides& sides, const BothColumns& columns) {
-  const Difference difference = output_difference(sides, columns);
-  Json entry = difference_json("output", columns.first.name, difference);
-  entry["relative"] =
-      page_number(columns.mean == 0 ? undefined : difference.value / std::abs(columns.mean));
+/// @param mean of the first set
+Json entry_of(const std::string& name, const Difference& difference, double mean) {
+  Json entry = difference_json("output", name, difference);
+  entry["relative"] = page_number(mean == 0 ? undefined : difference.value / std::abs(mean));
+  return entry;
+}
+
+/// The difference of the means by their moments alone. An output without positive values is compared by its magnitude.
+Json entry_of_moments(const Sides& sides, const OutputSummary& first, const OutputSummary& second) {
+  Moments a = first.moments, b = second.moments;
+  const bool magnitude = (a.min < 0 || b.min < 0) && !(a.max > 0) && !(b.max > 0);
+  if (magnitude) a.mean = -a.mean, b.mean = -b.mean;
+  const double confidence = std::min(sides.first.confidence, sides.second.confidence);
+  Json entry = entry_of(first.name, unpaired_difference(a, b, confidence), a.mean);
+  entry["magnitude"] = magnitude;
   return entry;
 }
 
@@ -95,13 +99,21 @@ Json outputs_difference_json(const Sides& sides) {
     const Column& column = sides.first.results.outputs[i];
     const auto other = std::ranges::find(others, column.name, &Column::name);
     if (other == others.end()) continue;
+    const OutputSummary& summary = sides.first.summary.outputs[i];
+    if (!sides.first.has_rows() || !sides.second.has_rows()) {
+      json.push_back(entry_of_moments(
+          sides, summary,
+          sides.second.summary.outputs[static_cast<std::size_t>(other - others.begin())]));
+      continue;
+    }
     const bool magnitude = has_negative(column) || has_negative(*other);
     if (magnitude) {
       const Column first = magnitudes(column), second = magnitudes(*other);
-      json.push_back(entry_of(sides, {first, second, moments(present(first)).mean}));
+      json.push_back(entry_of(column.name, output_difference(sides, first, second),
+                              moments(present(first)).mean));
     } else {
       json.push_back(
-          entry_of(sides, {column, *other, sides.first.summary.outputs[i].moments.mean}));
+          entry_of(column.name, output_difference(sides, column, *other), summary.moments.mean));
     }
     json.back()["magnitude"] = magnitude;
   }
@@ -127,8 +139,10 @@ Difference status_difference(const Sides& sides, std::size_t status) {
 
 /// The runs over which the differences go.
 std::string runs_text(const Sides& sides) {
-  const std::size_t first = sides.first.results.size(), second = sides.second.results.size(),
-                    both = sides.rows.first.size();
+  const long first = sides.first.summary.runs, second = sides.second.summary.runs,
+             both = std::ssize(sides.rows.first);
+  if (!sides.first.has_rows() || !sides.second.has_rows())
+    return fmt::format("not paired, because rows were not kept: {} and {} runs", second, first);
   if (!sides.paired) return fmt::format("draws of their own: {} and {} runs", second, first);
   const std::string of =
       both == first && both == second ? "" : fmt::format(" (of {} and {})", second, first);
@@ -283,7 +297,8 @@ Pairs pairs_of(std::span<const std::unique_ptr<PageSource>> sets) {
 
 Json comparison_json(const PageSource& first, const PageSource& second,
                      std::pair<std::size_t, std::size_t> places) {
-  Sides sides{first, second, have_same_draws(first, second), {}};
+  Sides sides{
+      first, second, first.has_rows() && second.has_rows() && have_same_draws(first, second), {}};
   if (sides.paired) sides.rows = same_runs(first.results, second.results);
   if (sides.rows.first.empty()) sides.paired = false;
   return {{"sets", {places.first, places.second}},

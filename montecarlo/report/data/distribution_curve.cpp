@@ -73,6 +73,20 @@ std::vector<CurveKnot> distribution_curve(std::span<const double> sorted,
   return knots;
 }
 
+std::vector<CurveKnot> distribution_curve(const RankedPopulation& values, double confidence,
+                                          std::size_t most) {
+  std::vector<CurveKnot> knots;
+  if (values.count() == 0) return knots;
+  const auto n = static_cast<double>(values.count());
+  const double width = band_width(n, confidence);
+  for (const long rank : curve_ranks(values.count(), most)) {
+    const double x = values.at(rank).value, p = static_cast<double>(rank) / n;
+    if (!knots.empty() && knots.back().x == x) knots.pop_back(); // the last of equal values counts
+    knots.push_back({x, p, {std::max(0.0, p - width), std::min(1.0, p + width)}});
+  }
+  return knots;
+}
+
 std::string band_name(int replicates, double confidence) {
   if (replicates == 0) return fmt::format("Dvoretzky-Kiefer-Wolfowitz, {:g} %", 100 * confidence);
   if (replicates == 1) return "none: the draws of one replicate depend on each other";

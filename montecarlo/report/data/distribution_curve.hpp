@@ -7,6 +7,7 @@
 #pragma once
 
 #include "montecarlo/foundation/statistics/replicate_bounds.hpp"
+#include "montecarlo/results/streaming/population.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -34,6 +35,10 @@ struct CurveKnot {
                                                         std::span<const ReplicateValue> replicated,
                                                         int replicates, double confidence,
                                                         std::size_t most);
+
+/// The same of streaming statistics, for independent draws: the knots are at most a bin off.
+[[nodiscard]] std::vector<CurveKnot> distribution_curve(const RankedPopulation& values,
+                                                        double confidence, std::size_t most);
 
 /// The name of the band: "Dvoretzky-Kiefer-Wolfowitz, 95 %".
 [[nodiscard]] std::string band_name(int replicates, double confidence);

@@ -65,15 +65,20 @@ Track track_of(const RunPlan& plan, long run, double end) {
   return track;
 }
 
-/// Replays runs evenly spaced from the first to the last row.
+/// Replays runs evenly spaced from the first to the last.
 std::vector<Track> tracks_of(const PageSource& source, std::size_t most, int threads) {
-  const std::size_t rows = source.results.size(), count = std::min(rows, most);
+  const auto runs = static_cast<std::size_t>(source.summary.runs);
+  const std::size_t count = std::min(runs, most);
   const RunPlan plan(source.stored.campaign);
   const double end =
       std::min(end_by_results(source.results), source.stored.campaign.integration.t_end);
   std::vector<Track> tracks(count);
   for_each_task(threads, count, [&](std::size_t i) {
-    const std::size_t row = i * rows / count;
+    const std::size_t row = i * runs / count;
+    if (!source.has_rows()) {
+      tracks[i] = track_of(plan, source.stored.runs().first + static_cast<long>(row), 0);
+      return;
+    }
     const bool deployed = source.results.status[row] == Status::deployed;
     tracks[i] = track_of(plan, source.results.runs[row], deployed ? end : 0);
   });

@@ -6,14 +6,12 @@
 #include "montecarlo/report/data/motion.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/results/results_folder/replay.hpp"
-#include "montecarlo/results/summary/broken_runs.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace wingspread {
@@ -47,19 +45,18 @@ const Column* column_named(const Results& results, std::string_view name) {
   return found == results.outputs.end() ? nullptr : &*found;
 }
 
-/// The row whose value has the largest `measure`, the first of equals; none without values.
-std::optional<std::size_t> largest(const Column& column,
-                                   const std::function<double(double)>& measure) {
+/// The row with the largest value, the first of equals; none without values.
+std::optional<std::size_t> largest(const Column& column) {
   std::optional<std::size_t> best;
   for (std::size_t row = 0; row < column.values.size(); ++row)
-    if (!std::isnan(column.values[row]) &&
-        (!best || measure(column.values[row]) > measure(column.values[*best])))
+    if (!std::isnan(column.values[row]) && (!best || column.values[row] > column.values[*best]))
       best = row;
   return best;
 }
 
-/// Adds the run with the median deployment time, the first of equals.
+/// Adds the run with the median deployment time, the first of equals. Without rows that run is unknown.
 void add_median(const PageSource& source, Choice& choice) {
+  if (!source.has_rows()) return;
   const Column* column = column_named(source.results, "deployment_time");
   if (!column) return;
   std::vector<double> times;
@@ -76,7 +73,7 @@ void add_median(const PageSource& source, Choice& choice) {
 /// Adds the run that tells most about a requirement: of the runs that deployed the one with the worst value. If there is
 /// no value, the run that did not deploy with the fewest latched hinges.
 void add_worst_of(const PageSource& source, const Verdict& verdict, Choice& choice) {
-  const BrokenRuns broken = broken_runs(verdict, source.results, 1);
+  const BrokenRuns broken = broken_runs_of(source, verdict, 1);
   const std::string label = "worst: " + name_of(verdict.requirement);
   if (broken.worst)
     choice.add(label, broken.beyond > 0 ? "farthest beyond the limit" : "nearest to the limit",
@@ -88,21 +85,34 @@ void add_worst_of(const PageSource& source, const Verdict& verdict, Choice& choi
     choice.add(label, "breaks the requirement", verdict.broken.front());
 }
 
+/// The run with the largest value of an output; nothing without values.
+std::optional<JudgedRun> largest_of(const PageSource& source, std::size_t output) {
+  if (!source.has_rows()) {
+    const Population& values = source.streaming->outputs()[output].values;
+    if (values.count() == 0) return std::nullopt;
+    const RunValue most = values.highest().sorted().front();
+    return JudgedRun{most.run, most.value};
+  }
+  const Column& column = source.results.outputs[output];
+  const auto row = largest(column);
+  if (!row) return std::nullopt;
+  return JudgedRun{source.results.runs[*row], column.values[*row]};
+}
+
 /// Adds the run with the largest value of any output of a family.
 void add_largest_of(const PageSource& source, std::string_view family, Choice& choice) {
-  const Column* of = nullptr;
-  std::size_t best = 0;
-  for (const Column& column : source.results.outputs) {
-    const std::size_t dot = column.name.rfind('.');
-    if (std::string_view(column.name).substr(dot == std::string::npos ? 0 : dot + 1) != family)
-      continue;
-    const auto row = largest(column, [](double value) { return value; });
-    if (row && (!of || column.values[*row] > of->values[best])) {
-      of = &column;
-      best = *row;
-    }
+  std::string of;
+  JudgedRun best;
+  for (std::size_t output = 0; output < source.results.outputs.size(); ++output) {
+    const std::string& name = source.results.outputs[output].name;
+    const std::size_t dot = name.rfind('.');
+    if (std::string_view(name).substr(dot == std::string::npos ? 0 : dot + 1) != family) continue;
+    const auto found = largest_of(source, output);
+    if (!found || (!of.empty() && found->value <= best.value)) continue;
+    of = name;
+    best = *found;
   }
-  if (of) choice.add_row("largest " + of->name, "largest " + of->name + " of all runs", best);
+  if (!of.empty()) choice.add("largest " + of, "largest " + of + " of all runs", best.run);
 }
 
 /// Adds the run with the fewest latched hinges of each status except `deployed` and `invalid` (no motion).
@@ -155,11 +165,14 @@ Json motion_json(const Scene& scene, MotionRecorder& recorder, const Outcome& ou
     for (const HingeEvent& event : *events)
       json["events"].push_back(
           {{"kind", kind}, {"hinge", event.hinge}, {"time", page_number(event.time)}});
-  json["peaks"] = Json::array();
-  for (std::size_t h = 0; h < outcome.peak_moment.size(); ++h)
-    json["peaks"].push_back({{"hinge", h},
-                             {"value", page_number(outcome.peak_moment[h].value)},
-                             {"time", page_number(outcome.peak_moment[h].time)}});
+  for (const auto& [key, peaks] :
+       {std::pair("peaks", &outcome.peak_moment), {"force_peaks", &outcome.peak_force}}) {
+    json[key] = Json::array();
+    for (std::size_t h = 0; h < peaks->size(); ++h)
+      json[key].push_back({{"hinge", h},
+                           {"value", page_number((*peaks)[h].value)},
+                           {"time", page_number((*peaks)[h].time)}});
+  }
   return json;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace wingspread {
@@ -92,47 +91,59 @@ std::string by_wing(std::string_view order, const std::vector<WingOrders>& wings
   return all;
 }
 
+/// The name of an order's group: by wing if there are several.
+std::string name_of(std::string_view order, const std::vector<WingOrders>& wings) {
+  return wings.size() > 1 ? by_wing(order, wings) : std::string(order);
+}
+
 } // namespace
 
-OrderSplit::OrderSplit(const Results& results, const Summary& summary, const Scene& scene)
-    : results_(&results) {
-  const std::vector<WingOrders> wings = wings_of(scene);
+OrderCounts order_counts(const Results& results) {
   const TextColumn& texts = results.latch_order.texts();
-  std::vector<std::string> names;
+  std::vector<long> runs(texts.size(), 0);
+  for (const std::uint32_t code : results.latch_order.codes()) ++runs[code];
+  OrderCounts counts;
   for (std::size_t code = 0; code < texts.size(); ++code)
-    names.push_back(wings.size() > 1 ? by_wing(texts[code], wings) : std::string(texts[code]));
-  std::map<std::string, long> counts;
-  for (const std::uint32_t code : results.latch_order.codes()) ++counts[names[code]];
+    if (runs[code] > 0) counts[std::string(texts[code])] = runs[code];
+  return counts;
+}
+
+OrderSplit::OrderSplit(const OrderCounts& orders, long more, const Scene& scene) {
+  const std::vector<WingOrders> wings = wings_of(scene);
+  OrderCounts counts;
+  for (const auto& [order, count] : orders) counts[name_of(order, wings)] += count;
+  const long without = counts[""];
   counts.erase("");
   kinds_ = std::ssize(counts);
   for (const auto& [name, count] : counts) groups_.push_back({name, count});
   std::ranges::stable_sort(groups_, std::ranges::greater{}, &Group::count);
-  const std::size_t named = std::min(groups_.size(), most_orders);
-  long beyond = 0;
-  for (std::size_t i = named; i < groups_.size(); ++i) beyond += groups_[i].count;
-  groups_.resize(named);
-  const std::size_t of_others = groups_.size();
-  if (beyond > 0) groups_.push_back({std::string(others), beyond});
-  const std::size_t of_none = groups_.size();
-  if (summary.without_latch > 0) groups_.push_back({std::string(no_latch), summary.without_latch});
-  for (const std::string& name : names) {
-    const auto found =
-        std::ranges::find(groups_.begin(), groups_.begin() + named, name, &Group::name);
-    const auto place = static_cast<std::size_t>(found - groups_.begin());
-    of_code_.push_back(name.empty() ? of_none : place < named ? place : of_others);
+  named_ = std::min(groups_.size(), most_orders);
+  for (std::size_t i = named_; i < groups_.size(); ++i) more += groups_[i].count;
+  groups_.resize(named_);
+  if (more > 0) groups_.push_back({std::string(others), more});
+  if (without > 0) groups_.push_back({std::string(no_latch), without});
+}
+
+OrderSplit::OrderSplit(const Results& results, const Scene& scene)
+    : OrderSplit(order_counts(results), 0, scene) {
+  results_ = &results;
+  const std::vector<WingOrders> wings = wings_of(scene);
+  const TextColumn& texts = results.latch_order.texts();
+  for (std::size_t code = 0; code < texts.size(); ++code) {
+    const std::string name = name_of(texts[code], wings);
+    const auto last = groups_.begin() + static_cast<std::ptrdiff_t>(named_);
+    const auto found = std::ranges::find(groups_.begin(), last, name, &Group::name);
+    of_code_.push_back(name.empty() ? groups_.size() - 1
+                                    : static_cast<std::size_t>(found - groups_.begin()));
   }
 }
 
-std::vector<WingOrders> wing_orders(const Results& results, const Scene& scene) {
+std::vector<WingOrders> wing_orders(const OrderCounts& orders, const Scene& scene) {
   std::vector<WingOrders> wings = wings_of(scene);
   if (wings.size() < 2) return {};
-  const TextColumn& texts = results.latch_order.texts();
-  std::vector<long> runs(texts.size(), 0);
-  for (const std::uint32_t code : results.latch_order.codes()) ++runs[code];
   for (WingOrders& wing : wings) {
-    std::map<std::string, long> counts;
-    for (std::size_t code = 0; code < texts.size(); ++code)
-      counts[part_of(texts[code], wing.hinges)] += runs[code];
+    OrderCounts counts;
+    for (const auto& [order, count] : orders) counts[part_of(order, wing.hinges)] += count;
     wing.without = counts[""];
     counts.erase("");
     for (const auto& [order, count] : counts) wing.orders.push_back({order, count});
@@ -143,6 +154,7 @@ std::vector<WingOrders> wing_orders(const Results& results, const Scene& scene) 
 
 std::vector<std::vector<long>> OrderSplit::counts(const Histogram& histogram,
                                                   const Spilled<double>& values) const {
+  if (!results_) return {};
   std::vector<std::vector<long>> counts(groups_.size(),
                                         std::vector<long>(histogram.counts.size(), 0));
   if (histogram.counts.empty()) return counts;

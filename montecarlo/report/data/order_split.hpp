@@ -5,11 +5,16 @@
 #include "montecarlo/foundation/statistics/histogram.hpp"
 #include "montecarlo/results/summary/summary.hpp"
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace wingspread {
+
+/// The number of runs with each latch order; "" for runs without a latch.
+using OrderCounts = std::map<std::string, long>;
+[[nodiscard]] OrderCounts order_counts(const Results& results);
 
 /// The most frequent orders, then one group for the other orders, then one for runs without a latch.
 ///
@@ -21,8 +26,11 @@ public:
       6; ///< largest number of orders with a group of their own
   static constexpr std::string_view others = "others", no_latch = "no latch";
 
-  /// @pre the summary is that of the results; the results outlive this
-  OrderSplit(const Results& results, const Summary& summary, const Scene& scene = {});
+  /// @pre the results outlive this
+  explicit OrderSplit(const Results& results, const Scene& scene = {});
+  /// Groups without rows: of_row must not be called, and counts gives nothing.
+  /// @param more runs with orders that are not among `orders`
+  OrderSplit(const OrderCounts& orders, long more, const Scene& scene);
 
   struct Group {
     std::string name;
@@ -36,13 +44,14 @@ public:
     return of_code_[results_->latch_order.codes()[row]];
   }
 
-  /// The counts of each group in each bin; they sum to the histogram's counts.
+  /// The counts of each group in each bin; they sum to the histogram's counts. Empty without rows.
   [[nodiscard]] std::vector<std::vector<long>> counts(const Histogram& histogram,
                                                       const Spilled<double>& values) const;
 
 private:
-  const Results* results_;
+  const Results* results_ = nullptr;
   std::vector<Group> groups_;
+  std::size_t named_ = 0; ///< groups that are one order
   long kinds_ = 0;
   std::vector<std::size_t> of_code_; ///< group of each text of the column
 };
@@ -57,6 +66,6 @@ struct WingOrders {
 
 /// The orders of each wing; none for a scene with less than two wings. The hinges of two wings latch in many orders that
 /// differ only in how the wings' sequences interleave.
-[[nodiscard]] std::vector<WingOrders> wing_orders(const Results& results, const Scene& scene);
+[[nodiscard]] std::vector<WingOrders> wing_orders(const OrderCounts& orders, const Scene& scene);
 
 } // namespace wingspread

@@ -43,31 +43,43 @@ Json quantiles_json(const OutputSummary& output) {
   return json;
 }
 
+/// Neighbouring bins as one, so that at most `most_bins` are left.
+Histogram coarser(const Histogram& own, std::size_t most_bins) {
+  const std::size_t each = (own.counts.size() + most_bins - 1) / most_bins;
+  Histogram merged;
+  for (std::size_t bin = 0; bin < own.counts.size(); ++bin) {
+    if (bin % each == 0) merged.edges.push_back(own.edges[bin]), merged.counts.push_back(0);
+    merged.counts.back() += own.counts[bin];
+  }
+  merged.edges.push_back(own.edges.back());
+  return merged;
+}
+
 /// The summary's bins, or `most_bins` if these are fewer.
+/// @param sorted the values; empty without rows
 Json histogram_json(const PageSource& source, std::size_t index, std::span<const double> sorted,
                     std::size_t most_bins) {
   const Histogram& own = source.summary.outputs[index].histogram;
-  const Histogram shown =
-      own.counts.size() <= most_bins ? own : histogram(sorted, static_cast<int>(most_bins));
+  const Histogram shown = own.counts.size() <= most_bins ? own
+                          : source.has_rows() ? histogram(sorted, static_cast<int>(most_bins))
+                                              : coarser(own, most_bins);
   return {{"edges", page_numbers(shown.edges, 10)},
           {"counts", shown.counts},
           {"by_order", source.orders->counts(shown, source.results.outputs[index].values)}};
 }
 
-Json curve_json(const PageSource& source, const SettledColumn& settled, std::size_t most) {
+Json curve_json(const PageSource& source, const std::vector<CurveKnot>& knots) {
   Json json{{"x", Json::array()},
             {"p", Json::array()},
             {"lower", Json::array()},
             {"upper", Json::array()}};
-  const int replicates = source.replication.replicates;
-  for (const CurveKnot& knot : distribution_curve(settled.sorted, settled.replicated, replicates,
-                                                  source.confidence, most)) {
+  for (const CurveKnot& knot : knots) {
     json["x"].push_back(page_number(knot.x));
     json["p"].push_back(page_number(knot.p));
     json["lower"].push_back(page_number(knot.band.lower));
     json["upper"].push_back(page_number(knot.band.upper));
   }
-  json["band"] = band_name(replicates, source.confidence);
+  json["band"] = band_name(source.replication.replicates, source.confidence);
   return json;
 }
 
@@ -107,28 +119,45 @@ Json limits_json(const PageSource& source, const std::string& name) {
   return json;
 }
 
-Json output_json(const PageSource& source, std::size_t index, const PageDetail& detail) {
+/// Adds the histogram, the curve and the convergence, from the rows.
+void add_pictures(const PageSource& source, std::size_t index, const PageDetail& detail,
+                  Json& json) {
   const Column& column = source.results.outputs[index];
-  const OutputSummary& output = source.summary.outputs[index];
   const auto& asked = source.stored.campaign.statistics.quantiles;
   const double p = asked.empty() ? 0.99 : std::ranges::max(asked);
   const SettledColumn settled =
       settle_column(column, p, source.confidence, source.replication, detail.checkpoints,
                     ranks_missing_below(source.stored.campaign.requirements, column.name, p));
-  const OutputName name = parse_output_name(column.name);
+  json["histogram"] = histogram_json(source, index, settled.sorted, detail.bins);
+  json["curve"] = curve_json(source, distribution_curve(settled.sorted, settled.replicated,
+                                                        source.replication.replicates,
+                                                        source.confidence, detail.knots));
+  json["convergence"] = convergence_json(settled.convergence);
+  column.values.release();
+}
+
+/// The same from streaming statistics, which lack the order of the runs: so there is no convergence.
+void add_streaming_pictures(const PageSource& source, std::size_t index, const PageDetail& detail,
+                            Json& json) {
+  const RankedPopulation values(source.streaming->outputs()[index].values);
+  json["histogram"] = histogram_json(source, index, {}, detail.bins);
+  json["curve"] = curve_json(source, distribution_curve(values, source.confidence, detail.knots));
+  json["convergence"] = nullptr;
+}
+
+Json output_json(const PageSource& source, std::size_t index, const PageDetail& detail) {
+  const OutputSummary& output = source.summary.outputs[index];
+  const OutputName name = parse_output_name(output.name);
   Json json{
-      {"name", column.name},
+      {"name", output.name},
       {"unit", name.unit},
       {"family", name.quantity},
       {"hinge", name.hinge.empty() || name.hinge == "base" ? Json(nullptr) : Json(name.hinge)}};
   json.update(moments_json(output));
   json["quantiles"] = quantiles_json(output);
-  json["histogram"] = histogram_json(source, index, settled.sorted, detail.bins);
-  json["curve"] = curve_json(source, settled, detail.knots);
+  (source.has_rows() ? add_pictures : add_streaming_pictures)(source, index, detail, json);
   json["tolerance_limits"] = tolerance_json(output);
-  json["limits"] = limits_json(source, column.name);
-  json["convergence"] = convergence_json(settled.convergence);
-  column.values.release();
+  json["limits"] = limits_json(source, output.name);
   return json;
 }
 

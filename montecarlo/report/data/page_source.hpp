@@ -3,6 +3,8 @@
 
 #include "montecarlo/report/data/order_split.hpp"
 #include "montecarlo/results/results_folder/results_folder.hpp"
+#include "montecarlo/results/streaming/streaming_statistics.hpp"
+#include "montecarlo/results/summary/broken_runs.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -21,19 +23,25 @@ struct PageSource {
   std::vector<std::string> made_cases; ///< the cases made from it, if they are not all of its cases
   /// The campaign without its case's changes; the set's own campaign without cases.
   Campaign before_case;
-  Results results;
+  Results results; ///< all rows; without rows (`streaming`) those of broken_runs.csv
+  std::unique_ptr<StreamingStatistics> streaming; ///< of a folder made with --no-rows; else null
   Replication replication;
   Summary summary;
   double confidence = 0; ///< of each bound, raised so that it holds over all interim analyses
   std::unique_ptr<OrderSplit> orders;
 
   /// Whether its runs can be replayed.
-  [[nodiscard]] bool replayable() const { return !stored.foreign && results.size() > 0; }
+  [[nodiscard]] bool replayable() const { return !stored.foreign && summary.runs > 0; }
+  [[nodiscard]] bool has_rows() const { return !streaming; }
 };
+
+/// As broken_runs (broken_runs.hpp), without rows too.
+[[nodiscard]] BrokenRuns broken_runs_of(const PageSource& source, const Verdict& verdict,
+                                        std::size_t most);
 
 /// Reads a folder and computes its statistics.
 /// @param threads as of thread_count (thread_pool.hpp)
-/// @throws SpecError as read_stored_results does
+/// @throws SpecError as read_stored_results and read_streaming_statistics do
 [[nodiscard]] std::unique_ptr<PageSource> read_page_source(StoredCampaign stored,
                                                            const std::string& label,
                                                            const Campaign* before_case,

@@ -7,7 +7,6 @@
 #include "montecarlo/report/data/output_json.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/wing_json.hpp"
-#include "montecarlo/results/summary/broken_runs.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "montecarlo/results/summary/warnings.hpp"
 
@@ -29,6 +28,7 @@ std::string made_by(const PageSource& source) {
   for (const std::string& name : source.made_cases) text += " --case " + name;
   if (const auto& shard = stored.stamp.shard)
     text += fmt::format(" --shard {}/{}", shard->index, shard->of);
+  if (!source.has_rows()) text += " --no-rows";
   return text + " --out again";
 }
 
@@ -49,6 +49,7 @@ Json identity_json(const PageSource& source) {
           {"planned", stored.runs().size()},
           {"partial", source.summary.runs < stored.runs().size() && !source.summary.stopped},
           {"stopped", source.summary.stopped},
+          {"rows", source.has_rows()},
           {"shard", shard ? Json(fmt::format("{}/{}", shard->index, shard->of)) : Json(nullptr)},
           {"design", design_names[static_cast<std::size_t>(campaign.sampling.design)]},
           {"confidence", source.summary.confidence},
@@ -98,7 +99,9 @@ Json orders_json(const OrderSplit& orders) {
 /// At most six orders of each wing.
 Json wing_orders_json(const PageSource& source) {
   Json json = Json::array();
-  for (const WingOrders& wing : wing_orders(source.results, source.stored.campaign.scene)) {
+  const OrderCounts counts =
+      source.has_rows() ? order_counts(source.results) : source.streaming->latch_orders();
+  for (const WingOrders& wing : wing_orders(counts, source.stored.campaign.scene)) {
     Json orders = Json::array();
     for (const auto& [name, count] : wing.orders)
       if (orders.size() < OrderSplit::most_orders)
@@ -117,9 +120,9 @@ Json run_json(const JudgedRun& each) {
 }
 
 /// The page's keys about the runs that break a requirement.
-Json broken_json(const Verdict& verdict, const Results& results) {
+Json broken_json(const Verdict& verdict, const PageSource& source) {
   constexpr std::size_t most_broken_shown = 5;
-  const BrokenRuns broken = broken_runs(verdict, results, most_broken_shown);
+  const BrokenRuns broken = broken_runs_of(source, verdict, most_broken_shown);
   Json json{{"broken", verdict.failures()},
             {"not_deployed", broken.not_deployed},
             {"without_value", broken.without_value},
@@ -156,7 +159,7 @@ Json asked_json(const Requirement& requirement) {
           {"confidence", requirement.confidence}};
 }
 
-Json requirement_json(const Verdict& verdict, const Results& results) {
+Json requirement_json(const Verdict& verdict, const PageSource& source) {
   constexpr std::array words{"passed", "failed", "open"}; // in the order of Decision
   Json json = asked_json(verdict.requirement);
   json.update({{"verdict", words[static_cast<std::size_t>(verdict.decision)]},
@@ -169,7 +172,7 @@ Json requirement_json(const Verdict& verdict, const Results& results) {
                {"runs", verdict.runs},
                {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)},
                {"evidence", evidence(verdict)}});
-  json.update(broken_json(verdict, results));
+  json.update(broken_json(verdict, source));
   return json;
 }
 
@@ -186,10 +189,10 @@ std::vector<std::string> all_warnings(const PageSource& source, const PageDetail
   return lines;
 }
 
-Json requirements_json(const Summary& summary, const Results& results) {
+Json requirements_json(const PageSource& source) {
   Json json = Json::array();
-  for (const Verdict& verdict : summary.requirements)
-    json.push_back(requirement_json(verdict, results));
+  for (const Verdict& verdict : source.summary.requirements)
+    json.push_back(requirement_json(verdict, source));
   return json;
 }
 
@@ -207,7 +210,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["wing_orders"] = wing_orders_json(source);
   json["warnings"] = all_warnings(source, detail);
   json["accuracy"] = accuracy_json(summary);
-  json["requirements"] = requirements_json(summary, source.results);
+  json["requirements"] = requirements_json(source);
   json["outputs"] = outputs_json(source, detail, threads);
   json["correlations"] = correlations_json(source, detail);
   json["sensitivity"] = effects_json(source, detail);

@@ -22,6 +22,8 @@
     (listeners[key] || []).forEach((listener) => listener(value));
   };
   W.set = () => W.sets[W.chosen.set];
+  // Of a folder made with `run --no-rows`, where a part of the page needs the rows: the reason in words.
+  W.withoutRows = (set, part, verb = "needs") => `${part} ${verb} the rows of the runs, and ${set.label} was run with --no-rows.`;
   W.outputsOf = (set) => (set && set.outputs) || [];
   W.output = function (set) {
     const outputs = W.outputsOf(set || W.set());

@@ -43,7 +43,8 @@
 
   // Okabe and Ito's colours, which colour-blind readers can tell apart. Each colour has a hatching and a dash of its own.
   M.colour = (at) => (at < 0 ? "var(--none)" : `var(--c${at % 7})`);
-  M.dash = (at) => ["", "7 3", "2 3", "9 3 2 3", "12 4", "4 4", "1 2"][((at % 7) + 7) % 7];
+  // Beyond seven the colours come again, each with another dash.
+  M.dash = (at) => ["", "7 3", "2 3", "9 3 2 3", "12 4", "4 4", "1 2"][(((at + Math.floor(at / 7)) % 7) + 7) % 7];
   const HATCH = [null, "M0,6 L6,0", "M0,3 H6", "M3,0 V6", "M0,0 L6,6", "M0,6 L6,0 M0,0 L6,6", "M1,1 h1 M4,4 h1"];
 
   // Fills of a picture by number, hatched so that they differ in black and white as well.

@@ -2,7 +2,7 @@
 (function () {
   "use strict";
   const W = window.wingspread;
-  const { h, number, format: F, marks: M } = W;
+  const { h, number, format: F } = W;
   const RANK = { failed: 0, open: 1, passed: 2 };
   const WORDS = { passed: ["pass", "✓"], failed: ["fail", "✕"], open: ["undecided", "?"] };
   const verdictOf = (word) => ({ pass: "passed", fail: "failed", undecided: "open" })[word] || word;
@@ -158,8 +158,9 @@
         : null,
       also.length ? `Also fails in ${listed(also)}. ` : null,
       runs.length ? [`The worst run is `, h("button.run", { onclick: () => W.selectRun(at, runs[0]) }, String(runs[0])), ". "] : null,
+      W.caseEffect(set, one.output) ? `${W.caseEffect(set, one.output)} ` : null,
       W.influences(set, one.output).length
-        ? [several ? `Within ${set.label} ` : "Among the runs ", W.influences(set, one.output), " ", h("a", { href: "#why" }, "More causes"), "."]
+        ? [several ? `Inside ${set.label} ` : "Among the runs ", W.influences(set, one.output), " ", h("a", { href: "#why" }, "More causes"), "."]
         : null,
     );
   }
@@ -212,37 +213,8 @@
     if (margin !== null)
       return `${margin > 0 ? "+" : ""}${F.number(margin * factor, 3)} ${unit}`.trim() + (W.isNumber(one.margin) ? "" : " (observed)");
     return W.isNumber(one.guaranteed) && !W.isNumber(one.limit)
-      ? `${one.guaranteed > one.probability ? "+" : ""}${F.fixed(100 * (one.guaranteed - one.probability), 2)} %-points`
+      ? `${one.guaranteed > one.probability ? "+" : ""}${F.number(100 * (one.guaranteed - one.probability), 3)} %-points`
       : F.none;
-  }
-
-  // Limit, observed and guaranteed value on one line. Shares stand on a scale of nines, -log10(1 - share): 99 % at 2.
-  function bullet(one) {
-    const nines = (share) => Math.min(5, -Math.log10(Math.max(1e-5, 1 - share)));
-    const values = W.isNumber(one.limit)
-      ? { limit: one.limit, observed: one.observed_value, guaranteed: one.guaranteed_value }
-      : {
-          limit: nines(one.probability),
-          observed: nines(one.observed),
-          guaranteed: W.isNumber(one.guaranteed) ? nines(one.guaranteed) : null,
-        };
-    const upper = W.isNumber(one.limit) ? one.upper : false;
-    const known = Object.values(values).filter(W.isNumber),
-      far = Math.max(...known.map((value) => Math.abs(value - values.limit)), Math.abs(values.limit) * 0.02, 1e-12);
-    const x = d3.scaleLinear([values.limit - 1.15 * far, values.limit + 1.15 * far], [2, 118]).clamp(true);
-    const svg = M.small("bullet", 120, 18);
-    M.put(svg, "rect.good", {
-      x: upper ? 0 : x(values.limit),
-      width: upper ? x(values.limit) : 120 - x(values.limit),
-      y: 4,
-      height: 10,
-    });
-    M.put(svg, "line.limit-mark", { x1: x(values.limit), x2: x(values.limit), y1: 0, y2: 18 });
-    if (W.isNumber(values.observed) && W.isNumber(values.guaranteed))
-      M.put(svg, "line.between", { x1: x(values.observed), x2: x(values.guaranteed), y1: 9, y2: 9 });
-    if (W.isNumber(values.observed)) M.put(svg, "circle.observed", { cx: x(values.observed), cy: 9, r: 3.2 });
-    if (W.isNumber(values.guaranteed)) M.put(svg, "path.guaranteed", { d: `M${x(values.guaranteed)},3.5 v11` });
-    return svg.node();
   }
 
   const runButtons = (runs, at) =>
@@ -311,7 +283,7 @@
         observed(one, set),
         guaranteed(one, set),
         marginText(one, set),
-        bullet(one),
+        W.bullet(one, F.shown(unitOf(one, set))),
         h("span.causes", brokenRuns(one, set, at)),
       ].filter((cell) => cell !== false),
     }));

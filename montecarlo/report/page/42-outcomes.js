@@ -358,7 +358,7 @@
       const labels = W.studySets.map((set) => `${set.label}${set.made_by ? ` (${set.made_by})` : ""}`);
       W.fill(
         W.section("verdicts"),
-        h("p.headline", "Results of margin, sensitivity or rare, without runs of a campaign."),
+        h("p.headline", "Results of margin, sensitivity, rare or fit, without runs of a campaign."),
         h(
           "p",
           `${labels.join(", ")}: see “Causes”. Add a results folder of wingspread run to this report for verdicts and distributions.`,
@@ -372,8 +372,10 @@
       h(
         "div.first",
         h("div.judgement", W.verdicts.requirements()),
+        W.withoutRowsNote(),
         h("div.columns", h("div", outcomes()), h("div", orders()), h("div", warnings(), accuracy())),
         traced(),
+        W.assumptions(),
         again(),
       ),
     );

@@ -11,6 +11,16 @@
   const requirementsOn = (set, output) => (output.limits || []).map((at) => set.requirements[at]).filter(Boolean);
   // A value of an output as text, to a tenth of its standard deviation.
   const inGrain = (output) => (value) => F.value(value, output.unit, F.grain(output));
+  // The same in a table of many outputs: DIGITS significant digits in every row, more only where they would hide the spread.
+  const DIGITS = 4;
+  function inDigits(output) {
+    const size = (value) => Math.floor(Math.log10(Math.abs(value))),
+      largest = Math.max(Math.abs(output.min), Math.abs(output.max)),
+      needed = output.std > 0 && largest > 0 ? size(largest) - size(output.std) + 2 : 0,
+      { factor } = F.shown(output.unit);
+    return (value) =>
+      !output.unit && Number.isInteger(value) ? F.given(value) : F.number(W.isNumber(value) ? value * factor : value, Math.max(DIGITS, needed));
+  }
 
   function spark(output) {
     const svg = M.small("spark", 84, 18);
@@ -60,7 +70,7 @@
     ];
     const rows = outputs.map(function (output) {
       const verdict = worstVerdict(set, output),
-        value = inGrain(output);
+        value = inDigits(output);
       const button = h(
         "button.pick",
         {
@@ -79,7 +89,7 @@
           output.count ? spark(output) : "in no run",
           value(output.nominal),
           value(output.mean),
-          F.value(output.std, output.unit, output.std),
+          F.number(W.isNumber(output.std) ? output.std * F.shown(output.unit).factor : null, 3),
           ...shownLevels.map((p) => value(quantileAt(output, p))),
         ],
       };
@@ -173,7 +183,9 @@
     if (found.length < 2) return null;
     const levels = levelsOf(found.map((one) => one.output));
     const unit = found[0].output.unit,
-      missing = found.some((one) => one.output.missing);
+      missing = found.some((one) => one.output.missing),
+      grain = d3.min(found, (one) => F.grain(one.output) || Infinity), // the same decimals in every row
+      text = (value) => F.value(value, unit, isFinite(grain) ? grain : null);
     return W.table(
       `${name} by case`,
       [
@@ -185,7 +197,7 @@
       ],
       found.map(({ set, output }) => [
         set.label,
-        ...[output.nominal, output.mean, ...levels.map((p) => quantileAt(output, p))].map(inGrain(output)),
+        ...[output.nominal, output.mean, ...levels.map((p) => quantileAt(output, p))].map(text),
         ...(missing ? [F.count(output.missing)] : []),
       ]),
       { showCaption: true },
@@ -271,7 +283,10 @@
         W.section("outputs"),
         h(
           "p.lead",
-          "Colours show the latch order: separate peaks of a histogram are usually different orders. Choose an output from the list.",
+          W.sets.every((set) => set.rows === false)
+            ? W.withoutRows(W.set(), "A histogram by latch order")
+            : "Colours show the latch order: separate peaks of a histogram are usually different orders.",
+          " Choose an output from the list.",
         ),
         listHost,
         host,

@@ -18,6 +18,8 @@
   const shownLimit = (limit, factor) => Number((limit.value * factor).toPrecision(6));
   const limitText = (limit, factor) => `${limit.upper ? "≤" : "≥"} ${F.given(shownLimit(limit, factor))}`;
 
+  W.limits = { of: limitsOf, shown: shownLimit, text: limitText };
+
   // The data of both pictures: the chosen output in the displayed unit, and the overlaid cases.
   // `reach` has the values that the x axis must contain: the ends of the histogram, and the nominal run and those limits
   // that lie within one range of it. A limit further away would squeeze the picture; `beyond` has these limits.
@@ -62,6 +64,7 @@
 
   // The runs of each bin by latch order; the last layer holds the runs in which no hinge latched.
   function layersOf(set, histogram) {
+    if (set.rows === false) return [{ at: 0, counts: histogram.counts, text: "all runs" }];
     const orders = set.orders || [];
     const known = (histogram.by_order || [])
       .map((counts, at) => ({
@@ -92,7 +95,7 @@
         `${F.runs(output.count)} from ${value(output.min)} to ${value(output.max)}, mean ${value(output.mean)}; ` +
         (cases
           ? `overlaid with ${cases.map((one) => one.set.label).join(", ")}.`
-          : `by latch order: ${layers.map((one) => `${one.text} ${d3.sum(one.counts)}`).join(", ")}.`),
+          : `${set.rows === false ? "" : "by latch order: "}${layers.map((one) => `${one.text} ${d3.sum(one.counts)}`).join(", ")}.`),
       table: () =>
         cases
           ? {

@@ -3,6 +3,7 @@
   "use strict";
   const W = window.wingspread;
   const { h, number, format: F, marks: M, pose: P } = W;
+  const MOST_NAMED = 14; // seven colours, two dashes each
   const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10];
   const HAPPENS = { released: "is released", missed: "passes its latch too fast", let_go: "is let go by its latch" };
   const player = W.player,
@@ -51,8 +52,8 @@
     return element;
   }
 
-  // A quantity of every hinge over time. Up to seven hinges have a colour each; if there are more, only the six with the
-  // largest peaks have one.
+  // A quantity of every hinge over time. Up to MOST_NAMED hinges have a colour and dash each; if there are more, only those
+  // with the largest peaks have one.
   function history(wing, motion) {
     let x, box, cursor;
     const clip = W.newId("clip");
@@ -61,7 +62,7 @@
       rows = motion[player.quantity] || [];
     const size = rows.map((row) => d3.max(row, (value) => Math.abs(value)) || 0),
       ranked = d3.range(rows.length).sort((a, b) => size[b] - size[a]);
-    const named = rows.length <= 7 ? d3.range(rows.length) : ranked.slice(0, 6).sort(d3.ascending),
+    const named = ranked.slice(0, rows.length <= MOST_NAMED ? rows.length : MOST_NAMED - 1).sort(d3.ascending),
       colour = (at) => (named.includes(at) ? M.colour(named.indexOf(at)) : "var(--none)");
     const element = W.figure({
       title: `${text}s of the hinges: ${motion.label}`,
@@ -145,11 +146,23 @@
 
   // The hinges' state at the cursor.
   function readout(wing, motion) {
+    const forces = motion.force_peaks || [],
+      peakForce = function (hinge) {
+        const { value, time } = forces.find((one) => one.hinge === hinge) || {};
+        return W.isNumber(value) ? `${F.number(value, 4)}${W.isNumber(time) ? ` at ${F.fixed(time, 3)} s` : ""}` : F.none;
+      };
     const cells = wing.hinges.map(() => d3.range(4).map(() => document.createTextNode("")));
     const table = W.table(
       "Hinges at the cursor's time",
-      ["Hinge", number("Angle", angle().unit), number("Rate", rate().unit), number("Moment", "N·m"), "State"],
-      wing.hinges.map((hinge, at) => [hinge.name, ...cells[at]]),
+      [
+        "Hinge",
+        number("Angle", angle().unit),
+        number("Rate", rate().unit),
+        number("Moment", "N·m"),
+        "State",
+        ...(forces.length ? [number("Peak force of the run", "N")] : []),
+      ],
+      wing.hinges.map((hinge, at) => [hinge.name, ...cells[at], ...(forces.length ? [peakForce(at)] : [])]),
       { class: "readout" },
     );
     function move() {
@@ -229,6 +242,9 @@
           ...(motion.peaks || [])
             .filter((peak) => W.isNumber(peak.time))
             .map((peak) => [peak.time, `peak moment of ${name(peak)}`]),
+          ...(motion.force_peaks || [])
+            .filter((peak) => W.isNumber(peak.time))
+            .map((peak) => [peak.time, `peak force of ${name(peak)}`]),
           [end, "end"],
         ],
       ),

@@ -17,18 +17,21 @@
     };
     return { angles, base: base || undefined };
   }
-  // The amplitude at which the furthest point of an outline goes SHARE of the span off rest.
-  function amplitudeOf(modes, mode) {
-    const small = 1e-4;
-    const points = (amplitude) => {
-      const pose = poseOf(modes, mode, amplitude);
+  // How far the furthest point of an outline is off rest at an amplitude, m.
+  function reach(modes, mode, amplitude) {
+    const points = (size) => {
+      const pose = poseOf(modes, mode, size);
       return P.outlines(modes.wing, P.frames(modes.wing, pose.angles, pose.base)).flat();
     };
     const rest = points(0),
-      off = points(small);
-    const furthest = d3.max(rest, (point, at) => Math.hypot(off[at][0] - point[0], off[at][1] - point[1])) / small;
-    const span = modes.wing.scale || 1;
-    return Math.min(LARGEST, (SHARE * span) / Math.max(furthest, 1e-9));
+      off = points(amplitude);
+    return d3.max(rest, (point, at) => Math.hypot(off[at][0] - point[0], off[at][1] - point[1]));
+  }
+  // The amplitude at which the furthest point goes SHARE of the span off rest.
+  function amplitudeOf(modes, mode) {
+    const small = 1e-4,
+      span = modes.wing.scale || 1;
+    return Math.min(LARGEST, (SHARE * span) / Math.max(reach(modes, mode, small) / small, 1e-9));
   }
 
   const name = (mode, at) =>
@@ -44,6 +47,7 @@
       title: name(mode, at),
       class: "mode",
       printed: 300,
+      note: `Enlarged: the wing's furthest point is drawn ${F.number(reach(modes, mode, amplitude), 2)} m off rest, the hinge that turns most ${F.number(degrees(amplitude * (d3.max(mode.shape, Math.abs) || 0)), 2)} deg.`,
       description: `The deployed wing to scale at both ends of its swing in mode ${at + 1}, enlarged; pale: at rest.`,
       table: () => ({
         columns: ["hinge", "rest deg", "shape"],
@@ -106,7 +110,7 @@
       h(
         "p",
         "Small vibrations of the deployed nominal wing with all latches engaged, without Coulomb friction, backlash and air. ",
-        `The pictures move once in ${SECONDS} seconds, whatever the mode's frequency.`,
+        `The pictures move once in ${SECONDS} seconds, whatever the mode's frequency. A mode has a shape and no size of its own.`,
       ),
       h("p.controls", player.button),
       h(

@@ -150,6 +150,9 @@
       peaks: made.each
         .filter((one) => W.isNumber(one.peak_moment))
         .map((one) => ({ hinge: one.hinge, value: one.peak_moment, time: one.time })),
+      force_peaks: made.each
+        .filter((one) => W.isNumber(one.peak_force))
+        .map((one) => ({ hinge: one.hinge, value: one.peak_force, time: null })),
     };
   }
 

@@ -21,13 +21,14 @@
     const table = set.correlations,
       column = table ? table.outputs.indexOf(name) : -1;
     if (column < 0) return { pair: [], rows: [] };
+    const key = set.rows === false ? "pearson" : "spearman"; // ranks need the rows
     const rows = table.draws
-      .map((draw, at) => ({ draw, spearman: table.spearman[at][column] }))
-      .filter((one) => W.isNumber(one.spearman));
+      .map((draw, at) => ({ draw, [key]: table[key][at][column] }))
+      .filter((one) => W.isNumber(one[key]));
     return {
-      pair: [["spearman", "Spearman"]],
+      pair: [[key, key === "pearson" ? "Pearson" : "Spearman"]],
       kind: "correlation",
-      rows: rows.sort((a, b) => Math.abs(b.spearman) - Math.abs(a.spearman)).slice(0, 12),
+      rows: rows.sort((a, b) => Math.abs(b[key]) - Math.abs(a[key])).slice(0, 12),
     };
   }
 
@@ -38,9 +39,9 @@
     const bounded = kind !== "correlation",
       withBounds = (one, key) => [one[key], one[`${key}_lower`], one[`${key}_upper`]];
     return W.figure({
-      title: `Influences on ${F.nameOf(name)}`,
+      title: `Influences on ${F.nameOf(name)}${W.caseEffect(set, name) ? `, inside ${set.label}` : ""}`,
       class: "tornado",
-      printed: 860,
+      printed: 940,
       note:
         kind === "sobol"
           ? "First order: the dispersion alone. Total: with its interactions. Lines are confidence bounds."
@@ -65,7 +66,7 @@
             0.34,
             rows.map((one) => one.draw),
           ),
-          row = 15 * pair.length + 10;
+          row = 13 * pair.length + 9;
         const box = { left, right: width - 16, top: top + 4, bottom: top + 4 + row * rows.length };
         const far = Math.max(
           0.1,
@@ -83,24 +84,24 @@
           ],
           [box.left, box.right],
         );
-        M.axes(svg, box, x, null, { xText: kind === "sobol" ? "share of the variance" : "rank correlation" });
+        M.axes(svg, box, x, null, { xText: kind === "sobol" ? "share of the variance" : set.rows === false ? "correlation" : "rank correlation" });
         M.upright(svg, "line.zero-line", x(0), box);
         rows.forEach(function (one, at) {
-          const upper = box.top + row * at + 5;
-          M.rowLabel(svg, one.draw, left, upper + (row - 10) / 2);
+          const upper = box.top + row * at + 4;
+          M.rowLabel(svg, one.draw, left, upper + (row - 9) / 2);
           pair.forEach(function ([key, text], place) {
             const [value, low, high] = withBounds(one, key),
-              y = upper + 15 * place;
+              y = upper + 13 * place;
             if (!W.isNumber(value)) return;
             M.put(svg, "rect.effect", {
               x: Math.min(x(0), x(value)),
               width: Math.max(1, Math.abs(x(value) - x(0))),
               y: y + 1,
-              height: 12,
+              height: 11,
               style: { fill: fill(place) },
               title: `${one.draw}, ${text}: ${F.fixed(value, 3)}${W.isNumber(low) ? ` (${F.fixed(low, 3)} … ${F.fixed(high, 3)})` : ""}`,
             });
-            if (W.isNumber(low) && W.isNumber(high)) M.whisker(svg, x, low, high, y + 7, 3.5);
+            if (W.isNumber(low) && W.isNumber(high)) M.whisker(svg, x, low, high, y + 6.5, 3.5);
           });
         });
         return box.bottom + 40;
@@ -129,9 +130,16 @@
     return parts.length ? [`${F.nameOf(name)} `, parts.map((part, at) => [at ? " and " : "", part]), "."] : [];
   }
   W.influences = influences;
-  function sentence(set, name) {
-    const found = influences(set, name);
-    return found.length ? h("p.effects", found) : null;
+  // The case first, where there are several; then the dispersions inside the chosen one.
+  function fillTornado(set, name) {
+    const found = influences(set, name),
+      between = W.caseEffect(set, name);
+    W.fill(
+      tornadoHost,
+      between ? [h("p.effects", between), W.caseTable(set, name)] : null,
+      found.length ? h("p.effects", between ? `Inside ${set.label}: ` : null, found) : null,
+      tornado(set, name),
+    );
   }
 
   // Dispersions without a visible effect: they may act on the wrong parameter.
@@ -198,7 +206,7 @@
             ),
           )
         : null;
-    W.fill(tornadoHost, sentence(set, W.chosen.output), tornado(set, W.chosen.output));
+    fillTornado(set, W.chosen.output);
     choose(set);
     W.fill(
       W.section("why"),
@@ -214,13 +222,15 @@
             ),
             more(4, 12, pairs.length === 5 ? "One more pair" : `${pairs.length - 4} more pairs`),
           ]
-        : null,
+        : set.rows === false
+          ? h("p.nothing", W.withoutRows(set, "Rank correlations, their bounds and pictures of pairs", "need"), " Above are linear correlations (Pearson).")
+          : null,
       W.studies([set, ...W.studySets]),
     );
   };
   W.on("output", function (name) {
     if (!tornadoHost.isConnected) return;
-    W.fill(tornadoHost, sentence(W.set(), name), tornado(W.set(), name));
+    fillTornado(W.set(), name);
     choose(W.set());
   });
 })();

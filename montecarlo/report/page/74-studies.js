@@ -94,7 +94,7 @@
     // Too few draws for a quantile: the least of them.
     const quantile = W.isNumber(share) && share * draws < 1 ? "least" : `${F.level(share)} quantile`;
     const enough = (margin, { required }) => (W.isNumber(margin) ? W.badge(margin >= required ? "passed" : "failed") : F.none);
-    const part = hinges.slice(0, 7),
+    const part = hinges.slice(0, 14),
       dispersed = !W.isNumber(share) ? "Least, dispersed" : quantile === "least" ? "Least of all draws" : `Least, ${quantile}`,
       least = hinges.map((one) => [
         one.hinge,

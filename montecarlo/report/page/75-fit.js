@@ -6,16 +6,8 @@
   const { h, number, format: F, marks: M } = W;
   const MOST_PAIRED = 4; // parameters in the picture of pairs
 
-  // A trace in degrees where it is an angle or a rate.
-  const unitOf = (column) =>
-    column.endsWith(".angle")
-      ? { text: "deg", factor: F.DEGREES }
-      : column.endsWith(".rate")
-        ? { text: "deg/s", factor: F.DEGREES }
-        : { text: "SI", factor: 1 };
-
   function trace(one) {
-    const { text: unit, factor } = unitOf(one.column),
+    const { unit, factor } = F.shown(one.unit),
       scaled = (values) => values.map((value) => (W.isNumber(value) ? value * factor : value)),
       [measured, fitted, lower, upper] = [one.measured, one.fitted, one.lower, one.upper].map(scaled),
       residuals = measured.map((value, at) => value - fitted[at]);
@@ -176,8 +168,30 @@
     });
   }
 
-  const range = ([low, middle, high]) =>
-    `${F.number(middle, 5)} (${F.number(low, 5)} … ${F.number(high, 5)})`;
+  // A predicted output: its median and the quantiles around it, with four digits, or as many as tell them apart.
+  function range([low, middle, high], unit) {
+    const { factor } = F.shown(unit),
+      size = (value) => Math.floor(Math.log10(Math.abs(value) || 1)),
+      digits = Math.max(4, high > low ? size(high) - size(high - low) + 3 : 4),
+      text = (value) => F.number(value * factor, digits);
+    return `${text(middle)} (${text(low)} … ${text(high)})`;
+  }
+  const spread = (mean, std) => `${F.sized(mean, std)} ± ${F.sized(std, std)}`;
+
+  function parameterTable(parameters) {
+    return W.table(
+      "Parameters before and after the tests",
+      ["Parameter", number("Before: mean ± sd"), number("After"), number("95 % interval"), number("Share of the sd left")],
+      parameters.map((one) => [
+        one.unit ? `${one.name} (${F.unit(one.unit)})` : one.name,
+        spread(one.prior.mean, one.prior.std),
+        spread(one.mean, one.std),
+        `${F.sized(one.lower, one.std)} … ${F.sized(one.upper, one.std)}`,
+        F.share(one.std_ratio),
+      ]),
+      { showCaption: true },
+    );
+  }
 
   function tables(fit) {
     const varies = ([low, , high]) => low !== high;
@@ -186,13 +200,14 @@
       fit.values.length
         ? W.table(
             "Measured values",
-            ["Test", "Value", number("Measured"), number("Fitted"), number("Difference", "σ")],
+            ["Test", "Value", "Unit", number("Measured"), number("Fitted"), number("Difference", "σ"), number("p")],
             fit.values.map((one) => [
               one.test,
-              one.name,
-              F.number(one.measured, 6),
-              F.number(one.fitted, 6),
-              F.fixed(one.sigmas, 2),
+              one.name.split(".").length > 2 ? one.name : F.nameOf(one.name), // a parameter of the scene by its path
+              F.shown(one.unit).unit,
+              ...[one.measured, one.fitted].map((value) => F.number(value * F.shown(one.unit).factor, 5)),
+              F.sized(one.sigmas, 1),
+              F.number(one.p_value, 2),
             ]),
             { showCaption: true },
           )
@@ -203,7 +218,7 @@
             ["Test", number("Information", "nats"), "Interval that shrinks most"],
             fit.candidates.map(function (one) {
               const [name, ratio] = Object.entries(one.std_ratio).sort((a, b) => a[1] - b[1])[0];
-              return [one.name, F.fixed(one.information, 2), `${name}: to ${F.level(ratio)}`];
+              return [one.name, F.number(one.information, 3), `${name}: to ${F.share(ratio)}`];
             }),
             { showCaption: true },
           )
@@ -211,8 +226,8 @@
       outputs.length
         ? W.table(
             "Prediction: median (5 % … 95 %)",
-            ["Output", "Before the tests", "After"],
-            outputs.map(([name, one]) => [name, range(one.before), range(one.after)]),
+            ["Output", "Unit", number("Before the tests"), number("After")],
+            outputs.map(([name, one]) => [F.nameOf(name), F.shown(one.unit).unit, range(one.before, one.unit), range(one.after, one.unit)]),
             { showCaption: true },
           )
         : null,
@@ -232,6 +247,7 @@
         fit.samples ? pairs(fit.samples) : null,
         fit.traces.map(trace),
       ),
+      fit.parameters.length ? parameterTable(fit.parameters) : null,
       ...tables(fit),
     ];
   };

@@ -4,7 +4,17 @@
   const W = window.wingspread;
   const { h, number, format: F, marks: M } = W;
 
-  function settling(output, key, text) {
+  // A quantile is judged by the requirements' limits: they are lines if they are within twice the values' range.
+  function limitsAt(set, output, key, values) {
+    if (key === "mean") return { near: [], far: [] };
+    const [low, high] = d3.extent(values.filter(W.isNumber)),
+      room = 2 * (high - low) || Math.abs(high),
+      { factor } = F.shown(output.unit);
+    const limits = W.limits.of(set, output).map((one) => ({ at: W.limits.shown(one, factor), text: W.limits.text(one, factor) }));
+    const isNear = ({ at }) => at > low - room && at < high + room;
+    return { near: limits.filter(isNear), far: limits.filter((one) => !isNear(one)) };
+  }
+  function settling(set, output, key, text) {
     const one = output.convergence,
       { factor, unit } = F.shown(output.unit);
     const [lower, upper] = key === "mean" ? [one.lower, one.upper] : [one.quantile_lower, one.quantile_upper];
@@ -14,12 +24,17 @@
       ),
     );
     if (!rows.some((row) => W.isNumber(row[1]))) return null;
-    const last = rows[rows.length - 1];
+    const last = rows[rows.length - 1],
+      limits = limitsAt(set, output, key, rows.flatMap((row) => row.slice(1)));
+    const notes = [
+      rows.some((row) => row.every(W.isNumber)) ? null : "Too few runs for two-sided bounds.",
+      ...limits.far.map((one) => `The limit ${one.text} ${unit} lies outside the picture.`),
+    ].filter(Boolean);
     return W.figure({
       title: `${text} against runs: ${F.name(output)}`,
       class: "settling",
       printed: 440,
-      note: rows.some((row) => row.every(W.isNumber)) ? null : "Too few runs for two-sided bounds.",
+      note: notes.join(" ") || null,
       description: `At ${F.runs(last[0])}: ${F.number(last[1], 5)} ${unit}, bounds ${F.number(last[2], 5)} to ${F.number(last[3], 5)}.`,
       table: () => ({ columns: ["runs", `${text.toLowerCase()} ${unit}`, "lower", "upper"], rows }),
       draw: function (svg, width) {
@@ -32,12 +47,17 @@
               fill: "var(--c0)",
               opacity: 0.2,
             },
+            limits.near.length && { text: "limit of a requirement", line: "var(--bad)" },
           ].filter(Boolean),
           width,
         );
         // The first quarter of the points may have very wide bounds, so only the others set the scale.
         const later = rows.slice(Math.floor(rows.length / 4)),
-          y = M.linear([...later.flatMap((row) => row.slice(1)), ...rows.map((row) => row[1])], [0, 1], 0.06);
+          y = M.linear(
+            [...later.flatMap((row) => row.slice(1)), ...rows.map((row) => row[1]), ...limits.near.map((one) => one.at)],
+            [0, 1],
+            0.06,
+          );
         const box = M.boxFor(y, width, top, 220, Math.max(14, M.textWidth(F.count(d3.max(rows, (row) => row[0])), 11.5) / 2 + 3));
         y.clamp(true);
         const span = d3.extent(rows, (row) => row[0]),
@@ -58,6 +78,10 @@
           style: { fill: "var(--c0)" },
         });
         M.trace(svg, M.line(x, y)(rows.map((row) => row.slice(0, 2))), 0);
+        for (const { at, text: words } of limits.near) {
+          M.put(svg, "line.limit", { x1: box.left, x2: box.right, y1: y(at), y2: y(at) });
+          M.put(svg, "text.limit-text", { x: box.right, y: y(at) - 4, "text-anchor": "end", text: `${words} ${unit}` });
+        }
         return box.bottom + 40;
       },
     });
@@ -72,7 +96,9 @@
         h(
           "p.nothing",
           output
-            ? `Too few runs of ${set.label} have a value of ${F.name(output)} to show convergence.`
+            ? set.rows === false
+              ? W.withoutRows(set, "Convergence")
+              : `Too few runs of ${set.label} have a value of ${F.name(output)} to show convergence.`
             : "There is no output to show.",
         ),
       );
@@ -85,8 +111,8 @@
       ),
       h(
         "div.pair",
-        settling(output, "mean", "Mean"),
-        settling(output, "quantile", W.isNumber(p) ? (p === 0.5 ? "Median" : `${F.level(p)} quantile`) : "Quantile"),
+        settling(set, output, "mean", "Mean"),
+        settling(set, output, "quantile", W.isNumber(p) ? (p === 0.5 ? "Median" : `${F.level(p)} quantile`) : "Quantile"),
       ),
     );
   }

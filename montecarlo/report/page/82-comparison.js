@@ -86,10 +86,6 @@
           },
         });
   }
-  const relativeSpread = (one) =>
-    W.isNumber(one.lower) && one.difference !== 0
-      ? Math.abs((50 * (one.upper - one.lower) * one.relative) / one.difference)
-      : Math.abs(one.relative);
   function compared(comparison, open) {
     const statuses = (comparison.statuses || []).filter(
       (one) =>
@@ -106,7 +102,7 @@
         F.shown(unit).unit,
         W.isNumber(one.difference) ? sign(one.difference, value(one.difference)) : F.none,
         W.isNumber(one.lower) ? `${value(one.lower)} … ${value(one.upper)}` : "no bounds",
-        W.isNumber(one.relative) ? sign(one.relative, `${F.sized(100 * one.relative, relativeSpread(one))} %`) : F.none,
+        W.isNumber(one.relative) ? sign(one.relative, `${F.number(100 * one.relative, 3)} %`) : F.none,
         F.count(one.runs),
       ];
     });

@@ -3,7 +3,10 @@
 #include "montecarlo/analyses/fit/fit_campaign.hpp"
 #include "montecarlo/analyses/fit/fit_report.hpp"
 #include "montecarlo/engine/runs/results.hpp"
+#include "montecarlo/engine/runs/trajectory_columns.hpp"
 #include "montecarlo/foundation/formats/csv.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/model/scene_file/scene_parameter.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 
 #include <array>
@@ -52,7 +55,9 @@ Json traces_json(const std::filesystem::path& folder, const Json& study) {
     std::size_t last = first;
     while (last < rows.size() && rows[last][0] == rows[first][0] && rows[last][1] == rows[first][1])
       ++last;
-    Json trace{{"test", rows[first][0]}, {"column", rows[first][1]}};
+    Json trace{{"test", rows[first][0]},
+               {"column", rows[first][1]},
+               {"unit", unit_of_column(rows[first][1])}};
     for (const char* name : series) trace[name] = Json::array();
     for (const std::size_t row : chosen(first, last - first, most_times))
       for (std::size_t i = 0; i < series.size(); ++i)
@@ -77,9 +82,23 @@ Json samples_json(const std::filesystem::path& folder) {
   return samples;
 }
 
+/// The unit of a measured value: an output's, or a scene parameter's.
+std::string_view unit_of_value(const std::string& name, const Scene* scene) {
+  const std::string_view unit = parse_output_name(name).unit;
+  if (!unit.empty() || !scene) return unit;
+  const ParameterMatches found = resolve(*scene, name);
+  return found.matches.empty() ? unit : unit_of(found.matches.front().parameter);
+}
+
+/// Adds each predicted output's unit.
+Json prediction_json(Json prediction) {
+  for (auto& [name, output] : prediction.items()) output["unit"] = parse_output_name(name).unit;
+  return prediction;
+}
+
 } // namespace
 
-Json fit_block(const std::filesystem::path& folder) {
+Json fit_block(const std::filesystem::path& folder, const Scene* scene) {
   const Json study = parse_json_file(folder / fit_json_file);
   Json parameters = Json::array();
   for (const auto& [name, values] : study.at("parameters").items()) {
@@ -90,7 +109,7 @@ Json fit_block(const std::filesystem::path& folder) {
   Json values = Json::array();
   for (const Json& test : study.at("tests"))
     for (const auto& [name, value] : test.at("values").items()) {
-      Json row{{"test", test.at("name")}, {"name", name}};
+      Json row{{"test", test.at("name")}, {"name", name}, {"unit", unit_of_value(name, scene)}};
       row.update(value);
       values.push_back(std::move(row));
     }
@@ -103,7 +122,7 @@ Json fit_block(const std::filesystem::path& folder) {
           {"samples",
            std::filesystem::exists(folder / posterior_file) ? samples_json(folder) : Json(nullptr)},
           {"candidates", study.value("candidates", Json::array())},
-          {"prediction", study.value("prediction", Json::object())}};
+          {"prediction", prediction_json(study.value("prediction", Json::object()))}};
 }
 
 } // namespace wingspread

@@ -253,9 +253,10 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
 Json fit_study_set(const std::filesystem::path& folder, const std::string& label) {
   const Json study = parse_json_file(folder / fit_json_file);
   Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
+  std::optional<Campaign> campaign;
   if (const auto path = folder / campaign_file; std::filesystem::exists(path))
-    add_campaign(read_campaign_file(path), set);
-  set["fit"] = fit_block(folder);
+    add_campaign(campaign.emplace(read_campaign_file(path)), set);
+  set["fit"] = fit_block(folder, campaign ? &campaign->scene : nullptr);
   return set;
 }
 

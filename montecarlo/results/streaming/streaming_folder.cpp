@@ -1,5 +1,6 @@
 #include "montecarlo/results/streaming/streaming_folder.hpp"
 
+#include "montecarlo/engine/runs/row_reader.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/input_file.hpp"
 #include "montecarlo/results/streaming/streaming_summary.hpp"
@@ -78,6 +79,16 @@ StoredStatistics read_streaming_statistics(const StoredCampaign& stored) {
       StreamingStatistics(stored.campaign, RunPlan(stored.campaign).names(), from), broken_bytes};
   if (!from.at_end()) throw from.broken("no bytes after the end");
   return read;
+}
+
+Results read_broken_runs(const StoredCampaign& stored, std::uint64_t bytes) {
+  const std::filesystem::path path = stored.folder / broken_runs_file;
+  const ResultNames names = RunPlan(stored.campaign).names();
+  Results results(names);
+  InputFile in(path);
+  RowReader reader(in, path.string(), names, UnterminatedRow::drop);
+  while (reader.next() && reader.complete_bytes() <= bytes) results.append(reader.row());
+  return results;
 }
 
 Summary write_streaming_statistics(const StoredCampaign& stored,

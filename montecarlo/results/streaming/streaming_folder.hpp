@@ -35,6 +35,10 @@ struct StoredStatistics {
 /// @throws SpecError if the file is missing, damaged, or another campaign's
 [[nodiscard]] StoredStatistics read_streaming_statistics(const StoredCampaign& stored);
 
+/// The rows of broken_runs.csv that are within its first `bytes`.
+/// @throws SpecError if the file is missing or broken
+[[nodiscard]] Results read_broken_runs(const StoredCampaign& stored, std::uint64_t bytes);
+
 /// The content of statistics.bin: the same runs give the same bytes.
 [[nodiscard]] std::string streaming_statistics_text(const StoredCampaign& stored,
                                                     const StreamingStatistics& statistics,

@@ -25,8 +25,7 @@ Results rows_with(const std::vector<std::pair<std::string, double>>& rows) {
 TEST_CASE("histograms by order of latching add up to the histogram, by hand", "[page]") {
   const Results results = rows_with(
       {{"a>b", 0}, {"b>a", 1}, {"a>b", 2}, {"", 4}, {"a>b", nothing}, {"b>a", 2}, {"a>b", 4}});
-  const Summary summary = summarize(results, {});
-  const OrderSplit split(results, summary);
+  const OrderSplit split(results);
   REQUIRE(split.groups().size() == 3);
   CHECK(split.groups()[0].name == "a>b");
   CHECK(split.groups()[0].count == 4);
@@ -55,7 +54,7 @@ TEST_CASE("each wing has its own orders, by hand", "[page]") {
                                      {"right_tip>right_root>left_tip", 0},
                                      {"left_root", 0},
                                      {"", 0}});
-  const std::vector<WingOrders> wings = wing_orders(results, scene);
+  const std::vector<WingOrders> wings = wing_orders(order_counts(results), scene);
   REQUIRE(wings.size() == 2);
   CHECK(wings[0].name == "left");
   CHECK(wings[1].name == "right");
@@ -66,7 +65,7 @@ TEST_CASE("each wing has its own orders, by hand", "[page]") {
   REQUIRE(wings[1].orders.size() == 2);
   CHECK((wings[1].orders[0].name == "right_root>right_tip" && wings[1].orders[0].count == 2));
   CHECK(wings[1].without == 2);
-  const OrderSplit split(results, summarize(results, {}), scene);
+  const OrderSplit split(results, scene);
   CHECK(split.kinds() == 3);
   REQUIRE(split.groups().size() == 4);
   CHECK(split.groups()[0].name == "left: root>tip · right: root>tip");
@@ -76,7 +75,7 @@ TEST_CASE("each wing has its own orders, by hand", "[page]") {
   CHECK(split.groups()[3].name == "no latch");
   CHECK((split.of_row(1) == 0 && split.of_row(3) == 1 && split.of_row(4) == 3));
   scene.hinges[2].parent = 1; // one wing
-  CHECK(wing_orders(results, scene).empty());
+  CHECK(wing_orders(order_counts(results), scene).empty());
 }
 
 TEST_CASE("orders beyond the six most frequent stand together", "[page]") {
@@ -85,7 +84,7 @@ TEST_CASE("orders beyond the six most frequent stand together", "[page]") {
     for (int k = 0; k < 10 - order; ++k)
       rows.emplace_back(std::string(1, char('a' + order)), order);
   const Results results = rows_with(rows);
-  const OrderSplit split(results, summarize(results, {}));
+  const OrderSplit split(results);
   REQUIRE(split.groups().size() == 7);
   CHECK(split.groups()[5].name == "f");
   CHECK(split.groups()[6].name == "others");

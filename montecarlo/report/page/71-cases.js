@@ -1,0 +1,86 @@
+// The case as a cause: how much of an output's differences the cases make, against the spread inside each case.
+(function () {
+  "use strict";
+  const W = window.wingspread;
+  const { h, number, format: F } = W;
+
+  // The cases of the set's campaign that have values of an output: { set, output }.
+  function casesOf(set, name) {
+    const whole = (one) => one.folder.slice(0, -one.case.length);
+    return !set.case
+      ? []
+      : W.sets
+          .filter((one) => one.case && whole(one) === whole(set))
+          .map((one) => ({ set: one, output: W.outputsOf(one).find((each) => each.name === name) }))
+          .filter(({ output }) => output && output.count > 1 && W.isNumber(output.std));
+  }
+  // The parts of the variance over all cases together, each with the same weight: between their means, and inside them
+  // (the law of total variance).
+  function parts(cases) {
+    const mean = d3.mean(cases, ({ output }) => output.mean),
+      between = d3.mean(cases, ({ output }) => (output.mean - mean) ** 2),
+      inside = d3.mean(cases, ({ output }) => output.std ** 2);
+    return { between, inside, share: between + inside > 0 ? between / (between + inside) : 0 };
+  }
+  // The dispersions whose laws a case changes, then other inputs.
+  function changes(set) {
+    const { dispersions = [], scene = [] } = set.inputs || {};
+    return [
+      ...dispersions.filter((one) => one.law_before_case).map((one) => one.draw),
+      ...scene.filter((one) => one.case_value !== null && one.case_value !== undefined).map((one) => one.label),
+    ];
+  }
+  function changed(cases) {
+    const all = [...new Set(cases.flatMap(({ set }) => changes(set)))],
+      more = all.length - 3;
+    return all.length ? ` (${all.slice(0, 3).join(", ")}${more > 0 ? ` and ${F.counted(more, "more input")}` : ""})` : "";
+  }
+
+  // One sentence: from which case to which the mean moves, and what share of the variance that is. Null for one case.
+  W.caseEffect = function (set, name) {
+    const cases = casesOf(set, name);
+    if (cases.length < 2) return null;
+    const { inside, share } = parts(cases),
+      [low, high] = d3.extent(cases, ({ output }) => output.mean),
+      at = (mean) => cases.find(({ output }) => output.mean === mean).set.label,
+      { unit } = cases[0].output,
+      text = (value) => F.withUnit(value, unit, Math.sqrt(inside) / 10);
+    return low === high
+      ? `The case${changed(cases)} does not move the mean of ${F.nameOf(name)}.`
+      : `The case${changed(cases)} moves the mean of ${F.nameOf(name)} from ${text(low)} in ${at(low)} to ${text(high)} in ${at(high)}: ${F.share(share)} of the variance over all cases. Inside a case the standard deviation is ${text(Math.sqrt(inside))}.`;
+  };
+
+  // The same in numbers, case by case.
+  W.caseTable = function (set, name) {
+    const cases = casesOf(set, name);
+    if (cases.length < 2) return null;
+    const { inside } = parts(cases),
+      first = cases[0].output,
+      unit = F.shown(first.unit).unit,
+      text = (value) => F.value(value, first.unit, Math.sqrt(inside) / 10),
+      p = d3.max(first.quantiles || [], (one) => one.p),
+      quantileOf = (output) => ((output.quantiles || []).find((one) => one.p === p) || {}).value,
+      moved = (value) => `${value > 0 ? "+" : ""}${text(value)}`,
+      difference = (a, b) => (W.isNumber(a) && W.isNumber(b) ? moved(a - b) : F.none);
+    return W.table(
+      `Between the cases and inside them: ${F.nameOf(name)}`,
+      [
+        "Case",
+        number("Mean", unit),
+        number("Shift of the mean"),
+        number("Std inside"),
+        ...(W.isNumber(p) ? [number(F.quantileName(p)), number(`Shift of the ${F.quantileName(p)}`)] : []),
+      ],
+      cases.map(({ set: one, output }, at) => [
+        one.label,
+        text(output.mean),
+        at ? difference(output.mean, first.mean) : F.none,
+        text(output.std),
+        ...(W.isNumber(p)
+          ? [text(quantileOf(output)), at ? difference(quantileOf(output), quantileOf(first)) : F.none]
+          : []),
+      ]),
+      { class: "narrow-table", showCaption: true },
+    );
+  };
+})();
