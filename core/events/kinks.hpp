@@ -4,9 +4,9 @@
 ///
 /// Estimates of extrapolation, of implicit methods and of Fehlberg's formula expect a smooth right-hand side: they may
 /// accept a step over a kink and be wrong by a thousand tolerances. Their steps therefore end at the kinks that matter. So
-/// do all methods' steps at the limits of motors, where loads have their peaks, and where moments jump: at angles between
-/// those at which its strands go slack, a loop damps twice as much as outside, and a step may leap over them with no
-/// stage there.
+/// do all methods' steps at the limits of motors, where loads have their peaks, and where a step may leap over a range of
+/// angles with no stage there: a loop damps between the angles at which its strands go slack twice as much as outside, and
+/// a table may be steep between two knots.
 ///
 /// Let the law's change across the kink be jump + turn·abs(u − b) + bend·(u − b)². A step that meets the kink at the
 /// time τ from its nearer end differs from one under the smooth law, by the impulse of that change:
@@ -19,14 +19,18 @@
 #include "core/dense/step.hpp"
 #include "core/mechanics/linear_solve.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
+#include <type_traits>
+#include <vector>
 
 namespace wingspread {
 
 /// Tolerance of a step, by which kinks matter.
 struct KinkLimit {
   double rtol, atol;
-  bool peaks_and_jumps_only = false; ///< of methods that do not need smooth laws
+  bool leaps_only = false; ///< of methods that do not need smooth laws
   bool refused =
       false; ///< the step is refused: it is not known on which side of a kink its last stage was
 };
@@ -161,6 +165,103 @@ template <class T, class AnySystem>
   return found;
 }
 
+namespace detail {
+
+/// A number of a pack; of one number itself.
+template <class T> [[nodiscard]] double number_in(const T& x, [[maybe_unused]] int lane) {
+  if constexpr (is_one_number<T>)
+    return static_cast<double>(x);
+  else
+    return x.v[lane];
+}
+template <class Mask> [[nodiscard]] bool is_set(const Mask& mask, [[maybe_unused]] int lane) {
+  if constexpr (std::is_same_v<Mask, bool>) {
+    return mask;
+  } else {
+    const std::int64_t bits = mask.bits[lane];
+    return bits != 0;
+  }
+}
+/// Sets the lanes in which a predicate holds.
+template <class T, class Holds> void set_where(Truth<T>& mask, Holds&& holds) {
+  if constexpr (is_one_number<T>)
+    mask = mask || holds(0);
+  else
+    for (int lane = 0; lane < T::width; ++lane)
+      if (holds(lane)) mask.bits[lane] = -1;
+}
+
+/// Whether a way passes two knots of a curve, or turns beyond one: the curve may rise and fall inside.
+/// @param low, high bounds of the way
+[[nodiscard]] inline bool passes_knots_twice(const Curve& curve, double from, double to, double low,
+                                             double high) {
+  const std::vector<double>& knots = curve.knots();
+  const auto up_to = [&knots](double at) {
+    return std::upper_bound(knots.begin(), knots.end(), at) - knots.begin();
+  };
+  const auto between = up_to(std::max(from, to)) - up_to(std::min(from, to));
+  return between > 1 || up_to(high) - up_to(low) > between;
+}
+
+/// The same of any table of a hinge.
+template <class T>
+[[nodiscard]] bool passes_tables_twice(const RealHingeTerms<T>& hinge, double from, double to,
+                                       double low, double high) {
+  for (const Curve* curve : {hinge.spring.curve, hinge.harness.curve, hinge.friction.level})
+    if (curve && passes_knots_twice(*curve, from, to, low, high)) return true;
+  return false;
+}
+
+} // namespace detail
+
+/// Whether a step may leap over what a table is between two knots: the first test of KinkSearch. For a pack: in which
+/// lanes. @pre the system's last evaluation was near the step's end
+template <class T, class AnySystem>
+[[nodiscard]] Truth<T> may_leap_over_tables(const AnySystem& system, const Step<T>& step) {
+  Truth<T> found{};
+  const Layout& at = system.layout();
+  for (int i = 1; i < static_cast<int>(system.wing().real.size()); ++i) {
+    const RealHingeTerms<T>& hinge = system.wing().real[i];
+    if (!hinge.has_tables()) continue;
+    const ValueRange<T> way = hull(step.coordinate(at.angle(i), at.freedoms()));
+    const TablePiece<T>& piece = system.work().pieces[i];
+    const Truth<T> passes = !(way.low >= piece.low && way.high < piece.high);
+    if (!any(passes)) continue;
+    const T &from = step.x[at.angle(i)], &to = step.x1[at.angle(i)];
+    detail::set_where<T>(found, [&](int lane) {
+      return detail::is_set(passes, lane) &&
+             detail::passes_tables_twice(hinge, detail::number_in(from, lane),
+                                         detail::number_in(to, lane),
+                                         detail::number_in(way.low, lane),
+                                         detail::number_in(way.high, lane));
+    });
+  }
+  return found;
+}
+
+/// The same of what a loop's table is between two knots.
+template <class T, class AnySystem>
+[[nodiscard]] Truth<T> may_leap_over_gears(const AnySystem& system, const Step<T>& step) {
+  Truth<T> found{};
+  const Layout& at = system.layout();
+  for (const LoopTerms<T>& loop : system.wing().loops) {
+    if (!loop.table) continue;
+    const int k = at.angle(loop.first);
+    const ValueRange<T> angle = hull(step.coordinate(k, at.freedoms()));
+    const ValueRange<T> way = scaled(
+        loop.sense_a, ValueRange<T>{angle.low - loop.stowed_a, angle.high - loop.stowed_a});
+    const T from = loop.sense_a * (step.x[k] - loop.stowed_a);
+    const T to = loop.sense_a * (step.x1[k] - loop.stowed_a);
+    detail::set_where<T>(found, [&](int lane) {
+      return detail::passes_knots_twice(*loop.table, detail::number_in(from, lane),
+                                        detail::number_in(to, lane),
+                                        detail::number_in(way.low, lane),
+                                        detail::number_in(way.high, lane));
+    });
+  }
+  return found;
+}
+
 /// Finds the first kink that matters in a step.
 template <class T, class AnySystem> class KinkSearch {
 public:
@@ -174,7 +275,7 @@ public:
 
   [[nodiscard]] std::optional<Found> first() {
     const int hinges =
-        limit_.peaks_and_jumps_only ? 0 : static_cast<int>(system_.wing().real.size());
+        limit_.leaps_only ? 0 : static_cast<int>(system_.wing().real.size());
     for (int i = 1; i < hinges; ++i)
       if (!system_.sticks(i)) search_hinge(i);
     const int motors = static_cast<int>(system_.wing().motors.size());
@@ -190,12 +291,13 @@ private:
 
   void search_hinge(int i) {
     const RealHingeTerms<T>& real = system_.wing().real[i];
+    if (limit_.leaps_only && !real.has_tables()) return;
     const Layout& at = system_.layout();
     const Quintic<T> angle = step_.coordinate(at.angle(i), at.freedoms());
     for (const CurveTorqueTerms<T>* torque : {&real.spring, &real.harness})
       if (torque->curve) search_knots(*torque->curve, torque->weight, i, angle);
     if (real.friction.level) search_knots(*real.friction.level, real.friction.weight, i, angle);
-    search_rates(i, step_.rate_of(angle, at.angle(i), at.freedoms()));
+    if (!limit_.leaps_only) search_rates(i, step_.rate_of(angle, at.angle(i), at.freedoms()));
   }
 
   void search_rates(int i, const Quintic<T>& rate) {
@@ -234,10 +336,18 @@ private:
   /// Knots of a curve of hinge i's angle.
   void search_knots(const Curve& curve, const T& weight, int i, const Quintic<T>& angle) {
     using std::abs;
+    if (limit_.leaps_only && !leaps_over(curve, angle)) return;
     for_each_knot(curve, angle, [&](const T& knot, const T& turn, const T& bend) {
       offer_passage({Of::angle, i, knot, T(0)}, angle,
                     {i, T(0), abs(weight) * turn, abs(weight) * bend});
     });
+  }
+
+  [[nodiscard]] static bool leaps_over(const Curve& curve, const Quintic<T>& u) {
+    const ValueRange<T> way = hull(u);
+    return detail::passes_knots_twice(
+        curve, static_cast<double>(u.front()), static_cast<double>(u.back()),
+        static_cast<double>(way.low), static_cast<double>(way.high));
   }
 
   /// Calls visit(knot, jump of the slope, jump of half the second derivative) for the knots in the hull of u.
@@ -262,13 +372,13 @@ private:
   void search_loop(int l) {
     const LoopTerms<T>& loop = system_.wing().loops[l];
     if (system_.sticks(loop.first) && system_.sticks(loop.second)) return;
-    const bool only_jumps = limit_.peaks_and_jumps_only;
+    const bool only_jumps = limit_.leaps_only;
     if (only_jumps && !jumps(loop)) return;
     const Quintic<T> elastic = elastic_over_step(system_, step_, l);
     if (loop.table && !only_jumps) search_gear(loop, largest(elastic.front(), elastic.back()));
-    if (!(bound(elastic) > loop.slack_beyond)) return;
+    if (!(bound(elastic) > loop.slack_beyond) || (limit_.leaps_only && !jumps(loop))) return;
     const T jump = jumps(loop) ? jump_of_loop(loop, elastic, step_.h) : T(0);
-    const T turn(only_jumps ? 0 : 0.5);
+    const T turn(limit_.leaps_only ? 0 : 0.5);
     for (const T& at : {T(-loop.slack_beyond), loop.slack_beyond}) {
       offer_passage({Of::strands, l, at, T(0)}, elastic, {loop.second, jump, turn, T(0)});
       const T gear = largest_gear(loop);
@@ -284,6 +394,7 @@ private:
     const Quintic<T> angle = step_.coordinate(at.angle(loop.first), at.freedoms());
     Quintic<T> travel = angle;
     for (T& c : travel) c = loop.sense_a * (c - loop.stowed_a);
+    if (limit_.leaps_only && !leaps_over(*loop.table, travel)) return;
     for_each_knot(*loop.table, travel, [&](const T& knot, const T& turn, const T& bend) {
       const T angle_there = fused(loop.sense_a, knot, loop.stowed_a);
       const Kink<T> kink{Of::angle, loop.first, angle_there, T(0)};

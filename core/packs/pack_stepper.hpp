@@ -208,7 +208,9 @@ private:
     if (!wing_.loops.empty()) {
       const P tau = select(accepted, P(P(0.5) * step_.h), step_.h);
       asks = asks || (busy && moments_may_jump(system_, step_, tau, rtol_, atol_));
+      asks = asks || (accepted && may_leap_over_gears(system_, step_));
     }
+    if (!wing_.real.empty()) asks = asks || (accepted && may_leap_over_tables(system_, step_));
     asks_after_[1] = asks;
     if (work_.stuck > 0) asks = asks || (accepted && holds_.may_release(system_, step_));
     asks_after_[2] = asks;

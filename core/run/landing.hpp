@@ -34,7 +34,7 @@ public:
   /// @return whether it does
   [[nodiscard]] bool cut_refused_step(const std::optional<KinkLimit>& kinks, double rtol) {
     nearest_ = nearest(rtol);
-    if (!kinks || !kinks->peaks_and_jumps_only || missed_) return false;
+    if (!kinks || !kinks->leaps_only || missed_) return false;
     due_ = events_.first_jump(run_.step, *kinks);
     if (!due_) return false;
     begin();

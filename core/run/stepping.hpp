@@ -79,8 +79,7 @@ public:
   /// Which kinks end a step of the method, if any does.
   [[nodiscard]] std::optional<KinkLimit> kinks() const {
     const bool smooth = needs_smooth_laws(method());
-    const Wing<T>& wing = run_.system.wing();
-    if (!smooth && wing.motors.empty() && wing.loops.empty()) return std::nullopt;
+    if (!smooth && !run_.system.wing().is_real()) return std::nullopt;
     return KinkLimit{tolerance().rtol, tolerance().atol, !smooth};
   }
 
