@@ -93,7 +93,8 @@ TEST_CASE("where the way to rest is negative no hinge turns inside the step") {
   CHECK((stay > 2000 && set_out > 500));
 }
 
-TEST_CASE("a run in a lane has the bits of the run alone: hinges that nearly come to rest") {
+TEST_CASE("a run in a lane has the bits of the run alone: hinges that nearly come to rest",
+          "[long]") {
   std::vector<Scene> scenes;
   for (int k = 0; k < 120; ++k) {
     Draws draws(5000 + k);

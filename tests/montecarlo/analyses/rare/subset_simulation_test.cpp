@@ -53,7 +53,7 @@ RareEstimate repeated(const PointFunction& g, std::size_t d, long samples, long 
 
 } // namespace
 
-TEST_CASE("a linear limit state, β = 4: 3.16712e-5 within 20 % at 60,000 evaluations") {
+TEST_CASE("a linear limit state, β = 4: 3.16712e-5 within 20 % at 60,000 evaluations", "[long]") {
   // Over seeds, since one of them proves nothing: an error of 20 % is to be two standard deviations
   // of the estimate, and its mean right within what 24 estimates can show.
   constexpr int seeds = 24;
@@ -258,7 +258,7 @@ TEST_CASE("repetitions are combined by their mean, and by the wider of two inter
 
 // Of 400 estimates, the spread is known to 1/√800, 3.5 %. Along the chains' correlation δ has to come out as large as
 // it is, and no larger; without it, at γ = 0, it is too small by a third.
-TEST_CASE("the variation is the spread that repetitions have, no less and no more") {
+TEST_CASE("the variation is the spread that repetitions have, no less and no more", "[long]") {
   constexpr int repeats = 400;
   std::vector<double> probabilities;
   double square = 0, uncorrelated = 0;
@@ -279,7 +279,7 @@ TEST_CASE("the variation is the spread that repetitions have, no less and no mor
 }
 
 // By counting the number of level-sized steps it takes: with N = 500, +4.7 ± 1.2 % at 8e-4 was measured; here ± 0.8 %.
-TEST_CASE("an estimate is too large on average, by as much as it says") {
+TEST_CASE("an estimate is too large on average, by as much as it says", "[long]") {
   constexpr int repeats = 2000;
   const double exact = normal_tail(3.156); // 8e-4
   double sum = 0, square = 0, bias = 0;
