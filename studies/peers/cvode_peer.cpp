@@ -1,22 +1,20 @@
 #include "studies/peers/cvode_peer.hpp"
 
 #include "core/mechanics/system.hpp"
+#include "tests/support/cvode_handles.hpp"
 
 #include <boost/math/tools/minima.hpp>
-#include <cvode/cvode.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
 
 #include <array>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 namespace wingspread::study {
 
 namespace {
+
+using oracle::Owned;
+using oracle::require;
 
 /// What CVODE asks of a wing: of any topology, through C's void*.
 class Problem {
@@ -35,20 +33,6 @@ int root_functions(realtype, N_Vector y, realtype* gaps, void* problem) {
   static_cast<Problem*>(problem)->find_gaps(N_VGetArrayPointer(y), gaps);
   return 0;
 }
-
-void require(int flag, const char* call) {
-  if (flag < 0)
-    throw std::runtime_error(std::string(call) + " failed with flag " + std::to_string(flag));
-}
-
-struct Free {
-  void operator()(SUNContext context) const { SUNContext_Free(&context); }
-  void operator()(N_Vector vector) const { N_VDestroy(vector); }
-  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
-  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
-  void operator()(void* memory) const { CVodeFree(&memory); }
-};
-template <class Handle> using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free>;
 
 } // namespace
 

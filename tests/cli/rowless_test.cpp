@@ -85,7 +85,7 @@ TEST_CASE("run --no-rows says what run says, and keeps the rows of broken runs a
 
 TEST_CASE(
     "run --no-rows gives the same bytes on any threads, resumed after any end, and from shards",
-    "[parallel]") {
+    "[parallel][long]") {
   const Rowless made(9'000);
   REQUIRE(made.run(made.none, {"--threads", "1"}).code <= 1);
   const auto whole = contents(made.none);

@@ -1,26 +1,12 @@
+#include "tests/support/cvode_handles.hpp"
 #include "tests/support/reference_ode.hpp"
 #include "tests/support/reference_run.hpp"
-
-#include <cvode/cvode.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
-
-#include <memory>
-#include <stdexcept>
-#include <string>
 
 namespace wingspread::oracle {
 
 namespace {
 
 using Ode = WingOde<double>;
-
-void require(int flag, const char* call) {
-  if (flag < 0)
-    throw std::runtime_error(std::string(call) + " failed with flag " + std::to_string(flag));
-}
 
 Vector<double> values(N_Vector from) {
   return Eigen::Map<const Vector<double>>(N_VGetArrayPointer(from), N_VGetLength(from));
@@ -113,15 +99,6 @@ private:
     assign(absolute, work_.get());
     require(CVodeSVtolerances(memory_.get(), options_.rtol, work_.get()), "CVodeSVtolerances");
   }
-
-  struct Free {
-    void operator()(SUNContext context) const { SUNContext_Free(&context); }
-    void operator()(N_Vector vector) const { N_VDestroy(vector); }
-    void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
-    void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
-    void operator()(void* memory) const { CVodeFree(&memory); }
-  };
-  template <class Handle> using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free>;
 
   Ode& ode_;
   const ReferenceOptions& options_;

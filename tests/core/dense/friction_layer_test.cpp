@@ -85,7 +85,8 @@ TEST_CASE("a step that leaps over the layer of a friction is cut, one that sampl
   CHECK(limits(0.5, 0.8, 30).next == Approx(3 * 0.8 / 0.3).epsilon(1e-5));
 }
 
-TEST_CASE("runs of rubbing wings are right: by default to 1e-6 in rates and 1e-5 in peaks") {
+TEST_CASE("runs of rubbing wings are right: by default to 1e-6 in rates and 1e-5 in peaks",
+          "[long]") {
   double default_rate = 0, default_peak = 0, loose_rate = 0, tight_rate = 0;
   long loose = 0, usual = 0, cash_karp = 0;
   for (int unit = 0; unit < 12; ++unit) {

@@ -19,7 +19,7 @@ TEST_CASE("energy before the first latch drifts less than 1e-9 at the defaults")
   }
 }
 
-TEST_CASE("ten thousand undamped periods drift no more than the tolerance lets them") {
+TEST_CASE("ten thousand undamped periods drift no more than the tolerance lets them", "[long]") {
   const double omega = std::sqrt(2 / (pi / 2) / panel_inertia), energy = 0.5 * 2 * (pi / 2);
   for (const MethodInfo& method : methods()) {
     const bool slow = method.order > 0 && method.order < 5; // for so tight a tolerance

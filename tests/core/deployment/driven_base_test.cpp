@@ -129,7 +129,7 @@ TEST_CASE("motions that a base's table leaves out stay constant") {
   }
 }
 
-TEST_CASE("random wings on driven bases agree with the reference") {
+TEST_CASE("random wings on driven bases agree with the reference", "[long]") {
   const auto cases = static_cast<std::uint64_t>(random_cases(24, 6));
   std::size_t latches = 0;
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {

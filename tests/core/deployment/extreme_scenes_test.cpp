@@ -116,7 +116,7 @@ TEST_CASE("next to no inertia: the right answer or none, never NaN") {
   CHECK(judged >= 139); // of 252
 }
 
-TEST_CASE("latches of 1e9 N·m/rad: auto is right, the others right or failed") {
+TEST_CASE("latches of 1e9 N·m/rad: auto is right, the others right or failed", "[long]") {
   for (const double damping : {1e5, 1e3}) { // over-damped; ringing at some 1e4 rad/s for 10 ms
     Scene scene = seed_scene();
     for (Hinge& hinge : scene.hinges) hinge.latch = Latch{1e9, damping};

@@ -57,7 +57,7 @@ TEST_CASE("the yoke wing with stops latches as the dense formulation says") {
   CHECK(other);
 }
 
-TEST_CASE("random wings with real hinges on every base agree with the reference") {
+TEST_CASE("random wings with real hinges on every base agree with the reference", "[long]") {
   const auto cases = static_cast<std::uint64_t>(random_cases(24, 6));
   std::size_t latches = 0;
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {

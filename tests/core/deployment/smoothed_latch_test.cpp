@@ -19,7 +19,7 @@ ReferenceOutcome smoothed_reference(std::optional<double> smoothing) {
 
 } // namespace
 
-TEST_CASE("a smoothed latch is as wrong as its width, and no wronger") {
+TEST_CASE("a smoothed latch is as wrong as its width, and no wronger", "[long]") {
   const ReferenceOutcome event = smoothed_reference({});
   std::vector<double> root_errors;
   for (const double epsilon : {1e-4, 1e-3, 1e-2}) {

@@ -66,7 +66,8 @@ struct Errors {
 
 } // namespace
 
-TEST_CASE("a strand that goes slack costs no accuracy: default tolerances against the reference") {
+TEST_CASE("a strand that goes slack costs no accuracy: default tolerances against the reference",
+          "[long]") {
   RealFeatures features = nothing;
   features.loops = features.preloads = true;
   features.softest = 100, features.stiffest = 3e3;

@@ -26,7 +26,7 @@ TEST_CASE("the closed form of dry friction is the limit of regularized friction"
   }
 }
 
-TEST_CASE("wings with exact friction are the limit of wings with regularized friction") {
+TEST_CASE("wings with exact friction are the limit of wings with regularized friction", "[long]") {
   SECTION("three panels that all deploy") {
     const Scene scene = rubbed_seed(0.3, 0.2, 0.05);
     const Limit limit(scene, 9);
@@ -71,7 +71,7 @@ TEST_CASE("wings with exact friction are the limit of wings with regularized fri
   }
 }
 
-TEST_CASE("random wings that stick and slide are the limit of regularized ones") {
+TEST_CASE("random wings that stick and slide are the limit of regularized ones", "[long]") {
   int at_rest = 0, latches = 0;
   for (std::uint64_t seed = 1; seed <= 36; ++seed) {
     RandomScene options;

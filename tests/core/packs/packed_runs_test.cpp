@@ -134,16 +134,7 @@ TEST_CASE("lanes stay full: each takes the next run at once") {
   for (const InstructionSet set : instruction_sets()) {
     if (set == InstructionSet::scalar) continue;
     CAPTURE(to_string(set));
-    long next = 0;
-    DeploymentPack pack(set, {}, latches_alone);
-    const Occupancy lanes = pack.run(
-        scenes.front(),
-        [&](Scene& scene) -> std::optional<long> {
-          if (next == std::ssize(scenes)) return std::nullopt;
-          scene = scenes[next];
-          return next++;
-        },
-        [](long, Outcome&&) {});
+    const Occupancy lanes = run_in_lanes(set, scenes, {}, latches_alone, [](long, Outcome&&) {});
     REQUIRE(static_cast<double>(lanes.busy) > 0.97 * static_cast<double>(lanes.tries));
   }
 }

@@ -48,22 +48,27 @@ inline std::string bits_of(const Outcome& outcome) {
   return all;
 }
 
+/// Runs the scenes in lanes. Hands `take` the index of each scene and its outcome.
+template <class Take>
+Occupancy run_in_lanes(InstructionSet set, const std::vector<Scene>& scenes, const Integration& how,
+                       const Goal& goal, const Take& take) {
+  long next = 0;
+  const auto give = [&](Scene& scene) -> std::optional<long> {
+    if (next == std::ssize(scenes)) return std::nullopt;
+    scene = scenes[next];
+    return next++;
+  };
+  DeploymentPack pack(set, how, goal);
+  return pack.run(scenes.front(), give, take);
+}
+
 /// Runs the scenes in lanes. Returns the bits of each outcome by the scene's index.
 inline std::map<long, std::string> in_lanes(InstructionSet set, const std::vector<Scene>& scenes,
                                             const Integration& how, const Goal& goal) {
   std::map<long, std::string> outcomes;
-  long next = 0;
-  DeploymentPack pack(set, how, goal);
-  pack.run(
-      scenes.front(),
-      [&](Scene& scene) -> std::optional<long> {
-        if (next == std::ssize(scenes)) return std::nullopt;
-        scene = scenes[next];
-        return next++;
-      },
-      [&](long name, Outcome&& outcome) {
-        REQUIRE(outcomes.emplace(name, bits_of(outcome)).second);
-      });
+  run_in_lanes(set, scenes, how, goal, [&](long name, Outcome&& outcome) {
+    REQUIRE(outcomes.emplace(name, bits_of(outcome)).second);
+  });
   return outcomes;
 }
 

@@ -85,7 +85,7 @@ TEST_CASE("a falling wing whose hinges stick is blown open once it falls fast en
   CHECK(after.final.angles[0] > 0);
 }
 
-TEST_CASE("with real hinges, an early end misses no latch and no peak") {
+TEST_CASE("with real hinges, an early end misses no latch and no peak", "[long]") {
   int final = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     CAPTURE(seed);
@@ -96,7 +96,8 @@ TEST_CASE("with real hinges, an early end misses no latch and no peak") {
   WARN(final << " of 40 ended by proof");
 }
 
-TEST_CASE("with real hinges and smoothed latches, an early end misses no latch and no peak") {
+TEST_CASE("with real hinges and smoothed latches, an early end misses no latch and no peak",
+          "[long]") {
   RealFeatures features;
   features.backlash = features.air = features.gravity = features.stops = false;
   int deployed = 0;
@@ -117,7 +118,7 @@ TEST_CASE("with real hinges and smoothed latches, an early end misses no latch a
   CHECK(deployed >= 10);
 }
 
-TEST_CASE("with each feature of real hinges, an early end misses no latch and no peak") {
+TEST_CASE("with each feature of real hinges, an early end misses no latch and no peak", "[long]") {
   const RealFeatures none{false, false, false, false, false, false,
                           false, false, false, false, false, false};
   bool RealFeatures::*const each[] = {

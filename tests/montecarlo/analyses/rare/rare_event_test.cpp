@@ -182,7 +182,8 @@ TEST_CASE("draws of the far tails are those of their laws, correlated ones too")
 
 // Friction alone varies, and stalls the wing from 9 standard deviations on: 1.1e-19. The point is in the upper tail,
 // where u = Φ(z) is 1 to the last bit: by u alone there is no draw beyond 8.2.
-TEST_CASE("an event far in the upper tail is reached by draws that are there, coupled or not") {
+TEST_CASE("an event far in the upper tail is reached by draws that are there, coupled or not",
+          "[long]") {
   Json json = one_panel(1.1 - 9 * 0.03);
   json["dispersions"][0]["distribution"] = {{"type", "constant"}, {"value", 1}};
   for (const bool coupled : {false, true}) {

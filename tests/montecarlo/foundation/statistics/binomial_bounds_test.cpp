@@ -97,7 +97,7 @@ TEST_CASE("a sample too small for a bound has none") {
   CHECK((!bounds.lower && !bounds.upper));
 }
 
-TEST_CASE("quantile bounds cover as often as the binomial law says") {
+TEST_CASE("quantile bounds cover as often as the binomial law says", "[long]") {
   constexpr int trials = 20000, n = 60;
   std::mt19937_64 random(42);
   for (const double p : {0.1, 0.5, 0.9}) {

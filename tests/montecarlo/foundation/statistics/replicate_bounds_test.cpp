@@ -29,7 +29,7 @@ std::vector<ReplicateValue> independent(int replicates, int n, std::mt19937_64& 
 
 } // namespace
 
-TEST_CASE("replicate quantile bounds cover about as often as they say, on either side") {
+TEST_CASE("replicate quantile bounds cover about as often as they say, on either side", "[long]") {
   const int trials = random_cases(4000, 1000);
   std::mt19937_64 random(44);
   for (const auto& [replicates, p] : {std::pair{2, 0.5}, {4, 0.9}, {16, 0.9}, {16, 0.98}}) {
@@ -88,7 +88,7 @@ TEST_CASE("replicate quantile bounds with missing values: infinite ones in their
   CHECK((lost > 30 && kept > 200));
 }
 
-TEST_CASE("replicate quantile bounds see what stratification gains, and still cover") {
+TEST_CASE("replicate quantile bounds see what stratification gains, and still cover", "[long]") {
   constexpr int trials = 2000;
   std::mt19937_64 random(45);
   int covered = 0;

@@ -160,7 +160,7 @@ Coverage cover_share(double p, double width, double confidence, int trials) {
 // each look with scipy 1.10.1: .9446 at a confidence of .95 each, .9903 with α shared among three
 // looks.
 TEST_CASE("the share's interval at which a campaign stops covers as often as it says",
-          "[stopping]") {
+          "[stopping][long]") {
   constexpr int trials = 4000;
   const auto band = [](double share) { return 5 * std::sqrt(share * (1 - share) / trials); };
   const Coverage shared = cover_share(.004, .005, at_each_of(.95, 3), trials);
@@ -170,7 +170,7 @@ TEST_CASE("the share's interval at which a campaign stops covers as often as it 
 }
 
 TEST_CASE("the quantile's interval at which a campaign stops covers as often as it says",
-          "[stopping]") {
+          "[stopping][long]") {
   constexpr int trials = 1000;
   const double confidence = at_each_of(.9, 3), median = std::log(2.0);
   const StoppingRule rule = rule_of("root.latch_time@0.5 13%");
