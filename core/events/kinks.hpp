@@ -274,8 +274,7 @@ public:
   };
 
   [[nodiscard]] std::optional<Found> first() {
-    const int hinges =
-        limit_.leaps_only ? 0 : static_cast<int>(system_.wing().real.size());
+    const int hinges = limit_.refused ? 0 : static_cast<int>(system_.wing().real.size());
     for (int i = 1; i < hinges; ++i)
       if (!system_.sticks(i)) search_hinge(i);
     const int motors = static_cast<int>(system_.wing().motors.size());
