@@ -219,7 +219,7 @@ def meet_stage(stage, number, fault, seconds, scratch):
 
 
 def tracked_page():
-    return [name for name in tracked() if name.startswith(("tests/browser/", PAGE))]
+    return [name for name in tracked() if name.startswith(("tests/browser/", "studies/plots/", PAGE))]
 
 
 class Clock:
