@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "tests/montecarlo/analyses/fit/fit_support.hpp"
 
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include <functional>
