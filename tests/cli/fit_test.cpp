@@ -56,13 +56,10 @@ TEST_CASE("fit: every option does what its help says") {
   CHECK(fit.rows("seeded") == fit.rows("nine"));
   CHECK(fit(9, "nine").code == 2); // there is one already
   CHECK(fit(9, "nine", {"--resume", "--json"}).out == nine.out);
-  const auto few = fit(5, "few", {"--runs", "50"});
-  CHECK(few.code == 0);
-  CHECK(fit.rows("few") != fit.rows("nine"));
 }
 
 TEST_CASE("fit: too few runs are no result, and --resume goes on with them") {
-  const Fit fit(3000);
+  const Fit fit(1500);
   const auto few = fit(5, "few", {"--runs", "50"});
   CHECK(few.code == 1);
   CHECK(few.out.starts_with("not finished: effective sample size"));
