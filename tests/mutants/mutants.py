@@ -97,7 +97,7 @@ def switched(content, faults):
     edits = sorted(((*edit, number, fault) for number, fault in faults for edit in fault["edits"]), key=lambda edit: edit[0], reverse=True)
     for begin, end, new, number, fault in edits:
         old, new = content[begin:end].decode(), new.replace("\n", " ")
-        cast = "static_cast<bool>" if fault.get("condition") else ""  # of either: `optional` beside `bool` would make the old one true
+        cast = "wingspread_mutant_condition" if fault.get("condition") else ""
         form = f"(wingspread_mutant({number}) ? {cast}({new}) : {cast}({old}))"
         if fault.get("statement"):
             form = f"if (wingspread_mutant({number})) {{}} else {{ {old} }}"

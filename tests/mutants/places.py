@@ -1,7 +1,8 @@
 """The places of a C++ file that a fault can change, found in the syntax tree by libclang (Debian's python3-clang).
 
 A place is a dictionary: "function" (its qualified name), "old" and "new" (texts), "edits" [(begin, end, new text)] in bytes, and
-"statement" where the edit drops a statement, "condition" where old or new text may be a pointer or an `optional`. Rules, each for what no test could or should see:
+"statement" where the edit drops a statement, "condition" where the texts may be a pointer or an `optional`. Rules, each for what no
+test could or should see:
 - only what is computed at run time: no types, template arguments, static_assert, case labels, constexpr variables, `if constexpr`
 - < and <= are exchanged for integers alone: for numbers the edge has no width. Every other comparison is turned round
 - no arithmetic on texts: words of messages are no results; no reserve(), no assertion
