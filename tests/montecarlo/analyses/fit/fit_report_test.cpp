@@ -33,7 +33,7 @@ FitSpec spec_of(oracle::Draws& draws) {
   return spec;
 }
 
-FittedChannel trace(oracle::Draws& draws, std::size_t column, std::optional<double> std) {
+FittedChannel fitted_trace(oracle::Draws& draws, std::size_t column, std::optional<double> std) {
   FittedChannel fitted;
   fitted.channel = {.test = 0, .column = column, .count = 4, .std = std, .offset_std = 0.5};
   fitted.channel.effective = draws.uniform(2.5, 4);
@@ -62,7 +62,7 @@ FitResult result_of(oracle::Draws& draws) {
     result.correlation(i, j) = result.correlation(j, i) = draws.uniform(-1, 1);
   result.u_covariance = Eigen::MatrixXd::Identity(2, 2);
   result.directions = {{Eigen::Vector2d(0.99, -0.14), 0.95}, {Eigen::Vector2d(0.14, 0.99), 0.2}};
-  result.channels = {trace(draws, 0, 0.3), trace(draws, 1, std::nullopt)};
+  result.channels = {fitted_trace(draws, 0, 0.3), fitted_trace(draws, 1, std::nullopt)};
   FittedChannel& value = result.channels.emplace_back();
   value.channel = {.test = 1, .count = 1, .std = 0.1, .effective = 1};
   value.name = "root.latch_time";
