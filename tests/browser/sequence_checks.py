@@ -92,6 +92,12 @@ class SequenceChecks:
         drawn = [x(place) for place, in self.attributes("figure.sequence line.middle", "x1")]
         for got, median in zip(drawn, medians, strict=True):
             self.assertLess(abs(got - median), 2 * near)
+        told = self.run_script("return [...document.querySelectorAll('figure.sequence rect.span title')].map(title => title.textContent)")
+        for title, (hinge, words, count, _, first, *_, last) in zip(told, (row for row in rows for _ in range(2)), strict=True):  # two bars each
+            self.assertTrue(title.startswith(f"{hinge} {words} at "), title)
+            got = parsed(title[len(f"{hinge} {words}"):])
+            for (value, half), want in zip(got, (None, float(first), float(last), int(float(count)), RUNS), strict=True):
+                self.assertTrue(want is None or abs(value - want) <= half + 1e-5 * want, title)
         self.assertEqual(rows, sorted(rows, key=lambda row: min(float(other[7]) for other in rows if other[0] == row[0])))  # in order of time
 
     def side_by_side(self, sets, wanted):

@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <regex>
 #include <thread>
 
 using namespace wingspread;
@@ -245,6 +246,11 @@ TEST_CASE("margin states its drawbacks, and holds its requirements in every case
                        Catch::Contains("\nambient\n") && Catch::Contains("\ncold\n") &&
                        Catch::Contains("GSFC-STD-7000A (22 April 2013): critical_design · "
                                        "AIAA S-114-2005: critical_design\n"));
+  const std::regex range(
+      R"((\d[\d.]*) – (\d[\d.]*))"); // the scales between which an edge lies, and others
+  std::sregex_iterator at(text.begin(), text.end(), range);
+  CHECK(at != std::sregex_iterator());
+  for (; at != std::sregex_iterator(); ++at) CHECK(std::stod((*at)[1]) < std::stod((*at)[2]));
   const Json found = program.found(), search = found["searches"][0];
   CHECK(found["cases"] == Json({"ambient", "cold"}));
   CHECK(search["window"]["lower"]["set_by"][0]["case"] == "cold");

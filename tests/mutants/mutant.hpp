@@ -60,3 +60,13 @@
   if (std::is_constant_evaluated()) return false;
   return wingspread_mutant_is(number);
 }
+
+/// A condition as `bool`, so that both sides of a switch have one type: of an `optional` and a `bool` the common type is an
+/// `optional`, which has a value where the `bool` is false. Lanes' truths stay as they are.
+template <class C>
+[[gnu::always_inline]] inline constexpr auto wingspread_mutant_condition(const C& condition) {
+  if constexpr (std::is_constructible_v<bool, const C&>)
+    return static_cast<bool>(condition);
+  else
+    return condition;
+}

@@ -97,7 +97,8 @@ def switched(content, faults):
     edits = sorted(((*edit, number, fault) for number, fault in faults for edit in fault["edits"]), key=lambda edit: edit[0], reverse=True)
     for begin, end, new, number, fault in edits:
         old, new = content[begin:end].decode(), new.replace("\n", " ")
-        form = f"(wingspread_mutant({number}) ? ({new}) : {'static_cast<bool>' if fault.get('condition') else ''}({old}))"
+        cast = "wingspread_mutant_condition" if fault.get("condition") else ""
+        form = f"(wingspread_mutant({number}) ? {cast}({new}) : {cast}({old}))"
         if fault.get("statement"):
             form = f"if (wingspread_mutant({number})) {{}} else {{ {old} }}"
         content = content[:begin] + form.encode() + content[end:]
@@ -219,7 +220,7 @@ def meet_stage(stage, number, fault, seconds, scratch):
 
 
 def tracked_page():
-    return [name for name in tracked() if name.startswith(("tests/browser/", PAGE))]
+    return [name for name in tracked() if name.startswith(("tests/browser/", "studies/plots/", PAGE))]
 
 
 class Clock:

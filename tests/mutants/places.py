@@ -1,7 +1,8 @@
 """The places of a C++ file that a fault can change, found in the syntax tree by libclang (Debian's python3-clang).
 
 A place is a dictionary: "function" (its qualified name), "old" and "new" (texts), "edits" [(begin, end, new text)] in bytes, and
-"statement" where the edit drops a statement, "condition" where the old text may be a pointer. Rules, each for what no test could or should see:
+"statement" where the edit drops a statement, "condition" where the texts may be a pointer or an `optional`. Rules, each for what no
+test could or should see:
 - only what is computed at run time: no types, template arguments, static_assert, case labels, constexpr variables, `if constexpr`
 - < and <= are exchanged for integers alone: for numbers the edge has no width. Every other comparison is turned round
 - no arithmetic on texts: words of messages are no results; no reserve(), no assertion
@@ -95,7 +96,8 @@ class Finder:
         if sign not in OPERATORS or is_text(left) or is_text(right):
             return
         l, r = self.of(left), self.of(right)
-        change = lambda new: self.add([(left.extent.start.offset, right.extent.end.offset, new)])
+        more = {"condition": True} if sign in ("&&", "||") else {}
+        change = lambda new: self.add([(left.extent.start.offset, right.extent.end.offset, new)], **more)
         change(f"{l} {OPERATORS[sign]} {r}")
         if sign in EDGES and all(side.type.get_canonical().kind in INTEGERS for side in (left, right)):
             change(f"{l} {EDGES[sign]} {r}")

@@ -1,7 +1,9 @@
 #include "montecarlo/analyses/fit/fit_report.hpp"
 #include "montecarlo/analyses/fit/fit_study.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
 #include "tests/montecarlo/analyses/fit/fit_support.hpp"
 
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include <functional>
@@ -69,6 +71,16 @@ TEST_CASE("the posterior of one torque from one latch time is that of Bayes' rul
   CHECK(result.channels.at(0).sigmas ==
         Approx((measured - panel_latch_time(mode, 1)) / std).margin(1e-3));
   CHECK(spring.prior_std == Approx(0.01).epsilon(1e-3));
+  // the written rows: as many as asked for, and as widely spread as all samples
+  REQUIRE(result.rows.size() == 1000);
+  std::vector<double> springs;
+  for (const std::vector<double>& row : result.rows) {
+    REQUIRE(row.size() == 1);
+    springs.push_back(row[0]);
+  }
+  const Moments of_rows = moments(springs);
+  CHECK(std::abs(of_rows.mean - exact.mean) < 4 * error);
+  CHECK(std::abs(of_rows.std - exact.standard_deviation) < 4 * error / std::sqrt(2.0));
 }
 
 TEST_CASE("one trace sees only the difference of spring and friction, and the fit says so") {

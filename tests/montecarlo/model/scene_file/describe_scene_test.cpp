@@ -65,3 +65,21 @@ TEST_CASE("What real hinges have is described", "[describe]") {
       "  gravity: (0.1, -9.81) m/s²\n"
       "  air: 1.2 kg/m³\n");
 }
+
+TEST_CASE("A torque is described unless it is 0 along the whole travel", "[describe]") {
+  const std::string none = R"({"torque_stowed": 0, "torque_latched": 0})";
+  for (const std::string torque : {"spring", "harness"}) {
+    const auto told = [&](const std::string& law) {
+      Json document = test::small_scene();
+      document["hinges"][1][torque] = parse_json(law);
+      const std::string text = describe(read_scene(document));
+      const std::string line = text.substr(text.find("    mid:"));
+      return line.find(torque + ' ') != std::string::npos;
+    };
+    CAPTURE(torque);
+    CHECK_FALSE(told(none));
+    CHECK(told(R"({"torque_stowed": 0.5, "torque_latched": 0})"));
+    CHECK(told(R"({"torque_stowed": 0, "torque_latched": 0.5})"));
+    CHECK(told(R"({"torque_stowed": 0, "torque_latched": 0, "offset": 0.5})"));
+  }
+}

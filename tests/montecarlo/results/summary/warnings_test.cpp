@@ -9,10 +9,9 @@ using namespace wingspread;
 
 namespace {
 
-Results four_runs() {
+Results four_runs(const std::vector<PeaksFinal>& finals = {PeaksFinal::yes, PeaksFinal::no,
+                                                           PeaksFinal::yes, PeaksFinal::unknown}) {
   Results results(ResultNames{{}, {"root.latch_rate"}, true});
-  const std::vector<PeaksFinal> finals{PeaksFinal::yes, PeaksFinal::no, PeaksFinal::yes,
-                                       PeaksFinal::unknown};
   for (long run = 0; run < 4; ++run)
     results.append({run,
                     Status::deployed,
@@ -46,6 +45,17 @@ TEST_CASE("what is to be warned of stands in the table and in summary.json") {
   CHECK_THAT(summary_table(summary, "four", ""),
              Catch::Contains("\nWARNING\n  " + expected[0] + "\n  " + expected[1].substr(0, end) +
                              "\n  " + expected[1].substr(end + 1) + "\n"));
+}
+
+TEST_CASE("where nothing is wrong nothing is warned of") {
+  const Results results = four_runs(std::vector<PeaksFinal>(4, PeaksFinal::yes));
+  Summary summary = summarize(results, {});
+  CHECK(warnings(summary).empty());
+  summary.peaks = count_peaks_final(results);
+  REQUIRE(summary.peaks);
+  CHECK(warnings(summary).empty());
+  summary.peaks = count_peaks_final(four_runs(std::vector<PeaksFinal>(4, PeaksFinal::unknown)));
+  CHECK(warnings(summary).empty());
 }
 
 TEST_CASE("a warning of several cases is told once, with its cases") {

@@ -1,0 +1,69 @@
+#include "montecarlo/analyses/fit/fit_report.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/montecarlo/analyses/fit/fit_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// One latch time of the panel, to which its spring is fitted.
+class Fit {
+public:
+  explicit Fit(int samples = 200) {
+    Json tests = parse_json(R"({ "tests": [ { "name": "timer", "values": [
+        { "output": "root.latch_time", "value": 2.3, "std": "10 ms" } ] } ],
+      "fit": { "parameters": ["spring"], "starts": 2 } })");
+    tests["fit"]["samples"] = samples;
+    folder_.write("tests.json", tests.dump());
+    for (const int seed : {5, 9}) {
+      Json campaign = panel_campaign(0.01);
+      campaign["sampling"]["seed"] = seed;
+      folder_.write(("c" + std::to_string(seed) + ".json").c_str(), campaign.dump());
+    }
+  }
+  /// @param campaign by its seed
+  Finished operator()(int campaign, const std::string& out,
+                      std::vector<std::string> options = {}) const {
+    const std::string file = folder_.path() / ("c" + std::to_string(campaign) + ".json");
+    std::vector<std::string> words{"fit", file, folder_.path() / "tests.json", "--out", at(out)};
+    words.insert(words.end(), options.begin(), options.end());
+    return run_program(folder_, words);
+  }
+  [[nodiscard]] std::string at(const std::string& out) const { return folder_.path() / out; }
+  [[nodiscard]] std::string rows(const std::string& out) const {
+    return read_text(at(out) + "/posterior.csv").value();
+  }
+
+private:
+  Folder folder_;
+};
+
+} // namespace
+
+TEST_CASE("fit: every option does what its help says") {
+  const Fit fit;
+  const auto nine = fit(9, "nine", {"--json"});
+  CHECK(nine.code == 0);
+  CHECK(nine.out == *read_text(fit.at("nine") + "/fit.json"));
+  CHECK(lines_of(fit.rows("nine")).size() == 1 + 200);
+  // the option's seed takes the place of the campaign's, on any number of threads
+  const auto seeded = fit(5, "seeded", {"--seed", "9", "--threads", "2"});
+  CHECK(seeded.code == 0);
+  CHECK(seeded.out.find("PARAMETER") != std::string::npos);
+  CHECK(fit.rows("seeded") == fit.rows("nine"));
+  CHECK(fit(9, "nine").code == 2); // there is one already
+  CHECK(fit(9, "nine", {"--resume", "--json"}).out == nine.out);
+}
+
+TEST_CASE("fit: too few runs are no result, and --resume goes on with them") {
+  const Fit fit(1500);
+  const auto few = fit(5, "few", {"--runs", "50"});
+  CHECK(few.code == 1);
+  CHECK(few.out.starts_with("not finished: effective sample size"));
+  const auto more = fit(5, "few", {"--resume", "--json"});
+  CHECK(more.code == 0);
+  CHECK(parse_json(more.out)["finished"] == true);
+}

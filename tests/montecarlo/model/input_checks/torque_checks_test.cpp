@@ -1,0 +1,51 @@
+#include "montecarlo/model/input_checks/torque_checks.hpp"
+#include "montecarlo/model/scene_file/scene_json.hpp"
+#include "tests/montecarlo/spec_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// What is said of the springs where the second hinge's spring, harness and friction are given.
+std::vector<std::string> told(const char* spring, const char* harness, double coulomb,
+                              bool coupled = false) {
+  Json document = small_scene();
+  Json& hinge = document["hinges"][1];
+  hinge["spring"] = parse_json(spring), hinge["harness"] = parse_json(harness);
+  hinge["friction"] = {{"coulomb", coulomb}, {"viscous", 0}, {"regularization_rate", 0.002}};
+  if (coupled)
+    document["synchronisations"] = parse_json(R"([ { "name": "loop", "between": ["root", "mid"],
+      "ratio": 2, "stiffness": 300, "damping": 0.5, "preload": 8 } ])");
+  InputWarnings warnings({"wing.json", ""});
+  check_torques(read_scene(document), warnings);
+  std::vector<std::string> of_torques;
+  for (const InputWarning& warning : warnings.list())
+    if (warning.pointer.ends_with("/spring")) of_torques.push_back(to_string(warning));
+  return of_torques;
+}
+
+} // namespace
+
+TEST_CASE("a torque that does not deploy is named once, by its cause") {
+  const char* const deploys = R"({"torque_stowed": 1, "torque_latched": 0.5})";
+  const char* const none = R"({"torque_stowed": 0, "torque_latched": 0})";
+  CHECK(told(deploys, none, 0.4).empty());
+  CHECK(told(none, none, 0).empty());
+  const auto pushes = told(R"({"torque_stowed": 1, "torque_latched": -0.5})", none, 0.4);
+  REQUIRE(pushes.size() == 1);
+  CHECK_THAT(pushes[0], Catch::Contains("-0.5 N·m") && Catch::Contains("pushes away"));
+  // a drive of two hinges lacks torque by that spring alone
+  const auto drive = told(R"({"torque_stowed": -5, "torque_latched": -5})", none, 0.4, true);
+  REQUIRE(drive.size() == 1);
+  CHECK_THAT(drive[0], Catch::Contains("/hinges/1/spring") && Catch::Contains("pushes away"));
+  const auto weak = told(none, R"({"torque_stowed": 5, "torque_latched": 5})", 0.4, true);
+  REQUIRE(weak.size() == 1);
+  CHECK_THAT(weak[0], Catch::Contains("a net static torque of") && Catch::Contains("mid"));
+  for (const auto& lacking : {told(deploys, none, 0.6), told(deploys, deploys, 0.1)}) {
+    REQUIRE(lacking.size() == 1);
+    CHECK_THAT(lacking[0], Catch::Contains("a net static torque of -0.1 N·m"));
+  }
+}
