@@ -5,7 +5,7 @@
 #include "core/events/contact.hpp"
 #include "core/events/edge_crossing.hpp"
 #include "core/events/holding.hpp"
-#include "core/events/kinks.hpp"
+#include "core/events/kink_search.hpp"
 #include "core/events/latches.hpp"
 #include "core/events/releases.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "core/dense/friction_layer.hpp"
 #include "core/dense/roughness.hpp"
-#include "core/events/kinks.hpp"
+#include "core/events/leaps.hpp"
 #include "core/events/turning.hpp"
 #include "core/mechanics/structure.hpp"
 #include "core/mechanics/system.hpp"

@@ -1,5 +1,6 @@
 // Springs and harnesses by tables: whole runs against linear laws and quadratures.
 #include "tests/core/deployment/real_runs.hpp"
+#include "tests/support/random_cases.hpp"
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -97,6 +98,31 @@ TEST_CASE("a spring's table drives as its integral says") {
     Scene other = other_sense(scene);
     other.hinges[0].spring.table = torque_table(angles, curve_torques, how);
     check_arrival(run_everywhere(other, 1e-11, 5), driven(torque, panel_inertia), 1e-8);
+  }
+}
+
+TEST_CASE("no step leaps over a detent in a table, however narrow") {
+  Draws draws(17);
+  for (int k = 0; k < random_cases(200, 12); ++k) {
+    const double half_width = draws.log_uniform(1e-5, 1e-2), at = draws.uniform(0.05, 0.9);
+    const double depth = draws.chance(0.5) ? draws.uniform(-0.5, 0)
+                                           : draws.uniform(0, std::min(100.0, 0.05 / half_width));
+    const std::vector<double> angles{0, at - half_width, at, at + half_width, 1};
+    const std::vector<double> torques{1, 1, 1 + depth, 1, 1};
+    for (const Interpolation how : {Interpolation::monotone, Interpolation::linear}) {
+      Scene scene = driven_panel();
+      scene.hinges[0].spring.table = torque_table(angles, torques, how);
+      const Table<double> torque(angles, torques, how, Beyond::constant);
+      const Arrival exact = driven(torque, panel_inertia);
+      CAPTURE(k, half_width, at, depth, static_cast<int>(how));
+      check_arrival(run_everywhere(scene, 1e-9, 5), exact, 1e-7);
+      for (const std::string method : {"dop853", "dopri5", "cash_karp54", "seulex", "fehlberg78"}) {
+        Integration within_limits = within(1e-6, 5);
+        within_limits.method = method;
+        CAPTURE(method);
+        check_arrival(Deployment().run(scene, within_limits, latches_only), exact, 2e-6);
+      }
+    }
   }
 }
 
