@@ -217,7 +217,7 @@ TEST_CASE("few runs have no partial coefficients, and none at all no coefficient
   CHECK(std::isnan(empty.outputs[0].effects[0].spearman.value));
 }
 
-TEST_CASE("the bounds hold their coefficient as often as they say") {
+TEST_CASE("the bounds hold their coefficient as often as they say", "[long]") {
   // population values as in the closed form above; 95 % bounds of 600 samples of 50 runs
   const double c = spearman_correlation(1 / std::sqrt(2.25)),
                other = spearman_correlation(-0.5 / std::sqrt(2.25)),
@@ -256,7 +256,8 @@ TEST_CASE("a dispersion that moves nothing is named, and seldom one that does") 
 
 // Of six strong dispersions the ranks' own variance is not that of a partial coefficient: Fisher's z with
 // (1 + r²/2)/(n − g − 3) covers 87 % here, with 1/(n − g − 3) 79 %, in place of 95.
-TEST_CASE("the bounds of a partial coefficient hold it as often as they say, close to 1 too") {
+TEST_CASE("the bounds of a partial coefficient hold it as often as they say, close to 1 too",
+          "[long]") {
   struct Example {
     std::vector<double> weights; ///< the last one of noise
     double truth;                ///< of the first
@@ -313,7 +314,7 @@ Results sobol_sum(std::uint64_t seed, long runs, int replicates, RunsMade& made)
 
 // Spearman's of u and u + v, both uniform: F(s) = s²/2 below 1 and 1 − (2 − s)²/2 above, E F(u + v) u =
 // 1/2 · 1/2 + cov, cov = ∫∫ (u − 1/2) F = 7/120, so that ρ = 12 · 7/120 = 0.7.
-TEST_CASE("bounds of draws that depend on each other come from their replicates") {
+TEST_CASE("bounds of draws that depend on each other come from their replicates", "[long]") {
   int hits = 0;
   constexpr int designs = 200;
   double width = 0;
@@ -372,7 +373,7 @@ TEST_CASE("a dispersion of which the others explain half is named, one of a thir
 }
 
 // Of 40 runs 19 other dispersions leave 21: a partial coefficient's errors are 1.5 times what they would be without.
-TEST_CASE("few runs of many dispersions that move nothing show hardly any") {
+TEST_CASE("few runs of many dispersions that move nothing show hardly any", "[long]") {
   constexpr std::size_t dispersions = 20, samples = 100;
   long seen = 0;
   for (std::uint64_t sample = 0; sample < samples; ++sample) {
