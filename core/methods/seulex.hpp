@@ -8,10 +8,15 @@
 /// powers of h [P. Deuflhard, SIAM Review 27 (1985) 505-535], so that the results of n = 2, 3, 4, …
 /// extrapolate to h = 0 by Aitken and Neville: column k is of order k. Order and step follow the
 /// work per unit of time [Hairer & Wanner II, IV.9: the code SEULEX, of which this is the W form].
+///
+/// The ways x_k − x_0 are extrapolated, not the states: weights of up to 1e5 raise the rounding of what they
+/// weigh, and that of a state is more than the way of a short step.
 #pragma once
 
 #include "core/methods/rosenbrock.hpp"
 #include "core/methods/state_algebra.hpp"
+
+#include <algorithm>
 
 namespace wingspread {
 
@@ -32,6 +37,7 @@ public:
                                     State<T>& dxdt1) {
     for (State<T>& row : table_) row.resize(from.x.size());
     error_.resize(from.x.size());
+    at_.resize(from.x.size());
     StepVerdict verdict{2, 0.5};
     int j = 0;
     for (; j < std::min(target_ + 2, most); ++j) {
@@ -44,7 +50,7 @@ public:
       if (j + 1 >= target_ && hopeless(verdict.error, j)) break;
     }
     j = std::min(j, std::min(target_ + 2, most) - 1);
-    x1 = table_[0];
+    for (std::size_t c = 0; c < x1.size(); ++c) x1[c] = from.x[c] + table_[0][c];
     system(x1, dxdt1, from.t + h);
     if (!is_finite(StateAlgebra::norm_inf(x1)) || !is_finite(StateAlgebra::norm_inf(dxdt1)))
       return {std::numeric_limits<double>::quiet_NaN(), 0.1};
@@ -75,17 +81,18 @@ private:
   /// (1) for a row, into its place of the table.
   template <class System>
   void substeps(System& system, const Start<T>& from, const T& h, int row, State<T>& dxdt) {
-    State<T>& x = table_[row];
+    State<T>& way = table_[row];
     const int n = count(row);
     const T part = h / T(n);
     linear_.factorize(system, from, part);
-    x = from.x;
+    std::fill(way.begin(), way.end(), T(0));
     for (int k = 0; k < n; ++k) {
-      if (k > 0) system(x, dxdt, from.t + T(k) * part);
+      for (std::size_t c = 0; c < way.size(); ++c) at_[c] = from.x[c] + way[c];
+      if (k > 0) system(at_, dxdt, from.t + T(k) * part);
       const State<T>& f = k > 0 ? dxdt : from.dxdt;
-      for (std::size_t c = 0; c < x.size(); ++c) error_[c] = part * f[c];
+      for (std::size_t c = 0; c < way.size(); ++c) error_[c] = part * f[c];
       linear_.solve(system, error_);
-      for (std::size_t c = 0; c < x.size(); ++c) x[c] = x[c] + error_[c];
+      for (std::size_t c = 0; c < way.size(); ++c) way[c] = way[c] + error_[c];
     }
   }
 
@@ -100,8 +107,11 @@ private:
   }
 
   [[nodiscard]] double column_error(const State<T>& x, int j) {
-    for (std::size_t c = 0; c < x.size(); ++c) error_[c] = table_[0][c] - table_[1][c];
-    errors_[j] = in_tolerances(x, table_[0], table_[0], error_, tolerance_);
+    for (std::size_t c = 0; c < x.size(); ++c) {
+      error_[c] = table_[0][c] - table_[1][c];
+      at_[c] = x[c] + table_[0][c];
+    }
+    errors_[j] = in_tolerances(x, at_, at_, error_, tolerance_);
     return errors_[j];
   }
 
@@ -142,9 +152,9 @@ private:
 
   LinearlyImplicit<T> linear_;
   Tolerance tolerance_;
-  std::array<State<T>, most> table_;
+  std::array<State<T>, most> table_; ///< ways from the step's start
   std::array<double, most> errors_{};
-  State<T> error_;
+  State<T> error_, at_;
   int target_ = 5, next_target_ = 5;
   bool after_rejection_ = false;
 };

@@ -158,6 +158,23 @@ TEST_CASE("in double the error of a step falls so down to round-off, and stays t
   check_orders<SwingingWing<double>, SwingingWing<Quad>>(1. / 8);
 }
 
+TEST_CASE("a step so short that nothing curves moves the state by its rates, to rounding") {
+  SwingingWing<double> wing;
+  with_one_step_methods<double>([&](auto stepper, const OneStep& method) {
+    const double rounding = method.name == "bulirsch_stoer" ? method.round_off : 2;
+    for (const double h : {1e-15, 1e-14, 1e-13, 1e-12}) {
+      Stepping<double> at(wing.system, wing.start);
+      stepper.restart(method.tolerance);
+      REQUIRE(std::isfinite(at.attempt(stepper, wing.system, h).error));
+      for (std::size_t c = 0; c < at.x.size(); ++c) {
+        CAPTURE(method.name, method.order, h, c, at.x[c], at.x1[c], at.dxdt[c]);
+        CHECK(std::abs(at.x1[c] - (at.x[c] + h * at.dxdt[c])) <=
+              rounding * 0x1p-52 * std::abs(at.x[c]) + 1e-21);
+      }
+    }
+  });
+}
+
 TEST_CASE("the order of the multistep method climbs to eight, its corrector's to nine") {
   constexpr double span = 0.125;
   RingingWing<Quad> quad;

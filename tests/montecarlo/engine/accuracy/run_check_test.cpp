@@ -3,7 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -61,11 +63,19 @@ TEST_CASE("a rattling wing's peaks move by more than 1 %, and its check says so"
   const auto check = check_of({{"stiffness", 1e7}, {"damping", 1.0}, {"backlash", 0.004}});
   REQUIRE(check);
   CHECK(output_of(*check, "root.latch_time").digits >=
-        9); // what comes before the rattling is known
-  const CheckedOutput& peak = output_of(*check, "tip.peak_moment");
-  CHECK(peak.moved);
-  CHECK(peak.digits <= 2);
-  CHECK(std::abs(peak.value - peak.reference) > 0.01 * peak.value);
+        9);      // what comes before the rattling is known
+  int moved = 0; // which ones, rounding decides
+  for (const CheckedOutput& output : check->outputs) {
+    if (output.name.find("peak") == std::string::npos) continue;
+    CAPTURE(output.name, output.value, output.reference);
+    const double by = std::abs(output.value - output.reference);
+    const double most = std::max(std::abs(output.value), std::abs(output.reference));
+    if (by > 0.0101 * most) CHECK(output.moved);
+    if (by < 0.0099 * most) CHECK_FALSE(output.moved);
+    if (output.moved) CHECK(output.digits <= 2);
+    moved += output.moved ? 1 : 0;
+  }
+  CHECK(moved > 0);
 }
 
 TEST_CASE("outputs that happen in one of two integrations have moved, those in neither have not",
