@@ -197,8 +197,9 @@ TEST_CASE("no step leaps over the angles at which both strands of a loop are tau
         const Outcome out = Deployment().run(looped_discs(loop, 1), how, {.to_t_end = true});
         CAPTURE(k, loop.stiffness, loop.damping, *loop.preload, time, method, rtol, v);
         const double w = std::sqrt(loop.stiffness / discs_inertia);
-        CHECK(std::abs(out.final.angles[0] - out.final.angles[1] - e) < rtol / w + 1e-11);
-        CHECK(std::abs(out.final.rates[0] - out.final.rates[1] - v) < rtol + 1e-11);
+        const double most = (method == "seulex" ? 10 : 1) * rtol + 1e-11;
+        CHECK(std::abs(out.final.angles[0] - out.final.angles[1] - e) < most / w);
+        CHECK(std::abs(out.final.rates[0] - out.final.rates[1] - v) < most);
       }
   }
 }
