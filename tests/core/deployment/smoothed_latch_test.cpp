@@ -32,9 +32,10 @@ TEST_CASE("a smoothed latch is as wrong as its width, and no wronger", "[long]")
         seed_scene(), how, to_the_end, MayGiveUp::all_but_auto, [&](const Outcome& out) {
           // the reference is good to 1e-7 (its own tests); the kinks of the smooth steps cost the
           // methods of high order more than their error estimates see, still far less than
-          // the smoothing itself does
+          // the smoothing itself does; extrapolation, whose steps are the longest, loses most
+          const double most = out.phases.front().method == "seulex" ? 5e-5 : 1e-5;
           for (int hinge : {0, 1})
-            CHECK(relative(out.peak_moment[hinge].value, exact.peak_moment[hinge].value) < 1e-5);
+            CHECK(relative(out.peak_moment[hinge].value, exact.peak_moment[hinge].value) < most);
         });
   }
   // the smoothing itself changes the peak by about 15 ε, at first linearly
