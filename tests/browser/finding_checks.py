@@ -105,6 +105,17 @@ class FindingChecks:
         self.assertIn("95 % bounds", legend)
         self.assertIn(f"From {runs[-1]} runs on both bounds are known", note)
 
+    def test_what_a_bound_bounds_is_said(self):
+        """The column of bounds, the dispersions without a visible effect, the share of runs with a larger error."""
+        self.open(pages.made_up("plain"))
+        heads = lambda: self.run_script("return [...document.querySelectorAll('table.requirements thead th')].map(one => one.textContent)")
+        self.assertIn("90 % confidence bound", heads())
+        self.run_script("""const set = W.set(); set.requirements[0].confidence = 0.8; set.sensitivity.idle = ['tip.harness'];
+            set.accuracy.beyond_largest = { runs: 0, share_at_most: 0.259 }; W.outcomes(); W.why()""")
+        self.assertIn("Confidence bound", heads())
+        self.assertIn("With 95 % confidence at most 25.9 % of all runs have a larger error", self.one("#verdicts").text)
+        self.assertRegex(self.one("#why").text, r"tip\.harness\. .*95 % confidence for all outputs together \(Bonferroni\)")
+
     def test_the_player_opens_at_the_start(self):
         self.open(pages.made_up("plain"))
         self.assertEqual(self.run_script("return W.player.time"), self.run_script("return W.set().motions[0].t[0]"))
