@@ -18,8 +18,9 @@ import print_report  # noqa: E402
 
 class FindingChecks:
     def test_each_failed_requirement_has_its_finding(self):
-        """Where, how many runs, the guaranteed value, its distance from the limit and the worst run, against the data."""
+        """Where, how many runs of how many allowed, the observed quantile and the worst run, against the data."""
         self.open(pages.made_up("loads"))
+        self.run_script("W.sets.forEach((set, at) => set.requirements.forEach(one => one.allowed = at ? 7 : 0)); W.outcomes()")
         judged = self.run_script("return W.verdicts.judged().map(row => ({ ...row.requirement, set: row.set.label, runs: row.set.runs }))")
         worst = {}
         for one in judged:
@@ -31,17 +32,93 @@ class FindingChecks:
         for text, one in zip(found, worst.values()):
             self.assertIn(f"in {one['set']} {one['beyond']:,} of {one['runs']:,} runs", text)
             self.assertIn("above" if one["upper"] else "below", text)
-            if one["guaranteed_value"] is not None and one["margin"] is not None and one["margin"] < 0:
-                bound, distance = re.search(r"of all deployments stay \w+ ([\d.,−]+) .*?, which is ([\d.,]+) .*? \w+ the limit", text).groups()
+            self.check(re.search(r"runs \(([\d.]+) %\)", text)[1], one["beyond"] / one["runs"], share=True, about=one["text"])
+            allowed = one.get("allowed")
+            self.assertEqual(re.findall(r"where (?:at most )?(\S+) may", text), [] if allowed is None else [str(allowed or "none")], one["text"])
+            if one["observed_value"] is not None:
+                bound = re.search(r"of these runs stay \w+ ([\d.,−]+) ", text)[1]
                 factor = self.run_script("return W.format.shown(W.verdicts.unitOf(arguments[0], W.set())).factor", one)
-                self.assertAlmostEqual(parsed(bound)[0][0], one["guaranteed_value"] * factor, delta=2 * parsed(bound)[0][1])
-                self.assertAlmostEqual(parsed(distance)[0][0], abs(one["margin"]) * factor, delta=2 * parsed(distance)[0][1])
+                self.assertAlmostEqual(parsed(bound)[0][0], one["observed_value"] * factor, delta=2 * parsed(bound)[0][1])
             also = [other["set"] for other in judged if other["text"] == one["text"] and other["verdict"] == "failed" and other["set"] != one["set"]]
             self.assertEqual("Also fails in" in text, bool(also))
             for label in also:
                 self.assertRegex(text, rf"Also fails in .*{label}")
             if one["beyond_runs"]:
                 self.assertIn(f"The worst run is {one['beyond_runs'][0]['run']}.", text)
+
+    def test_static_margins_that_are_too_low_are_in_the_first_screen(self):
+        """The lowest of all cases, in which cases, and that no requirement asks for them; nothing where all are high enough."""
+        self.open(pages.made_up("cases"))
+        level = lambda low: self.run_script("""W.sets.forEach(set => set.static_margins.hinges.forEach(one => Object.assign(one, { least: 0.5, lower: 0.25, required: 0 })));
+            for (const [at, hinge, least, lower] of arguments[0]) Object.assign(W.sets[at].static_margins.hinges[hinge], { least, lower });
+            W.outcomes(); W.why(); return [...document.querySelectorAll('#verdicts .static-shortfall')].map(one => one.textContent)""", low)
+        self.assertEqual(level([]), [])
+        (text,) = level([(0, 1, -0.48, -0.616), (1, 1, 0.1, -0.16), (1, 2, 0.1, -0.05)])
+        self.assertIn("of 2 hinges are below the required 0 in cold and ambient; in cold also those of the nominal wing", text)
+        self.assertIn("Lowest: −0.62 in cold (1 % quantile over 1,000 draws)", text)
+        self.assertIn("They are no requirement", text)
+        self.assertIn("ECSS-E-ST-33-01C", text)
+        part = self.one("#" + self.one(".static-shortfall a").get_attribute("href").partition("#")[2]).text
+        self.assertIn("Lowest in cold: −0.62; then ambient −0.16, hot 0.25.", part)
+        self.assertIn("ECSS-E-ST-33-01C (6 March 2009)", part)
+        self.run_script("W.sets[0].requirements[0].static_margin = true; W.outcomes()")
+        self.assertNotIn("They are no requirement", self.one(".static-shortfall").text)
+
+    def test_angles_follow_the_choice_everywhere(self):
+        """Units of the accuracy table, the glossary and the modes; their numbers differ by the factor."""
+        self.open(pages.made_up("plain"))
+        found = {}
+        for unit in ("deg", "rad"):
+            self.run_script("""W.set().modes = { wing: W.set().wing, rest: W.set().wing.hinges.map(() => 0), modes: [{ frequency: 1, damping_ratio: 0.01, shape: W.set().wing.hinges.map(() => 1), base: null }] };
+                const select = document.getElementById('angles'); select.value = arguments[0]; select.dispatchEvent(new Event('change'))""", unit)
+            (row,) = [row for row in self.table("Numerical and statistical error of each output") if row[0] == "root latch rate"]
+            self.assertEqual(row[1], f"{unit}/s")
+            units = {row[1] for row in self.table("Meaning, unit and sign of every name")}
+            self.assertFalse(units & {"rad": {"deg", "deg/s"}, "deg": {"rad", "rad/s"}}[unit], units)
+            note = self.run_script("return document.querySelector('figure.mode > .note').textContent")
+            self.assertTrue(note.endswith(f" {unit}."), note)
+            found[unit] = (parsed(row[2])[0], parsed(note)[-1])
+        for (degrees, near), (radians, _) in zip(found["deg"], found["rad"]):
+            self.assertAlmostEqual(degrees / math.degrees(radians), 1, delta=0.1)
+
+    def test_dispersions_by_chance_and_rounding_noise(self):
+        self.open(pages.made_up("plain"))
+        tested = self.run_script("return W.set().inputs.dispersions.length")
+        note = self.run_script("return document.querySelector('figure.tornado > .note').textContent")
+        self.assertRegex(note, rf"95 % .* none of the {tested} dispersions had an effect, about ")
+        self.assertAlmostEqual(parsed(note)[2][0], 0.05 * tested, delta=0.01 * tested)
+        self.run_script("W.set().outputs[0].nominal = 1e-13 * W.set().outputs[0].max; W.set().outputs[1].nominal = 1e-6 * W.set().outputs[1].min; W.outputs()")
+        rows = self.table("Outputs of mock_wing")
+        self.assertEqual(rows[0][4], "0")
+        self.assertNotEqual(parsed(rows[1][4])[0][0], 0)
+
+    def test_convergence_has_each_bound_and_the_last_number_of_runs(self):
+        self.open(pages.made_up("stalls"))
+        self.run_script("""const one = W.output().convergence; one.quantile_upper = one.quantile_upper.map((value, at, all) => at + 1 < all.length ? null : value); W.convergence()""")
+        pages.settle(self.driver)
+        runs = self.run_script("return W.output().convergence.runs")
+        paths, ticks, legend, note = self.run_script("""const figure = document.querySelectorAll('figure.settling')[1];
+            return [[...figure.querySelectorAll('path.bound')].map(one => one.getAttribute('d').split('L').length), [...figure.querySelectorAll('.axis.x .tick')].map(one => one.textContent),
+                    figure.querySelector('.legend').textContent, figure.querySelector('.note').textContent]""")
+        self.assertEqual(paths[0], len(runs))
+        self.assertEqual(ticks[-1], str(runs[-1]))
+        self.assertIn("95 % bounds", legend)
+        self.assertIn(f"From {runs[-1]} runs on both bounds are known", note)
+
+    def test_what_a_bound_bounds_is_said(self):
+        """The column of bounds, the dispersions without a visible effect, the share of runs with a larger error."""
+        self.open(pages.made_up("plain"))
+        heads = lambda: self.run_script("return [...document.querySelectorAll('table.requirements thead th')].map(one => one.textContent)")
+        self.assertIn("90 % confidence bound", heads())
+        self.run_script("""const set = W.set(); set.requirements[0].confidence = 0.8; set.sensitivity.idle = ['tip.harness'];
+            set.accuracy.beyond_largest = { runs: 0, share_at_most: 0.259 }; W.outcomes(); W.why()""")
+        self.assertIn("Confidence bound", heads())
+        self.assertIn("With 95 % confidence at most 25.9 % of all runs have a larger error", self.one("#verdicts").text)
+        self.assertRegex(self.one("#why").text, r"tip\.harness\. .*95 % confidence for all outputs together \(Bonferroni\)")
+
+    def test_the_player_opens_at_the_start(self):
+        self.open(pages.made_up("plain"))
+        self.assertEqual(self.run_script("return W.player.time"), self.run_script("return W.set().motions[0].t[0]"))
 
     def test_the_sentence_names_the_dispersions_of_largest_effect(self):
         """Of each sign the one of largest correlation whose bounds leave out 0; and of none where there is none."""
@@ -139,6 +216,7 @@ class FindingChecks:
             low, high = (pick(outputs, key=lambda one: one["mean"]) for pick in (min, max))
             sentence = self.all("#why .effects")[0].text
             self.check(sentence, low["mean"], high["mean"], 100 * between / (between + inside), math.sqrt(inside), about=name)
+            self.assertRegex(sentence, "between the cases; .*pooled over the cases")
             for one in (low, high):
                 self.assertIn(f"in {sets[outputs.index(one)]['label']}", sentence)
             rows = self.table(f"Between the cases and inside them: {self.run_script('return W.format.nameOf(arguments[0])', name)}")

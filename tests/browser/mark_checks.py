@@ -312,7 +312,7 @@ class MarkChecks:
         rows = self.table("Numerical and statistical error of each output")
         for row, each in zip(rows, sorted(accuracy["outputs"], key=lambda row: -row["largest"] / row["standard_error"]), strict=True):
             for cell, key in zip(row[2:], ("largest", "rms", "standard_error")):
-                self.check(cell, each[key], about=row[0])
+                self.check(cell, each[key] * (DEGREES if row[1].startswith("deg") else 1), about=row[0])
         total = sum(each["count"] for each in one["orders"]) + one["without_latch"]
         counts = [*(each["count"] for each in one["orders"]), one["without_latch"]]
         for row, count in zip(self.table("Latch orders"), counts, strict=True):

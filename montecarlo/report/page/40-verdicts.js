@@ -147,14 +147,13 @@
       side = one.upper ? "above" : "below",
       limit = F.written(one.limit, unitOf(one, set)),
       name = F.nameOf(one.output);
-    const known = W.isNumber(one.guaranteed_value) && W.isNumber(one.margin) && one.margin < 0;
     const runs = (one.beyond_runs || []).map((each) => each.run);
     return h(
       "li",
       h("b", shortOf(one)),
-      `: ${several ? `in ${set.label} ` : ""}${F.count(one.beyond)} of ${F.runs(set.runs)} ${one.beyond === 1 ? "has" : "have"} ${one.abs ? `|${name}|` : name} ${side} ${limit}. `,
-      known
-        ? `The runs show, with ${F.given(100 * one.confidence)} % confidence, that ${F.given(100 * one.probability)} % of all deployments stay ${one.upper ? "below" : "above"} ${valueText(one.guaranteed_value, one, set)}, which is ${marginText({ ...one, margin: Math.abs(one.margin) }, set).replace("+", "")} ${one.upper ? "above" : "below"} the limit. `
+      `: ${several ? `in ${set.label} ` : ""}${F.count(one.beyond)} of ${F.runs(set.runs)} (${F.share(one.beyond / Math.max(1, set.runs))}) ${one.beyond === 1 ? "has" : "have"} ${one.abs ? `|${name}|` : name} ${side} ${limit}${W.isNumber(one.allowed) ? `, where ${one.allowed ? `at most ${F.count(one.allowed)}` : "none"} may` : ""}. `,
+      W.isNumber(one.observed_value)
+        ? `${F.given(100 * one.probability)} % of these runs stay ${one.upper ? "below" : "above"} ${valueText(one.observed_value, one, set)}. `
         : null,
       also.length ? `Also fails in ${listed(also)}. ` : null,
       runs.length ? [`The worst run is `, h("button.run", { onclick: () => W.selectRun(at, runs[0]) }, String(runs[0])), ". "] : null,
@@ -258,6 +257,11 @@
     return lines.filter(Boolean).flatMap((each) => [each, " "]); // the blank parts the lines for those who hear them
   }
 
+  // "90 % confidence bound", if all requirements ask for the same confidence.
+  function boundName(rows) {
+    const levels = new Set(rows.map((row) => row.requirement.confidence));
+    return levels.size === 1 ? `${F.given(100 * [...levels][0])} % confidence bound` : "Confidence bound";
+  }
   function requirementTable(rows) {
     const several = W.sets.length > 1;
     const columns = [
@@ -265,7 +269,7 @@
       "Verdict",
       several && "Case",
       number("Observed"),
-      number("Guaranteed"),
+      number(boundName(rows)),
       number("Margin"),
       "Against the limit",
       "Runs that break it",
@@ -315,7 +319,7 @@
 
   function requirements() {
     const rows = judged();
-    if (!rows.length) return [headline(rows)];
+    if (!rows.length) return [headline(rows), W.staticShortfall()];
     const several = W.sets.length > 1;
     const shown = several
       ? rows.filter((row, at) => rows.findIndex((one) => keyOf(one.requirement) === keyOf(row.requirement)) === at)
@@ -330,13 +334,14 @@
         : null;
     return [
       headline(rows),
+      W.staticShortfall(),
       cause(rows),
       findings(rows),
       several ? [matrix(rows), h("h3", "The worst case of each requirement")] : null,
       requirementTable(shown),
       h(
         "p.note",
-        "“99 % at 90 %”: 99 % of all deployments must keep the limit, and the runs must show it with a confidence of 90 %. So fewer runs may break it than 1 % of them. Pass: the runs show it. Fail: they do not, though there are enough of them; “disproved”: they show the opposite, that fewer deployments keep the limit. Undecided: too few runs. ● Observed: the quantile (or the share) of these runs. ┃ Guaranteed by the model: the bound of that quantile at the required confidence. Shaded: where the requirement passes; each picture has a scale of its own. Margin: the distance from the guaranteed value to the limit, of a share in percentage points.",
+        "“99 % at 90 %”: 99 % of all deployments must keep the limit, and the runs must show it with a confidence of 90 %. So fewer runs may break it than 1 % of them. Pass: the runs show it. Fail: they do not, though there are enough of them; “disproved”: they show the opposite, that fewer deployments keep the limit. Undecided: too few runs. ● Observed: the quantile (or the share) of these runs. ┃ Confidence bound: the bound of that quantile (or share) over all deployments, at the required confidence. Shaded: where the requirement passes; each picture has a scale of its own. Margin: the distance from the confidence bound to the limit, of a share in percentage points.",
       ),
       more,
     ];

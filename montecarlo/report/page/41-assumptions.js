@@ -34,9 +34,9 @@
         stopped.length
           ? `Nothing touches but the stops of ${stopped.length === 1 ? stopped[0] : `${stopped.length} hinges`}: panels can pass through each other. `
           : "No hinge has a stop and nothing touches: panels can pass through each other. ",
-        "Cables, loops and harness have no mass. “Guaranteed” holds for this model and for the dispersions under ",
+        "Cables, loops and harness have no mass. The confidence bounds hold for this model and for the dispersions under ",
         h("a", { href: "#inputs" }, "Inputs"),
-        "; it does not cover what the model leaves out.",
+        "; they do not cover what the model leaves out.",
       ),
     ];
   };

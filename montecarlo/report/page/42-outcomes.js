@@ -211,13 +211,15 @@
       "Numerical and statistical error of each output",
       ["Output", "Unit", number("Numerical, largest"), number("Numerical, rms"), number("Standard error of the mean")],
       ordered.map((row) => {
-        const output = W.outputsOf(set).find((each) => each.name === row.output);
+        const output = W.outputsOf(set).find((each) => each.name === row.output),
+          { factor, unit } = F.shown(output && output.unit),
+          text = (value) => F.number(W.isNumber(value) ? value * factor : null, 2);
         return [
           F.nameOf(row.output),
-          F.unit(output && output.unit),
-          F.number(row.largest, 2),
-          F.number(row.rms, 2),
-          F.number(row.standard_error, 2),
+          unit,
+          text(row.largest),
+          text(row.rms),
+          text(row.standard_error),
         ];
       }),
     );
@@ -236,7 +238,7 @@
           ? ` In ${F.runs(one.order_in_doubt)} the outcome or the latch order is in doubt${one.in_doubt ? `: ${one.in_doubt.join(", ")}` : ""}.`
           : ` In none of them the outcome or the latch order is in doubt.`,
         one.beyond_largest
-          ? ` So few repeated runs exclude, with ${100 * set.confidence} % confidence, only that more than ${F.share(one.beyond_largest.share_at_most)} of all runs have a larger error.`
+          ? ` With ${F.given(100 * set.confidence)} % confidence at most ${F.share(one.beyond_largest.share_at_most)} of all runs have a larger error; more repeated runs lower this bound.`
           : null,
         one.moved && one.moved.runs
           ? ` In ${F.runs(one.moved.runs)} an output moves by more than 1 %: at most ${F.share(one.moved.share_at_most)} of all.`

@@ -18,8 +18,10 @@
       largest = Math.max(Math.abs(output.min), Math.abs(output.max)),
       needed = output.std > 0 && largest > 0 ? size(largest) - size(output.std) + 2 : 0,
       { factor } = F.shown(output.unit);
+    // Rounding noise beside the output's values prints as 0.
+    const clean = (value) => (Math.abs(value) < 1e-9 * largest ? 0 : value);
     return (value) =>
-      !output.unit && Number.isInteger(value) ? F.given(value) : F.number(W.isNumber(value) ? value * factor : value, Math.max(DIGITS, needed));
+      !output.unit && Number.isInteger(value) ? F.given(value) : F.number(W.isNumber(value) ? clean(value) * factor : value, Math.max(DIGITS, needed));
   }
 
   function spark(output) {
@@ -285,7 +287,8 @@
           "p.lead",
           W.sets.every((set) => set.rows === false)
             ? W.withoutRows(W.set(), "A histogram by latch order")
-            : "Colours show the latch order: separate peaks of a histogram are usually different orders.",
+            : "Colours show the latch order.",
+          ` Nominal: the run with every dispersion at the median of its law${W.sets.length > 1 ? " in its case" : ""}.`,
           " Choose an output from the list.",
         ),
         listHost,

@@ -51,11 +51,6 @@
     listeners.forEach((listener) => listener());
   }
 
-  // The time that a motion first shows: during deployment, because a stowed wing shows little. Heuristic; any time works.
-  function opening(motion) {
-    const [first, last] = d3.extent(motion.latches || [], (latch) => latch.time);
-    return first === undefined ? 0.4 * motion.t[motion.t.length - 1] : Math.max(0.8 * first, 0.35 * last);
-  }
   function byKeys(event) {
     const end = stopTime(),
       inside = event.target.matches("input, select, button, summary, .scroll");
@@ -77,8 +72,7 @@
     player.playing = false;
     listeners.length = 0;
     player.motion = motion;
-    player.time = Math.min(player.time, motion.t[motion.t.length - 1]);
-    if (!player.time) player.time = opening(motion);
+    player.time = Math.max(motion.t[0], Math.min(player.time, motion.t[motion.t.length - 1]));
   }
   Object.assign(player, { seek, play, byKeys, load, interval, stopTime, listen: (listener) => listeners.push(listener) });
 })();

@@ -262,7 +262,7 @@
           h("b", motion.label),
           h(
             "small",
-            motion.run === null || motion.run === undefined ? "no dispersions" : `run ${motion.run}`,
+            motion.run === null || motion.run === undefined ? "dispersions at medians" : `run ${motion.run}`,
             motion.status && motion.status !== "deployed" ? ` · ${motion.status.replace("_", " ")}` : "",
           ),
         ),

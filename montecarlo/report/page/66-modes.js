@@ -36,7 +36,7 @@
 
   const name = (mode, at) =>
     `Mode ${at + 1}: ${F.number(mode.frequency, 4)} Hz, damping ratio ${F.number(mode.damping_ratio, 3)}`;
-  const degrees = (radians) => radians * F.DEGREES;
+  const shown = (radians) => radians * F.shown("rad").factor;
 
   // The wing at rest (pale) and at both ends of the swing. `phase` is null for these; while it swings a number.
   function figureOf(modes, mode, at, player) {
@@ -47,11 +47,11 @@
       title: name(mode, at),
       class: "mode",
       printed: 300,
-      note: `Enlarged: the wing's furthest point is drawn ${F.number(reach(modes, mode, amplitude), 2)} m off rest, the hinge that turns most ${F.number(degrees(amplitude * (d3.max(mode.shape, Math.abs) || 0)), 2)} deg.`,
+      note: `Enlarged: the wing's furthest point is drawn ${F.number(reach(modes, mode, amplitude), 2)} m off rest, the hinge that turns most ${F.number(shown(amplitude * (d3.max(mode.shape, Math.abs) || 0)), 2)} ${F.shown("rad").unit}.`,
       description: `The deployed wing to scale at both ends of its swing in mode ${at + 1}, enlarged; pale: at rest.`,
       table: () => ({
-        columns: ["hinge", "rest deg", "shape"],
-        rows: modes.wing.hinges.map((hinge, k) => [hinge.name, degrees(modes.rest[k]), mode.shape[k]]),
+        columns: ["hinge", `rest ${F.shown("rad").unit}`, "shape"],
+        rows: modes.wing.hinges.map((hinge, k) => [hinge.name, shown(modes.rest[k]), mode.shape[k]]),
       }),
       draw: function (svg, width) {
         const scale = P.scale(P.bounds(modes.wing, [rest, ...ends]), width, 170, 4);
@@ -109,7 +109,7 @@
       W.section("modes"),
       h(
         "p",
-        "Small vibrations of the deployed nominal wing with all latches engaged, without Coulomb friction, backlash and air. ",
+        `Small vibrations of the deployed nominal wing${W.sets.length > 1 ? ` of ${set.label}` : ""} with all latches engaged, without Coulomb friction, backlash and air. `,
         `The pictures move once in ${SECONDS} seconds, whatever the mode's frequency. A mode has a shape and no size of its own.`,
       ),
       h("p.controls", player.button),

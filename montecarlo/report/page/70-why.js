@@ -32,6 +32,15 @@
     };
   }
 
+  // The level of the bounds, and how many of the tested dispersions they show by chance.
+  function chance(set) {
+    const level = set.sensitivity.confidence || set.confidence,
+      tested = ((set.inputs || {}).dispersions || []).length,
+      words = `Lines are ${F.given(100 * level)} % confidence bounds`;
+    return tested > 1
+      ? `${words} of one coefficient: if none of the ${F.count(tested)} dispersions had an effect, about ${F.number((1 - level) * tested, 2)} of them would still exclude 0.`
+      : `${words}.`;
+  }
   function tornado(set, name) {
     const { pair, kind, rows } = effectsOf(set, name);
     if (!rows.length)
@@ -45,7 +54,7 @@
       note:
         kind === "sobol"
           ? "First order: the dispersion alone. Total: with its interactions. Lines are confidence bounds."
-          : `Strongest first.${kind === "rank" ? " Lines are confidence bounds." : ""} Bars to the right: the output increases with the dispersion.`,
+          : `Strongest first.${kind === "rank" ? ` ${chance(set)}` : ""} Bars to the right: the output increases with the dispersion.`,
       description: () =>
         rows
           .map((one) => `${one.draw}: ${pair.map(([key, text]) => `${text} ${F.fixed(one[key], 2)}`).join(", ")}`)
@@ -144,7 +153,8 @@
 
   // Dispersions without a visible effect: they may act on the wrong parameter.
   function idle(set) {
-    const names = (set.sensitivity && set.sensitivity.idle) || [];
+    const names = (set.sensitivity && set.sensitivity.idle) || [],
+      level = F.given(100 * ((set.sensitivity || {}).confidence || set.confidence));
     return names.length
       ? h(
           "details",
@@ -153,7 +163,7 @@
           h(
             "p.note",
             names.join(", "),
-            ". Rank correlations miss an effect that first increases and then decreases; the Sobol' indices of wingspread sensitivity show it.",
+            `. Here a dispersion counts as visible only if bounds that hold with ${level} % confidence for all outputs together (Bonferroni) exclude 0 of one. The lines above hold for one output each, so a dispersion of this list can have a line beside 0. Rank correlations miss an effect that first increases and then decreases; the Sobol' indices of wingspread sensitivity show it.`,
           ),
         )
       : null;

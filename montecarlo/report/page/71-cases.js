@@ -47,7 +47,7 @@
       text = (value) => F.withUnit(value, unit, Math.sqrt(inside) / 10);
     return low === high
       ? `The case${changed(cases)} does not move the mean of ${F.nameOf(name)}.`
-      : `The case${changed(cases)} moves the mean of ${F.nameOf(name)} from ${text(low)} in ${at(low)} to ${text(high)} in ${at(high)}: ${F.share(share)} of the variance over all cases. Inside a case the standard deviation is ${text(Math.sqrt(inside))}.`;
+      : `The case${changed(cases)} moves the mean of ${F.nameOf(name)} from ${text(low)} in ${at(low)} to ${text(high)} in ${at(high)}. Of the variance over all cases, each with the same weight, ${F.share(share)} lies between the cases; other cases give another share. The standard deviation inside a case, pooled over the cases, is ${text(Math.sqrt(inside))}.`;
   };
 
   // The same in numbers, case by case.

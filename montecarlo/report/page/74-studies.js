@@ -87,7 +87,79 @@
     });
   }
 
-  function staticMargins({ hinges, kind, draws, lower_p: share }) {
+  // The document of each standard, and its formula with the default factors (model/static_margins has them all).
+  const STANDARDS = {
+    ECSS: ["ECSS-E-ST-33-01C (6 March 2009)", "0.8 T / T_min − 1, T_min = 2 (1.1 I + 1.2 S + 1.5 HM + 3 (FR + HY + HA + HD)) + 1.25 TD + TL"],
+    NASA: ["NASA-STD-5017B (6 December 2022)", "T / (1.5 ΣT_fixed + 3 ΣT_variable) − 1"],
+    "NASA, one spring out": ["NASA-STD-5017B (6 December 2022)", "T (m − 1)/m / (ΣT_fixed + ΣT_variable) − 1, m springs per hinge"],
+    GEVS: ["GEVS, GSFC-STD-7000A (22 April 2013)", "T / (1.5 ΣT_fixed + 3 ΣT_variable) − 1"],
+    AIAA: ["AIAA S-114-2005", "T / (1.5 ΣT_fixed + 3 ΣT_variable) − 1"],
+  };
+  const SYMBOLS = {
+    ECSS: "I and S: inertia and springs that resist; HM, FR, HY, HA, HD: motor losses, friction, hysteresis, harness, adhesion; TD, TL: torques to deliver",
+  };
+  const standard = (kind) =>
+    STANDARDS[kind]
+      ? `${STANDARDS[kind][0]}, with its default factors: margin = ${STANDARDS[kind][1]}; T: available torque; ${SYMBOLS[kind] || "fixed: springs and inertia that resist; variable: friction, harness, hysteresis and the like"}. The campaign may replace factors. `
+      : "";
+  const listed = (names) => (names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}` : names[0]);
+  // The hinges of every case with the lower of their nominal margin and its quantile over draws.
+  const statics = () =>
+    W.sets.flatMap((set) =>
+      ((set.static_margins || {}).hinges || [])
+        .map((one) => ({ set, one, required: one.required || 0, value: d3.min([one.least, one.lower].filter(W.isNumber)) }))
+        .filter((row) => W.isNumber(row.value)),
+    );
+  const lowestOf = (rows) => rows[d3.minIndex(rows, (row) => row.value - row.required)];
+  const whichOf = ({ set: { static_margins: all }, one }) =>
+    W.isNumber(one.lower) && !(one.least < one.lower) && W.isNumber(all.lower_p)
+      ? all.lower_p * all.draws < 1
+        ? `least of ${F.count(all.draws)} draws`
+        : `${F.level(all.lower_p)} quantile over ${F.count(all.draws)} draws`
+      : "nominal";
+  // For the first screen: where static margins are below what the standard asks. Null if they are nowhere.
+  W.staticShortfall = function () {
+    const short = statics().filter((row) => row.value < row.required);
+    if (!short.length) return null;
+    const lowest = lowestOf(short),
+      several = W.sets.length > 1,
+      hinges = [...new Set(short.map(({ one }) => one.hinge))],
+      casesOf = (rows) => listed([...new Set(rows.map(({ set }) => set.label))]),
+      nominal = short.filter(({ one, required }) => one.least < required),
+      asked = W.sets.some((set) => (set.requirements || []).some((one) => one.static_margin)),
+      coupled = hinges.filter((name) => name.includes("+")).length,
+      what = !coupled
+        ? ["hinge"]
+        : coupled === hinges.length
+          ? ["group of coupled hinges", "groups of coupled hinges"]
+          : ["hinge or group", "hinges and groups of coupled hinges"],
+      { kind } = lowest.set.static_margins;
+    return h(
+      "p.lead.static-shortfall",
+      h("b", "Static margins"),
+      ` of torque (${STANDARDS[kind] ? STANDARDS[kind][0].replace(/ \(.*/, "") : kind}) of ${F.counted(hinges.length, ...what)} are below the required ${listed([...new Set(short.map((row) => F.given(row.required)))])}`,
+      several ? ` in ${casesOf(short)}` : null,
+      nominal.length
+        ? `; ${several ? `in ${casesOf(nominal)} ` : ""}also those of the nominal wing (every dispersion at its median)`
+        : "; those of the nominal wing (every dispersion at its median) are not",
+      `. Lowest: ${F.fixed(lowest.value, 2)}${several ? ` in ${lowest.set.label}` : ""} (${whichOf(lowest)}). `,
+      asked ? null : "They are no requirement of this campaign, so no verdict counts them. ",
+      h("a", { href: "#static-margins" }, "Static margins by hinge"),
+      ".",
+    );
+  };
+  // The lowest margin of each case, the case with the lowest first.
+  function lowestByCase(set) {
+    const cases = W.sets.map((each) => lowestOf(statics().filter((row) => row.set === each))).filter(Boolean);
+    if (cases.length < 2 || !W.sets.includes(set)) return null;
+    const sorted = d3.sort(cases, (row) => row.value - row.required);
+    return h(
+      "p",
+      `Lowest in ${sorted[0].set.label}: ${F.fixed(sorted[0].value, 2)}; then ${sorted.slice(1).map((row) => `${row.set.label} ${F.fixed(row.value, 2)}`).join(", ")}. The picture and the table show ${set.label}.`,
+    );
+  }
+
+  function staticMargins({ hinges, kind, draws, lower_p: share }, set) {
     const { factor, unit } = F.shown("rad");
     // Mirrored hinges turn in opposite senses: their travels, from 0, coincide.
     const travel = (one) => one.angle.map((angle) => Math.abs(angle - one.angle[0]) * factor);
@@ -105,11 +177,12 @@
         ...(W.isNumber(share) ? [enough(one.lower, one)] : []),
       ]);
     return [
+      lowestByCase(set),
       W.figure({
         title: `Static margin of torque along the travel${kind ? ` (${kind})` : ""}`,
         class: "static-margins",
         printed: 860,
-        note: `Thick: nominal.${W.isNumber(share) ? ` Thin: the ${quantile} over ${F.count(draws)} draws.` : ""} 0 is enough.${hinges.length > part.length ? ` The picture has the first ${part.length} of ${hinges.length} hinges; the table has all.` : ""}`,
+        note: `Thick: nominal wing, every dispersion at the median of its law${W.sets.length > 1 ? ` in ${set.label}` : ""}.${W.isNumber(share) ? ` Thin: the ${quantile} over ${F.count(draws)} draws.` : ""} 0 is enough.${hinges.length > part.length ? ` The picture has the first ${part.length} of ${hinges.length} hinges; the table has all.` : ""}`,
         description: () =>
           hinges
             .slice(0, 20)
@@ -160,6 +233,11 @@
         "Least static margins",
         ["Hinge", number("Least, nominal"), number(dispersed), number("Required"), "Nominal verdict", ...(W.isNumber(share) ? [`Verdict, ${quantile}`] : [])],
         least,
+      ),
+      h(
+        "p.note",
+        standard(kind),
+        `${kind === "NASA, one spring out" ? "It takes a spring away" : "It multiplies the resisting torques by factors"} and counts no kinetic energy, so a wing with a margin below 0 can still deploy.`,
       ),
     ];
   }
@@ -240,13 +318,13 @@
       several = sets.length > 1;
     const add = (kind, title, set, ...content) => {
       found.add(kind);
-      parts.push(h("div", h("h3", several && W.studySets.includes(set) ? `${title} · ${set.label}` : title), content));
+      parts.push(h("div", { id: kind === "static" ? "static-margins" : null }, h("h3", several && W.studySets.includes(set) ? `${title} · ${set.label}` : title), content));
     };
     for (const set of sets) {
       if (W.studySets.includes(set) && W.effectOutputs(set).length) add("sobol", "Sensitivity", set, indices(set));
       if (set.margin && (set.margin.scales || []).length) add("margin", "Margin window", set, marginWindow(set.margin));
       if (!found.has("static") && set.static_margins && (set.static_margins.hinges || []).length)
-        add("static", "Static margins", set, staticMargins(set.static_margins));
+        add("static", "Static margins", set, staticMargins(set.static_margins, set));
       if (set.rare) add("rare", "Rare events", set, rareEvent(set.rare));
       if (set.fit) {
         add("fit", "Fit to tests", set, W.fitParts(set.fit));

@@ -14,6 +14,12 @@
     const isNear = ({ at }) => at > low - room && at < high + room;
     return { near: limits.filter(isNear), far: limits.filter((one) => !isNear(one)) };
   }
+  // From which number of runs on both bounds are known.
+  function twoSided(rows) {
+    const first = rows.find((row) => row.every(W.isNumber));
+    if (!first) return "Too few runs for two-sided bounds.";
+    return first === rows[0] ? null : `From ${F.runs(first[0])} on both bounds are known, before that only one.`;
+  }
   function settling(set, output, key, text) {
     const one = output.convergence,
       { factor, unit } = F.shown(output.unit);
@@ -27,7 +33,7 @@
     const last = rows[rows.length - 1],
       limits = limitsAt(set, output, key, rows.flatMap((row) => row.slice(1)));
     const notes = [
-      rows.some((row) => row.every(W.isNumber)) ? null : "Too few runs for two-sided bounds.",
+      twoSided(rows),
       ...limits.far.map((one) => `The limit ${one.text} ${unit} lies outside the picture.`),
     ].filter(Boolean);
     return W.figure({
@@ -43,7 +49,7 @@
           [
             { text: text.toLowerCase(), line: "var(--c0)" },
             rows.some((row) => W.isNumber(row[2]) || W.isNumber(row[3])) && {
-              text: "bounds",
+              text: `${F.given(100 * set.confidence)} % bounds`,
               fill: "var(--c0)",
               opacity: 0.2,
             },
@@ -66,17 +72,21 @@
           .range(0, 10)
           .flatMap((k) => [1, 2, 5].map((m) => m * 10 ** k))
           .filter((value) => value >= x.domain()[0] && value <= x.domain()[1]);
+        const kept = decades.length * 44 > width - box.left ? decades.filter((value) => /^1/.test(String(value))) : decades,
+          end = x.domain()[1];
         M.axes(svg, box, x, y, {
           xText: "runs",
           yText: F.axis(text.toLowerCase(), unit),
-          xValues:
-            decades.length * 44 > width - box.left ? decades.filter((value) => /^1/.test(String(value))) : decades,
+          xValues: [...kept.filter((value) => x(end) - x(value) > 36), end], // the last run has a label always
           xFormat: F.count,
         });
         M.put(svg, "path.curve-band", {
           d: M.band(x, y)(rows.map((row) => [row[0], row[2], row[3]])),
           style: { fill: "var(--c0)" },
         });
+        // Each bound has a line too: an area needs both.
+        for (const side of [2, 3])
+          M.put(svg, "path.bound", { d: M.line(x, y)(rows.map((row) => [row[0], row[side]])), style: { stroke: "var(--c0)" } });
         M.trace(svg, M.line(x, y)(rows.map((row) => row.slice(0, 2))), 0);
         for (const { at, text: words } of limits.near) {
           M.put(svg, "line.limit", { x1: box.left, x2: box.right, y1: y(at), y2: y(at) });

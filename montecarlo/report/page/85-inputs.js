@@ -156,8 +156,8 @@
 
   W.glossary = function () {
     const rows = Object.entries(W.data.glossary || {}).map(([name, { unit, text }]) => [
-      h("code", name),
-      F.unit(unit) || F.none,
+      h("code", name === "guaranteed" ? "confidence bound (guaranteed)" : name),
+      F.shown(unit).unit || F.none,
       text,
     ]);
     const columns = ["Name", "Unit", "Meaning"];
