@@ -156,7 +156,7 @@
 
   W.glossary = function () {
     const rows = Object.entries(W.data.glossary || {}).map(([name, { unit, text }]) => [
-      h("code", name === "guaranteed" ? "confidence bound (guaranteed)" : name),
+      h("code", name),
       F.shown(unit).unit || F.none,
       text,
     ]);

@@ -48,12 +48,13 @@ constexpr std::array terms{
     Entry{"timed_out", "t_end was reached before every latch engaged"},
     Entry{"invalid", "the draw is unphysical, e.g. a mass below 0"},
     Entry{"failed", "the integration could not continue"},
-    Entry{"nominal", "the run without dispersions"},
+    Entry{"nominal", "the run with every dispersion at its median in the case"},
     Entry{"observed", "of a requirement: the share of runs that meet it, and the quantile at the "
                       "required share"},
-    Entry{"guaranteed", "the same with the required confidence for the population of wings: a "
-                        "binomial bound, and the tolerance limit of Wilks"},
-    Entry{"margin", "distance from the guaranteed value to the limit: at least 0 for a pass"},
+    Entry{"confidence bound",
+          "the same with the required confidence for the population of wings: a "
+          "binomial bound, and the tolerance limit of Wilks"},
+    Entry{"margin", "distance from the confidence bound to the limit: at least 0 for a pass"},
     Entry{"undecided", "too few runs to show the requirement, whatever their outcome"},
     Entry{"bounds", "of shares: exact (Clopper-Pearson); of quantiles: order statistics; both for "
                     "independent draws"},
