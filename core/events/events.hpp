@@ -127,8 +127,8 @@ public:
       const T& sense = system_.wing().hinges[k].sense;
       return {releases_.passed_by(step.x1, i), sense * step.x1[r], sense * step.dxdt1[r]};
     }
-    case Event::
-        kink: { // just past it, so that the next step begins on the other side; before a jump: see cross
+    case Event::kink: {
+      // just past it, so that the next step begins on the other side; of strands, before it: see cross()
       const Jet<T> u = argument(system_, due.kink, step.x1, step.dxdt1, T(step.t + step.h));
       const T beyond = beyond_rounding(system_, due.kink, step.x1);
       const bool before = due.kink.of == Kink<T>::Of::strands;

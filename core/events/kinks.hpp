@@ -24,9 +24,10 @@ namespace wingspread {
 /// Tolerance of a step, by which kinks matter.
 struct KinkLimit {
   double rtol, atol;
-  bool leaps_only = false; ///< of methods that do not need smooth laws
-  bool refused =
-      false; ///< the step is refused: it is not known on which side of a kink its last stage was
+  /// Of methods that do not need smooth laws: limits of motors, and what a step may leap over.
+  bool leaps_only = false;
+  /// Jumps alone, in a step that is refused: on which side of one its last stage was is not known.
+  bool refused = false;
 };
 
 /// A function u of the state and its value b at a kink.
