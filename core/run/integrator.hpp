@@ -268,7 +268,7 @@ private:
 
   void judge_landing(const StepVerdict& verdict) {
     if (!stepping_.count_trial(verdict)) return ask_for_step(stepping_.plan_again());
-    if (landing_.correct_end() || landing_.cut_at_earlier_event())
+    if (landing_.correct_end() || landing_.cut_at_earlier_event(stepping_.kinks()))
       return ask_to_end(Stage::landing);
     accept();
   }

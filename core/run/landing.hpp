@@ -70,12 +70,12 @@ public:
     return false;
   }
 
-  /// Looks for other events in a step that ends at the jump for which a longer one was refused: none was sought in that.
-  /// @return whether there is one: the step must then be made again, to the event
-  [[nodiscard]] bool cut_at_earlier_event() {
+  /// Looks for other events, and other jumps, in a step that ends at the jump for which a longer one was refused: in that
+  /// one none was sought. @return whether there is one: the step must then be made again, to the event
+  [[nodiscard]] bool cut_at_earlier_event(const std::optional<KinkLimit>& kinks) {
     if (!of_refused_) return false;
     of_refused_ = false;
-    const std::optional<Due<T>> seen = events_.first(run_.step, run_.x, run_.dxdt);
+    const std::optional<Due<T>> seen = events_.first(run_.step, run_.x, run_.dxdt, kinks);
     if (!seen) return false;
     due_ = seen;
     begin();
@@ -151,7 +151,8 @@ private:
     return size * abs(at.bend) < T(0.1) * at.slope;
   }
 
-  /// Before a jump, so that no stage is beyond it: the method's error estimate would refuse the step.
+  /// Cuts the step to end there; where a torque jumps, just before, so that no stage lies beyond. With one beyond, the
+  /// method's error estimate would refuse the step.
   void cut(const T& to) {
     const T h = at_jump() ? T(to * (T(1) - T(0.5) * nearest_)) : to;
     const T shortest = T(8 * epsilon_of<T>) * larger(run_.step.t, longest_);
