@@ -22,6 +22,7 @@
 #include "core/scene/scene.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -283,6 +284,14 @@ template <class T> void set_curves(RealHingeTerms<T>& terms, const Hinge& hinge,
   friction.most = friction.weight * largest_value<T>(*friction.level);
 }
 
+/// The hinge's stowed or latched angle, rad, where this angle of another law differs from it by no more than the rounding
+/// of a unit; else the angle. A window that ends at the latch ends exactly there.
+template <class T> [[nodiscard]] T without_rounding(const Hinge& hinge, double angle) {
+  for (const double end : {hinge.stowed, hinge.latched})
+    if (std::abs(angle - end) <= 1e-14) return T(end);
+  return T(angle);
+}
+
 } // namespace detail
 
 /// @param sense sign(φ_latched − φ_stowed)
@@ -295,8 +304,9 @@ template <class T>
     terms.damper = damper_terms<T>(*hinge.damper);
     terms.has_window = hinge.damper->window.has_value();
     if (const auto& window = hinge.damper->window) {
-      terms.window_low = smaller(T((*window)[0]), T((*window)[1]));
-      terms.window_high = larger(T((*window)[0]), T((*window)[1]));
+      const T from = detail::without_rounding<T>(hinge, (*window)[0]);
+      const T to = detail::without_rounding<T>(hinge, (*window)[1]);
+      terms.window_low = smaller(from, to), terms.window_high = larger(from, to);
     }
   }
   terms.stop.sense = sense, terms.far_stop.sense = -sense;

@@ -47,9 +47,16 @@ template <class T> [[nodiscard]] bool has_capture(const Wing<T>& wing, int i) {
   return !wing.real.empty() && wing.real[i].capture.present;
 }
 
-/// Whether the law of the hinge's latch changes where it engages.
+/// Whether one of the hinge's laws changes exactly where its latch engages: the latch's own dissipation, an end of the
+/// damper's window, a stop without gap.
 template <class T> [[nodiscard]] bool has_edge_at_latch(const Wing<T>& wing, int i) {
-  return !wing.real.empty() && wing.real[i].dissipation.present && !wing.real[i].has_backlash;
+  if (wing.real.empty()) return false;
+  for (int e = 0; e < edges_of_hinge; ++e) {
+    const Edge edge = static_cast<Edge>(e);
+    if (has_edge(wing, i, edge, true) && edge_angle(wing, i, edge) == wing.hinges[i].latched)
+      return true;
+  }
+  return false;
 }
 
 /// Whether a stop is in contact, by the side of its edge.

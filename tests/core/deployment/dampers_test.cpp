@@ -1,5 +1,6 @@
 // Dampers and drag: whole runs against closed forms.
 #include "tests/core/deployment/real_runs.hpp"
+#include "tests/support/random_scenes.hpp"
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -94,6 +95,29 @@ TEST_CASE("a damper acts in its window, and nowhere else") {
   Damper nowhere = viscous(100);
   nowhere.window = {1.5, 2};
   check_both_senses(braked(nowhere), {1, 1}, 3);
+}
+
+TEST_CASE("a damper whose window ends at the latched angle ends as the latch engages") {
+  Draws dice(163);
+  constexpr double c = 0.3, d = 5;
+  for (int draw = 0; draw < 12; ++draw) {
+    Scene scene = braked(viscous(c));
+    Hinge& hinge = scene.hinges[0];
+    hinge.stowed = dice.uniform(-3, 3), hinge.latched = hinge.stowed + 1;
+    hinge.latch->stiffness = 1, hinge.latch->damping = d; // its moment falls from d ω
+    // an end in another unit is rounded once more
+    const double end =
+        draw % 3 == 0 ? hinge.latched : std::nextafter(hinge.latched, draw % 3 == 1 ? 9 : -9);
+    hinge.damper->window = std::array{hinge.stowed + dice.uniform(0, 0.9), end};
+    const double way = end - (*hinge.damper->window)[0];
+    const double rate = viscous_arrival(panel_inertia, c, 1, way).rate;
+    for (const Scene& sense : {scene, other_sense(scene)})
+      with_every_method(
+          sense, within(1e-9, 3, 1e-4), {}, MayGiveUp::fixed_step, [&](const Outcome& out) {
+            CAPTURE(draw, end);
+            CHECK(relative(out.peak_moment[0].value, d * rate) < 1e-6); // with the damper 6 % more
+          });
+  }
 }
 
 TEST_CASE("a fluid damper deploys a wing in minutes, at the cost of a simple motion") {
