@@ -110,6 +110,9 @@
     const kinds = set.order_kinds - set.orders.filter((one) => !["others", "no latch"].includes(one.order)).length;
     return kinds === 1 ? "one other order" : `${kinds} other orders`;
   }
+  // "root 0.08 (0.31) mid 0.12 (0.35) tip": least and median of each gap in seconds. Empty without rows.
+  const gapsOf = (one) => (one.gaps || []).map((gap) => `${F.number(gap.least, 2)} (${F.number(gap.median, 2)})`).join(" · ");
+  const gapHead = (list) => (list.some((one) => (one.gaps || []).length) ? [number("Gaps: least (median)", "s")] : []);
   function orders() {
     const set = W.set();
     if (!(set.orders || []).some((one) => one.order !== "no latch"))
@@ -122,15 +125,17 @@
       h("span", key("", `background:${colour(at)}`), one.order === "others" ? others(set) : F.order(one.order)),
       F.count(one.count),
       F.share(one.count / total),
+      ...gapHead(set.orders).map(() => gapsOf(one)),
     ]);
     if (without)
       rows.push([
         h("span", key("", "background:var(--none)"), "no hinge latched"),
         F.count(without),
         F.share(without / total),
+        ...gapHead(set.orders).map(() => ""),
       ]);
     const title = h("h3", W.sets.length > 1 ? `Latch orders · ${set.label}` : "Latch orders"),
-      table = W.table("Latch orders", ["Order", number("Runs"), number("Share")], rows, { class: "long-names" });
+      table = W.table("Latch orders", ["Order", number("Runs"), number("Share"), ...gapHead(set.orders)], rows, { class: "long-names" });
     if (!(set.wing_orders || []).length) return [title, table];
     return [
       title,
@@ -147,12 +152,17 @@
         .join(" › ");
     const listed = d3.sum(wing.orders, (one) => one.count),
       left = total - listed - wing.without_latch;
-    const rows = wing.orders.map((one) => [short(one.order), F.count(one.count), F.share(one.count / total)]);
-    if (left > 0)
-      rows.push([F.counted(wing.order_kinds - wing.orders.length, "other order"), F.count(left), F.share(left / total)]);
-    if (wing.without_latch)
-      rows.push(["no hinge latched", F.count(wing.without_latch), F.share(wing.without_latch / total)]);
-    return W.table(`Wing ${wing.wing}`, ["Order", number("Runs"), number("Share")], rows, {
+    const head = gapHead(wing.orders),
+      rest = (count) => [F.count(count), F.share(count / total), ...head.map(() => "")];
+    const rows = wing.orders.map((one) => [
+      short(one.order),
+      F.count(one.count),
+      F.share(one.count / total),
+      ...head.map(() => gapsOf(one)),
+    ]);
+    if (left > 0) rows.push([F.counted(wing.order_kinds - wing.orders.length, "other order"), ...rest(left)]);
+    if (wing.without_latch) rows.push(["no hinge latched", ...rest(wing.without_latch)]);
+    return W.table(`Wing ${wing.wing}`, ["Order", number("Runs"), number("Share"), ...head], rows, {
       class: "long-names",
       showCaption: true,
     });
