@@ -21,6 +21,10 @@ constexpr double alone_at_most = 1.25;
 /// says that the input is weak.
 constexpr double least_factor = 0.2, largest_factor = 5;
 
+/// Heuristic: a limit's change rests on a linear output. If the fit explains less, the tail that breaks the limit need not
+/// follow its slopes: with 1 % explained, the change found for a satellite's peak rate was one of chance.
+constexpr double least_explained = 0.25;
+
 /// A draw's lever, and the quantity that it shares with the levers of other bodies or hinges.
 struct DrawLever {
   Lever lever;
@@ -142,6 +146,7 @@ std::optional<LeverChanges> lever_changes(NeededFor what, const Campaign& campai
   const auto needed = needed_changes(what, verdict, results, replication, moved, confidence);
   if (!needed) return std::nullopt;
   LeverChanges found{what, needed->runs, needed->explained, {}};
+  if (what == NeededFor::limit && !(needed->explained >= least_explained)) return found;
   std::span<const std::optional<NeededChange>> rest = needed->changes;
   for (const auto& [name, draws] : quantities) {
     if (auto best = best_of(draws, rest.first(draws.size())); best && is_design(*best))

@@ -1,6 +1,7 @@
 #include "montecarlo/analyses/sensitivity/needed_change.hpp"
 
 #include "distributions/continuous_law.hpp"
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/foundation/statistics/jackknife.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
@@ -185,9 +186,9 @@ private:
 class ChangeFinder {
 public:
   ChangeFinder(NeededFor what, const Verdict& verdict, const Results& results, const Values& values,
-               const Slopes& slopes, double confidence)
+               const Slopes& slopes, double confidence, long tests)
       : what_(what), verdict_(verdict), results_(results), values_(values), slopes_(slopes),
-        confidence_(confidence) {}
+        confidence_(confidence), sure_(at_each_of(confidence, tests)) {}
 
   [[nodiscard]] std::optional<NeededChange> of(const MovedDraws& moved) const {
     const std::vector<double> means = means_of(moved);
@@ -196,8 +197,10 @@ public:
     double effect = 0; // d̄
     for (std::size_t k = 0; k < weights.size(); ++k)
       effect += weights[k] * slopes_.of(moved.columns[k]);
-    const Bounds slope = slope_bounds(effect, slopes_.without(moved.columns, weights));
-    if (!slope.lower || !(*slope.lower * *slope.upper > 0)) return std::nullopt;
+    const std::vector<double> without = slopes_.without(moved.columns, weights);
+    const Bounds slope = slope_bounds(effect, without, confidence_),
+                 seen = slope_bounds(effect, without, sure_);
+    if (!seen.lower || !(*seen.lower * *seen.upper > 0)) return std::nullopt;
     const std::optional<double> t = what_ == NeededFor::limit ? up_to_limit(moved) : index(effect);
     if (!t) return std::nullopt;
     return completed(moved, means, *t, {*t * effect / *slope.upper, *t * effect / *slope.lower});
@@ -224,10 +227,11 @@ private:
     return means;
   }
   /// By the jackknife; an output that is exactly linear has the same slope without each group.
-  [[nodiscard]] Bounds slope_bounds(double effect, const std::vector<double>& without) const {
+  [[nodiscard]] static Bounds slope_bounds(double effect, const std::vector<double>& without,
+                                           double confidence) {
     const auto [least, most] = std::ranges::minmax(without);
     if (most - least <= 1e-12 * std::abs(effect)) return {effect, effect};
-    return jackknife_bounds(effect, without, confidence_);
+    return jackknife_bounds(effect, without, confidence);
   }
   /// d_i.
   [[nodiscard]] double effect_in(const MovedDraws& moved, std::size_t row) const {
@@ -309,7 +313,7 @@ private:
   const Results& results_;
   const Values& values_;
   const Slopes& slopes_;
-  double confidence_;
+  double confidence_, sure_;
 };
 
 } // namespace
@@ -322,7 +326,7 @@ std::optional<NeededChanges> needed_changes(NeededFor what, const Verdict& verdi
   if (values.rows.empty()) return std::nullopt;
   const Slopes slopes(values, results, replication);
   if (!slopes.known()) return std::nullopt;
-  const ChangeFinder finder(what, verdict, results, values, slopes, confidence);
+  const ChangeFinder finder(what, verdict, results, values, slopes, confidence, std::ssize(moved));
   NeededChanges found{what, slopes.runs(), slopes.explained(), {}};
   for (const MovedDraws& each : moved) found.changes.push_back(finder.of(each));
   results.release();

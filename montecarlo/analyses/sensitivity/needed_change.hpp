@@ -62,7 +62,8 @@ struct NeededChanges {
   NeededFor what = NeededFor::limit;
   long runs = 0;        ///< of the estimate
   double explained = 0; ///< R² of the linear fit, adjusted for the number of draws
-  /// One for each MovedDraws. Nothing where the bounds of the slope include 0, or no change of them is enough.
+  /// One for each MovedDraws. Nothing where no change of them is enough, or where the slope's bounds include 0 at the
+  /// confidence shared over all of them (Bonferroni): the most effective of many would else often be one of chance.
   std::vector<std::optional<NeededChange>> changes;
 };
 

@@ -57,6 +57,12 @@ void add_once(std::vector<std::string>& list, const std::string& text) {
   if (std::ranges::find(list, text) == list.end()) list.push_back(text);
 }
 
+std::size_t count_of(const Scene& scene, std::string_view kind) {
+  return kind == "bodies"   ? scene.bodies.size()
+         : kind == "hinges" ? scene.hinges.size()
+                            : scene.synchronisations.size();
+}
+
 } // namespace
 
 std::string plain_words(const Scene& scene, std::span<const SceneParameter> parameters) {
@@ -75,9 +81,8 @@ std::string plain_words(const Scene& scene, std::span<const SceneParameter> para
   const std::string words = spoken(quantity);
   if (names.empty()) return fmt::format("{} {}", kinds.front(), words);
   if (names.size() == 1) return fmt::format("{} {}", names.front(), words);
-  const std::size_t all =
-      resolve(scene, fmt::format("{}.*.{}", kinds.front(), quantities.front())).matches.size();
-  if (names.size() == all) return fmt::format("{} of all {}", words, kinds.front());
+  if (names.size() == count_of(scene, kinds.front()))
+    return fmt::format("{} of all {}", words, kinds.front());
   return names.size() <= most_named
              ? fmt::format("{} of {}", words, listed(names))
              : fmt::format("{} of {} {}", words, names.size(), kinds.front());

@@ -180,15 +180,19 @@
       W.needed(one, set, "limit"),
     );
   }
-  // One load of each kind that no requirement limits, if it is larger than all that are judged: in the set where it is largest.
+  // One load of each kind that no requirement limits, if it is larger than all that are judged in any set.
   function unjudged() {
-    const all = W.sets.flatMap((set) => (set.unjudged || []).map((one) => ({ ...one, set, kind: one.output.split(".").pop() })));
+    const kindOf = (name) => name.split(".").pop(),
+      judgedOf = (kind) => d3.max(W.sets, (set) => d3.max(W.outputsOf(set).filter((one) => kindOf(one.name) === kind && (one.limits || []).length), (one) => Math.max(Math.abs(one.min), Math.abs(one.max))));
+    const all = W.sets
+      .flatMap((set) => (set.unjudged || []).map((one) => ({ ...one, set, kind: kindOf(one.output) })))
+      .filter((one) => !(one.largest <= judgedOf(one.kind)));
     const worst = [...d3.rollup(all, (each) => each.reduce((a, b) => (b.largest > a.largest ? b : a)), (one) => one.kind).values()];
     return worst.map(({ output, largest, judged, judged_largest, set }) =>
       h(
         "p.unjudged",
         h("b", "No requirement limits "),
-        `${F.nameOf(output)}: it reaches ${F.number(largest, 3)} ${F.unit(F.unitOf(output))}${W.sets.length > 1 ? ` in ${set.label}` : ""}, more than each judged load of its kind (${F.nameOf(judged)}: ${F.number(judged_largest, 3)}).`,
+        `${F.nameOf(output)}, which reaches ${F.number(largest, 3)} ${F.unit(F.unitOf(output))}${W.sets.length > 1 ? ` in ${set.label}` : ""}. The largest of its kind with a limit: ${F.nameOf(judged)}, ${F.number(judged_largest, 3)} ${F.unit(F.unitOf(output))}.`,
       ),
     );
   }

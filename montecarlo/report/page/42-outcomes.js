@@ -110,9 +110,13 @@
     const kinds = set.order_kinds - set.orders.filter((one) => !["others", "no latch"].includes(one.order)).length;
     return kinds === 1 ? "one other order" : `${kinds} other orders`;
   }
-  // "root 0.08 (0.31) mid 0.12 (0.35) tip": least and median of each gap in seconds. Empty without rows.
-  const gapsOf = (one) => (one.gaps || []).map((gap) => `${F.number(gap.least, 2)} (${F.number(gap.median, 2)})`).join(" · ");
-  const gapHead = (list) => (list.some((one) => (one.gaps || []).length) ? [number("Gaps: least (median)", "s")] : []);
+  // Below an order, the time between its latches: "gaps 0.82 · 153 ms, at least 0.13 · 0.26 ms". Nothing without rows.
+  function gapsOf({ gaps = [] }) {
+    if (!gaps.length) return null;
+    const short = gaps.every((gap) => gap.median < 1),
+      list = (key) => `${gaps.map((gap) => F.number(gap[key] * (short ? 1000 : 1), 2)).join(" · ")} ${short ? "ms" : "s"}`;
+    return h("small.gaps", { title: gaps.map((gap) => `${gap.before} to ${gap.after}`).join(" · ") }, `gaps ${list("median")} (median), at least ${list("least")}`);
+  }
   function orders() {
     const set = W.set();
     if (!(set.orders || []).some((one) => one.order !== "no latch"))
@@ -122,20 +126,18 @@
     const total = d3.sum(set.orders, (one) => one.count) + without,
       colour = (at) => W.marks.colour(W.marks.ofOrder(set, at));
     const rows = set.orders.map((one, at) => [
-      h("span", key("", `background:${colour(at)}`), one.order === "others" ? others(set) : F.order(one.order)),
+      h("span", key("", `background:${colour(at)}`), one.order === "others" ? others(set) : F.order(one.order), gapsOf(one)),
       F.count(one.count),
       F.share(one.count / total),
-      ...gapHead(set.orders).map(() => gapsOf(one)),
     ]);
     if (without)
       rows.push([
         h("span", key("", "background:var(--none)"), "no hinge latched"),
         F.count(without),
         F.share(without / total),
-        ...gapHead(set.orders).map(() => ""),
       ]);
     const title = h("h3", W.sets.length > 1 ? `Latch orders · ${set.label}` : "Latch orders"),
-      table = W.table("Latch orders", ["Order", number("Runs"), number("Share"), ...gapHead(set.orders)], rows, { class: "long-names" });
+      table = W.table("Latch orders", ["Order", number("Runs"), number("Share")], rows, { class: "long-names" });
     if (!(set.wing_orders || []).length) return [title, table];
     return [
       title,
@@ -152,17 +154,11 @@
         .join(" › ");
     const listed = d3.sum(wing.orders, (one) => one.count),
       left = total - listed - wing.without_latch;
-    const head = gapHead(wing.orders),
-      rest = (count) => [F.count(count), F.share(count / total), ...head.map(() => "")];
-    const rows = wing.orders.map((one) => [
-      short(one.order),
-      F.count(one.count),
-      F.share(one.count / total),
-      ...head.map(() => gapsOf(one)),
-    ]);
-    if (left > 0) rows.push([F.counted(wing.order_kinds - wing.orders.length, "other order"), ...rest(left)]);
-    if (wing.without_latch) rows.push(["no hinge latched", ...rest(wing.without_latch)]);
-    return W.table(`Wing ${wing.wing}`, ["Order", number("Runs"), number("Share"), ...head], rows, {
+    const counts = (count) => [F.count(count), F.share(count / total)];
+    const rows = wing.orders.map((one) => [h("span", short(one.order), gapsOf(one)), ...counts(one.count)]);
+    if (left > 0) rows.push([F.counted(wing.order_kinds - wing.orders.length, "other order"), ...counts(left)]);
+    if (wing.without_latch) rows.push(["no hinge latched", ...counts(wing.without_latch)]);
+    return W.table(`Wing ${wing.wing}`, ["Order", number("Runs"), number("Share")], rows, {
       class: "long-names",
       showCaption: true,
     });

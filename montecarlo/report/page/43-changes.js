@@ -14,20 +14,33 @@
   W.drawInWords = (set, draw) => h("span", { title: draw }, W.wordsOfDraw(set, draw));
 
   const three = (value) => F.number(value, 3);
-  const range = (low, high) => (W.isNumber(low) && W.isNumber(high) ? `${three(low)} – ${three(high)}` : F.none);
+  const times = (value) => (Math.abs(value) < 0.1 ? F.number(value, 2) : F.fixed(value, 2)); // a first-order factor
+  const range = (low, high, text) => (W.isNumber(low) && W.isNumber(high) ? `${text(low)} – ${text(high)}` : F.none);
   // A change of an input: a factor, or its mean before and after in its unit.
   function texts(one) {
     const { factor, unit } = F.shown(one.unit),
       at = (shift) => (one.now + shift) * factor;
     return one.scaled
-      ? { by: `× ${three(one.change)}`, bounds: `× ${range(one.lower, one.upper)}`, drawn: `× ${range(one.least, one.most)}` }
+      ? {
+          by: `× ${times(one.change)}`,
+          bounds: `× ${range(one.lower, one.upper, times)}`,
+          drawn: `× ${range(one.least, one.most, times)}`,
+        }
       : {
           by: `${three(at(0))} → ${three(at(one.change))} ${unit}`.trim(),
-          bounds: range(at(one.lower), at(one.upper)),
-          drawn: range(at(one.least), at(one.most)),
+          bounds: range(at(one.lower), at(one.upper), three),
+          drawn: range(at(one.least), at(one.most), three),
         };
   }
-  const had = (one, value) => (one.scaled ? `× ${three(value)}` : three(value * F.shown(one.unit).factor));
+  // The nominal value before and after a factor, "0.6 → 0.23 N·m·s/rad", where all inputs have the same one with a unit.
+  function nominals(set, one) {
+    const inputs = ((set.inputs || {}).dispersions || []).filter((each) => one.draws.includes(each.draw)),
+      [{ nominal, nominal_unit: unit, paths = [] } = {}] = inputs;
+    const alike = inputs.every((each) => each.nominal === nominal && (each.paths || []).length === 1);
+    if (!one.scaled || !unit || !W.isNumber(nominal) || !alike || paths.length !== 1) return null;
+    return h("small.faint", ` ${F.given(nominal)} → ${F.number(nominal * one.change, 2)} ${F.unit(unit)}`);
+  }
+  const had = (one, value) => (one.scaled ? `× ${times(value)}` : three(value * F.shown(one.unit).factor));
 
   // A study of `margin` in this report answers better.
   function studied(set) {
@@ -52,7 +65,7 @@
     const rows = block.levers.map(function (lever) {
       const text = texts(lever);
       return [
-        h("span", { title: lever.draws.join(", ") }, lever.words),
+        h("span", { title: lever.draws.join(", ") }, lever.words, nominals(set, lever)),
         h("b.nowrap", text.by),
         h("span.nowrap", text.bounds),
         h("span.nowrap", text.drawn, lever.beyond ? h("span.beyond", { title: "beyond the values drawn" }, " †") : null),
@@ -64,7 +77,7 @@
       W.table(`What would make ${one.name || F.nameOf(one.output)} pass`, heads, rows, { class: "needed-table", stacks: true }),
       h(
         "p.note",
-        `Linear fit of ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `; it explains ${F.share(block.explained, 0)} of the spread` : ""}. × is a factor of the mean of the draws; the bounds are those of the fit. `,
+        `By a linear fit of ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `, which explains ${F.share(block.explained, 0)} of the spread` : ""}. ${block.levers.some((lever) => lever.scaled) ? "× multiplies the present value. " : ""}`,
         beyond ? "† Beyond the values drawn: ask margin. " : null,
         h("a", { href: "#why" }, "More causes"),
         ".",
@@ -75,8 +88,10 @@
   function unknown(one, set, block, limited) {
     const draws = ((set.inputs || {}).dispersions || []).length;
     if (!limited && one.not_deployed === set.runs) return "No run deploys: these runs do not show what would change it.";
+    if (block.runs && limited && block.explained < 0.25)
+      return `These runs do not show what would change it: a linear fit explains ${F.share(block.explained, 0)} of the spread. Ask margin.`;
     return block.runs
-      ? "No dispersed input alone would do it within a factor of 5."
+      ? "No dispersed input alone is seen to do it within a factor of 5."
       : `Too few runs to estimate what would change it: ${F.counted(draws, "dispersion")}, so at least ${F.runs(draws + 11)} with a value.`;
   }
   W.needed = function (one, set, kind) {
@@ -89,9 +104,9 @@
     const { command } = block.levers.find((lever) => lever.command) || {};
     return h(
       "div.needed",
-      h("p", aim(one, set, limited), block.levers.length > 1 ? "Any one of these changes would do:" : "This change would do:"),
+      h("p", aim(one, set, limited), block.levers.length > 1 ? "Any one of these changes would do, by a first estimate:" : "This change would do, by a first estimate:"),
       table(one, set, block, limited),
-      command ? [h("p", "Confirm with new runs, against all requirements:"), W.command(command, "command that confirms the change")] : null,
+      command ? [h("p", `To confirm ${block.levers.length > 1 && block.levers[0].command ? "the first " : ""}with new runs, against all requirements:`), W.command(command, "command that confirms the change")] : null,
     );
   };
 })();
