@@ -195,7 +195,7 @@ void add_margin_options(CLI::App& command, MarginOptions& options) {
       ->type_name("PATH…");
   command.add_option("--range", options.range, "Search from this scale to that one, e.g. 0.8 1.5")
       ->expected(2)
-      ->type_name("LOWER UPPER");
+      ->type_name("SCALE");
   add_sampling_options(command, options.sampling);
   add_machine_options(command, options.machine);
   command.add_flag("--resume", options.resume, "Continue an interrupted study");
@@ -205,10 +205,10 @@ void add_margin_options(CLI::App& command, MarginOptions& options) {
       ->type_name("DIR…");
   command.add_flag("--json", options.json, "Print JSON, not text");
   command.footer(
-      R"(Scales the parameters that the campaign's "margin" or --scale names, makes the same draws at every scale and
-judges the campaign's requirements there. The window is the range of scales at which all of them are
-met. Each edge is located to 1 % ("tolerance"); the report names the requirement that sets it, and
-how many runs break it on either side.
+      R"(Scales the parameters that the campaign's "margin" or --scale names, makes the same draws at every
+scale and judges the campaign's requirements there. The window is the range of scales at which all
+of them are met. Each edge is located to 1 % ("tolerance"); the report names the requirement that
+sets it, and how many runs break it on either side.
   An end of the range is not an edge: if no requirement fails there, the range is widened until one
 does, up to "widest". Without both edges there is no recommendation.
   The recommended scale maximises the margin of the worst requirement: the share of runs that may
@@ -245,7 +245,7 @@ one process. Exit code 0: there is a window and a confirmed recommendation; 1: t
 Example:
   wingspread margin campaign.json --out results/margin
   wingspread run results/margin/recommended.json --out results/resized
-  wingspread margin campaign.json --scale 'hinges.*.damper.scale' --range 0.8 1.5 --out results/dampers
+  wingspread margin campaign.json --scale 'hinges.*.damper.scale' --range 0.8 1.5 --out results/m2
   wingspread margin campaign.json --shard 1/2 --out results/part1
   wingspread margin campaign.json --shard 2/2 --out results/part2
   wingspread margin campaign.json --from results/part1 results/part2 --out results/margin)");

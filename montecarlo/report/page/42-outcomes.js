@@ -110,11 +110,15 @@
     const kinds = set.order_kinds - set.orders.filter((one) => !["others", "no latch"].includes(one.order)).length;
     return kinds === 1 ? "one other order" : `${kinds} other orders`;
   }
-  // Below an order, the time between its latches: "gaps 0.82 · 153 ms, at least 0.13 · 0.26 ms". Nothing without rows.
+  // A short time in the unit that suits it: "1.3 s", "31 ms", "31 µs".
+  function duration(seconds) {
+    const [factor, unit] = seconds >= 0.1 ? [1, "s"] : seconds >= 1e-4 ? [1e3, "ms"] : [1e6, "µs"];
+    return `${F.number(seconds * factor, 2)} ${unit}`;
+  }
+  // Below an order, the time between its latches: "gaps 0.82 ms · 0.15 s (median), at least 31 µs · 2 ms". Nothing without rows.
   function gapsOf({ gaps = [] }) {
     if (!gaps.length) return null;
-    const short = gaps.every((gap) => gap.median < 1),
-      list = (key) => `${gaps.map((gap) => F.number(gap[key] * (short ? 1000 : 1), 2)).join(" · ")} ${short ? "ms" : "s"}`;
+    const list = (key) => gaps.map((gap) => duration(gap[key])).join(" · ");
     return h("small.gaps", { title: gaps.map((gap) => `${gap.before} to ${gap.after}`).join(" · ") }, `gaps ${list("median")} (median), at least ${list("least")}`);
   }
   function orders() {
