@@ -41,7 +41,7 @@ template <class Output> Results rows_with(const Campaign& campaign, Output outpu
   return results;
 }
 
-LeverChanges found(const Campaign& campaign, const Results& results) {
+LeverChanges levers_found(const Campaign& campaign, const Results& results) {
   const Verdict verdict = judge(campaign.requirements.front(), results);
   REQUIRE(verdict.decision == Decision::fail);
   const auto all = lever_changes(NeededFor::limit, campaign, verdict, results, {}, 0.95, 9);
@@ -57,7 +57,7 @@ TEST_CASE("inputs of one quantity move together where they act alike, and alone 
   const Results alike = rows_with(campaign, [](const std::vector<double>& x) {
     return 9 + 0.2 * (x[1] + x[2] + x[3] - 30) - 4 * (x[0] - 1) - 0.04 * (x[4] - 20);
   });
-  const LeverChanges together = found(campaign, alike);
+  const LeverChanges together = levers_found(campaign, alike);
   REQUIRE(together.levers.size() == 3);
   CHECK(together.explained == Approx(1).epsilon(1e-6));
   const auto of = [](const LeverChanges& all, const std::string& words) {
@@ -86,6 +86,6 @@ TEST_CASE("inputs of one quantity move together where they act alike, and alone 
   const Results of_one = rows_with(campaign, [](const std::vector<double>& x) {
     return 9 + 0.6 * (x[2] - 10) + 0.02 * (x[1] + x[3] - 20);
   });
-  CHECK(of(found(campaign, of_one), "panel_2 mass").lever.draws ==
+  CHECK(of(levers_found(campaign, of_one), "panel_2 mass").lever.draws ==
         std::vector<std::string>{"mass.panel_2"});
 }

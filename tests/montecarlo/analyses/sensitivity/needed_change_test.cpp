@@ -48,9 +48,9 @@ Requirement deploying(double probability) {
   return requirement;
 }
 
-std::vector<std::optional<NeededChange>> changes(NeededFor what, const Requirement& requirement,
-                                                 const Results& results,
-                                                 const std::vector<MovedDraws>& moved) {
+std::vector<std::optional<NeededChange>> needed_of(NeededFor what, const Requirement& requirement,
+                                                   const Results& results,
+                                                   const std::vector<MovedDraws>& moved) {
   const auto found = needed_changes(what, judge(requirement, results), results, {}, moved, 0.95);
   REQUIRE(found);
   return found->changes;
@@ -73,7 +73,7 @@ TEST_CASE("of a linear output the change is the one at which the requirement jus
   REQUIRE(judge(requirement, sample.results()).decision == Decision::fail);
   for (const MovedDraws& moved : {a_shifted, a_scaled, both_scaled}) {
     const auto change =
-        changes(NeededFor::limit, requirement, sample.results(), {moved}).front().value();
+        needed_of(NeededFor::limit, requirement, sample.results(), {moved}).front().value();
     for (const auto& [beyond, decision] :
          {std::pair(1 + 1e-9, Decision::pass), std::pair(1 - 1e-6, Decision::fail)}) {
       const double base = moved.scaled ? 1 : 0, made = base + beyond * (change.change - base);
@@ -97,7 +97,7 @@ TEST_CASE("the change of a linear output with noise is that of its normal law", 
   const double density = std::exp(-z * z / 2) / std::sqrt(2 * 3.14159265358979),
                band_of_t = 7 * spread * std::sqrt(0.01 * 0.99 / n) / density / 3;
   const auto found =
-      changes(NeededFor::limit, limited(2), sample.results(), {a_shifted, a_scaled}).front();
+      needed_of(NeededFor::limit, limited(2), sample.results(), {a_shifted, a_scaled}).front();
   REQUIRE(found);
   const double expected = (2 - (1 + z * spread)) / 3;
   CHECK(found->change == Approx(expected).margin(band_of_t));
@@ -115,8 +115,8 @@ TEST_CASE("the bounds of a slope cover it, and a draw without effect has no chan
   for (int s = 0; s < samples; ++s) {
     const InventedRuns sample(300, static_cast<std::uint64_t>(100 + s),
                               [](double a, double, double z) { return a + 0.1 * z; });
-    const auto found = changes(NeededFor::limit, limited(1.2), sample.results(),
-                               {a_shifted, MovedDraws{{1}, false}});
+    const auto found = needed_of(NeededFor::limit, limited(1.2), sample.results(),
+                                 {a_shifted, MovedDraws{{1}, false}});
     REQUIRE(found[0]);
     // with slope 1 the change is the limit less the order statistic, which the estimate scales by 1/b
     std::vector<double> y = sample.y;
@@ -138,8 +138,8 @@ TEST_CASE("a wing that deploys above a threshold needs the shift of its normal l
     if (sample.y[i] < 0.6) sample.status[i] = Status::stalled;
   const auto stalled = static_cast<double>(std::ranges::count(sample.status, Status::stalled));
   CHECK(stalled / 40'000 == Approx(0.0912).margin(0.006));
-  const auto found = changes(NeededFor::deployment, deploying(0.98), sample.results(),
-                             {a_shifted, MovedDraws{{1}, false}, a_scaled});
+  const auto found = needed_of(NeededFor::deployment, deploying(0.98), sample.results(),
+                               {a_shifted, MovedDraws{{1}, false}, a_scaled});
   // to 2 % less the margin of the verdict: 0.4 + 2 t = 0.3 · 2.05…2.09
   for (const auto& [place, slope] : {std::pair(0, 2.0), std::pair(1, -1.0)}) {
     REQUIRE(found[place]);
@@ -154,8 +154,8 @@ TEST_CASE("a wing that deploys above a threshold needs the shift of its normal l
 
 TEST_CASE("a change beyond the values drawn says so", "[needed]") {
   const InventedRuns sample(2000, 4, [](double a, double b, double) { return 3 * a - 2 * b; });
-  const auto near = changes(NeededFor::limit, limited(1.7), sample.results(), {a_scaled}).front(),
-             far = changes(NeededFor::limit, limited(-1), sample.results(), {a_scaled}).front();
+  const auto near = needed_of(NeededFor::limit, limited(1.7), sample.results(), {a_scaled}).front(),
+             far = needed_of(NeededFor::limit, limited(-1), sample.results(), {a_scaled}).front();
   const auto [low, high] = std::ranges::minmax(sample.a);
   double mean = 0;
   for (const double a : sample.a) mean += a / 2000;

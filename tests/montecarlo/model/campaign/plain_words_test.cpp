@@ -8,7 +8,8 @@ using namespace wingspread::test;
 
 namespace {
 
-std::vector<SceneParameter> parameters(const Scene& scene, const std::vector<std::string>& paths) {
+std::vector<SceneParameter> parameters_at(const Scene& scene,
+                                          const std::vector<std::string>& paths) {
   std::vector<SceneParameter> found;
   for (const std::string& path : paths)
     for (const ParameterMatch& match : resolve(scene, path).matches)
@@ -22,7 +23,7 @@ std::vector<SceneParameter> parameters(const Scene& scene, const std::vector<std
 TEST_CASE("parameters in plain words", "[campaign]") {
   const Scene scene = campaign_of(quick_campaign(1)).scene;
   const auto words = [&](const std::vector<std::string>& paths) {
-    return plain_words(scene, parameters(scene, paths));
+    return plain_words(scene, parameters_at(scene, paths));
   };
   CHECK(words({"hinges.root.spring.torque_stowed", "hinges.root.spring.torque_latched"}) ==
         "root spring");
@@ -39,7 +40,7 @@ TEST_CASE("parameters in plain words", "[campaign]") {
 TEST_CASE("paths are short where a star names the same parameters", "[campaign]") {
   const Scene scene = campaign_of(quick_campaign(1)).scene;
   const auto paths = [&](const std::vector<std::string>& given) {
-    return short_paths(scene, parameters(scene, given));
+    return short_paths(scene, parameters_at(scene, given));
   };
   using List = std::vector<std::string>;
   CHECK(paths({"bodies.*.mass"}) == List{"bodies.*.mass"});
