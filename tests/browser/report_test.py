@@ -22,6 +22,7 @@ try:
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
     import pages
+    from change_checks import ChangeChecks
     from finding_checks import FindingChecks
     from fit_checks import FitChecks, made_fit
     from mark_checks import MarkChecks
@@ -72,7 +73,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(PoseChecks, MarkChecks, FindingChecks, NumberChecks, Page):
+class Quick(PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")

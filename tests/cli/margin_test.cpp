@@ -263,3 +263,26 @@ TEST_CASE("margin states its drawbacks, and holds its requirements in every case
   CHECK(cold["gevs"]["nominal"].get<double>() ==
         Approx(0.75 * 0.2 / (3 * 0.8 * 1.02) - 1).epsilon(1e-12));
 }
+
+TEST_CASE("margin: --scale and --range stand for the campaign's own", "[long]") {
+  const Place program;
+  Json own = one_panel_margin(300);
+  const Json scale = own["margin"]["scale"], range = own["margin"]["range"];
+  Json without = own;
+  without.erase("margin");
+  std::vector<std::string> arguments{"margin", program.file(without, "without.json"), "--out",
+                                     program.out + "2", "--scale"};
+  for (const Json& path : scale) arguments.push_back(path);
+  arguments.insert(arguments.end(), {"--range", range[0].dump(), range[1].dump()});
+  own["margin"] = {{"scale", scale}, {"range", range}};
+  const auto by_file = program.margin(own), by_options = program(arguments);
+  CHECK(by_file.code == by_options.code);
+  CHECK(read_text(program.out + "/margin.csv") == read_text(program.out + "2/margin.csv"));
+  CHECK(read_text(program.out + "/recommended.json") ==
+        read_text(program.out + "2/recommended.json"));
+  const auto [code, text, error] =
+      program({"margin", program.file(without, "without.json"), "--out", program.out + "3",
+               "--scale", "hinges.none.spring.scale", "--range", "2", "1"});
+  CHECK(code == 2);
+  CHECK_THAT(error, Catch::Contains("--scale") && Catch::Contains("--range"));
+}

@@ -15,6 +15,7 @@
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -26,6 +27,8 @@ struct MarginOptions {
   SamplingOptions sampling;
   MachineOptions machine;
   std::string shard;
+  std::vector<std::string> scale;
+  std::vector<double> range;
   std::vector<std::filesystem::path> from;
   bool resume = false, json = false;
 };
@@ -102,6 +105,9 @@ ShardMaker maker_of(const MarginOptions& options) {
   ShardMaker maker{"wingspread margin " + shell_word(options.campaign.string()), ""};
   if (options.sampling.runs) maker.more += fmt::format(" --runs {}", *options.sampling.runs);
   if (options.sampling.seed) maker.more += fmt::format(" --seed {}", *options.sampling.seed);
+  for (const std::string& path : options.scale) maker.more += " --scale " + shell_word(path);
+  if (!options.range.empty())
+    maker.more += fmt::format(" --range {}", fmt::join(options.range, " "));
   return maker;
 }
 
@@ -143,6 +149,7 @@ int make_margin_shard(const Campaign& campaign, const MarginOptions& options, co
 int run_margin_study(const MarginOptions& options) {
   Campaign campaign = read_campaign_file(options.campaign);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
+  override_margin(campaign, options.scale, options.range);
   if (const auto shard = parse_shard(options.shard))
     return make_margin_shard(campaign, options, *shard);
   const Json about = about_study(campaign, std::nullopt);
@@ -183,6 +190,12 @@ int margin(const MarginOptions& options) {
 void add_margin_options(CLI::App& command, MarginOptions& options) {
   command.add_option("campaign", options.campaign, "The campaign, a JSON file")->required();
   command.add_option("--out", options.out, "The folder for the results: new or empty")->required();
+  command
+      .add_option("--scale", options.scale, "Scale these parameters, e.g. 'hinges.*.spring.scale'")
+      ->type_name("PATH…");
+  command.add_option("--range", options.range, "Search from this scale to that one, e.g. 0.8 1.5")
+      ->expected(2)
+      ->type_name("SCALE");
   add_sampling_options(command, options.sampling);
   add_machine_options(command, options.machine);
   command.add_flag("--resume", options.resume, "Continue an interrupted study");
@@ -192,10 +205,10 @@ void add_margin_options(CLI::App& command, MarginOptions& options) {
       ->type_name("DIR…");
   command.add_flag("--json", options.json, "Print JSON, not text");
   command.footer(
-      R"(Scales the parameters that the campaign's "margin" names, makes the same draws at every scale and
-judges the campaign's requirements there. The window is the range of scales at which all of them are
-met. Each edge is located to 1 % ("tolerance"); the report names the requirement that sets it, and
-how many runs break it on either side.
+      R"(Scales the parameters that the campaign's "margin" or --scale names, makes the same draws at every
+scale and judges the campaign's requirements there. The window is the range of scales at which all
+of them are met. Each edge is located to 1 % ("tolerance"); the report names the requirement that
+sets it, and how many runs break it on either side.
   An end of the range is not an edge: if no requirement fails there, the range is widened until one
 does, up to "widest". Without both edges there is no recommendation.
   The recommended scale maximises the margin of the worst requirement: the share of runs that may
@@ -232,6 +245,7 @@ one process. Exit code 0: there is a window and a confirmed recommendation; 1: t
 Example:
   wingspread margin campaign.json --out results/margin
   wingspread run results/margin/recommended.json --out results/resized
+  wingspread margin campaign.json --scale 'hinges.*.damper.scale' --range 0.8 1.5 --out results/m2
   wingspread margin campaign.json --shard 1/2 --out results/part1
   wingspread margin campaign.json --shard 2/2 --out results/part2
   wingspread margin campaign.json --from results/part1 results/part2 --out results/margin)");

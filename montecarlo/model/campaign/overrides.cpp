@@ -83,4 +83,21 @@ void change_scene(Campaign& campaign, const std::vector<std::string>& changes) {
   campaign = with_scene(campaign, changed_scene(campaign.scene, changes));
 }
 
+void override_margin(Campaign& campaign, const std::vector<std::string>& scale,
+                     const std::vector<double>& range) {
+  if (scale.empty() && range.empty()) return;
+  Json given = campaign.margin ? campaign.resolved.at("margin") : Json::object();
+  if (!scale.empty()) given["scale"] = scale;
+  if (!range.empty()) {
+    given["range"] = range;
+    given.erase("widest"); // it encloses the campaign's own range
+  }
+  override_settings(given, [&](const JsonCursor& at) {
+    campaign.margin = read_margin(at, &campaign.scene, campaign.motorization);
+  });
+  campaign.resolved["margin"] =
+      write_margin(*campaign.margin, campaign.motorization, campaign.scene);
+  campaign.resolved.erase("motorization"); // the margin's own now
+}
+
 } // namespace wingspread

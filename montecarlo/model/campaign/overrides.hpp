@@ -22,4 +22,11 @@ void override_settings(const Json& given, const std::function<void(const JsonCur
 /// @throws as above, if a dispersion sets a changed parameter in every run, and if a case no longer fits the scene
 void change_scene(Campaign& campaign, const std::vector<std::string>& changes);
 
+/// Replaces "scale" and "range" of the campaign's margin, which it need not have.
+/// @param scale paths; empty: keeps the campaign's
+/// @param range lower and upper scale; empty: keeps the campaign's
+/// @throws SpecError that names the options
+void override_margin(Campaign& campaign, const std::vector<std::string>& scale,
+                     const std::vector<double>& range);
+
 } // namespace wingspread

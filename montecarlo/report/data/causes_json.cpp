@@ -1,11 +1,19 @@
 #include "montecarlo/report/data/causes_json.hpp"
 
+#include "montecarlo/analyses/sensitivity/levers.hpp"
 #include "montecarlo/analyses/sensitivity/rank_report.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
+#include "montecarlo/results/results_folder/parts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -132,7 +140,97 @@ Json scatter_json(const PageSource& source, const Pair& pair) {
           {"points", points_json(source, x, y)}};
 }
 
+// ---- needed changes
+
+/// The command that searches about the change of a lever; null where `margin` cannot make it.
+Json margin_command(const PageSource& source, const LeverChange& each) {
+  if (each.lever.paths.empty() || !(each.change.change > 0)) return nullptr;
+  const double t = each.change.change - 1;
+  const double beyond = std::max(0.05, 1 + 2 * t),
+               before = 1 - t / 2; // twice as far, and half the other way
+  std::vector<std::string> paths;
+  for (const std::string& path : each.lever.paths) paths.push_back(shell_word(path));
+  return fmt::format("wingspread margin {} --scale {} --range {:.2g} {:.2g} --out results/margin",
+                     shell_word((source.made_from / campaign_file).string()), fmt::join(paths, " "),
+                     std::min(beyond, before), std::max(beyond, before));
+}
+
+Json lever_json(const PageSource& source, const LeverChange& each) {
+  const auto& [lever, change] = each;
+  Json json{{"words", lever.words},
+            {"draws", lever.draws},
+            {"scaled", lever.moved.scaled},
+            {"unit", lever.unit},
+            {"now", page_number(change.now)},
+            {"change", page_number(change.change)},
+            {"least", page_number(change.least)},
+            {"most", page_number(change.most)},
+            {"beyond", change.is_beyond()},
+            {"of_broken", page_number(change.of_broken)},
+            {"of_others", page_number(change.of_others)},
+            {"command", margin_command(source, each)}};
+  add_bounds(json, change.bounds);
+  return json;
+}
+
+Json block_json(const PageSource& source, const Verdict& verdict, NeededFor what) {
+  constexpr std::size_t most_levers = 3;
+  const auto found = lever_changes(what, source.stored.campaign, verdict, source.results,
+                                   source.replication, source.confidence, most_levers);
+  Json json{{"for", what == NeededFor::limit ? "limit" : "deployment"},
+            {"runs", found ? found->runs : 0},
+            {"explained", found ? page_number(found->explained, 3) : Json(nullptr)},
+            {"levers", Json::array()}};
+  if (found)
+    for (const LeverChange& each : found->levers)
+      json["levers"].push_back(lever_json(source, each));
+  return json;
+}
+
+// ---- loads without a requirement
+
+/// The largest magnitude of an output over all runs.
+double largest(const OutputSummary& output) {
+  return std::max(std::abs(output.moments.min), std::abs(output.moments.max));
+}
+
 } // namespace
+
+Json changes_json(const PageSource& source, const Verdict& verdict) {
+  Json blocks = Json::array();
+  const Requirement& requirement = verdict.requirement;
+  if (verdict.decision != Decision::fail || !source.has_rows() || requirement.static_margin)
+    return blocks;
+  const BrokenRuns broken = broken_runs(verdict, source.results, 0);
+  const long may = verdict.allowed.value_or(
+      static_cast<long>((1 - requirement.probability) * static_cast<double>(verdict.runs)));
+  if (broken.not_deployed > may)
+    blocks.push_back(block_json(source, verdict, NeededFor::deployment));
+  if (broken.beyond > 0) blocks.push_back(block_json(source, verdict, NeededFor::limit));
+  return blocks;
+}
+
+Json unjudged_json(const PageSource& source) {
+  std::map<std::string, const OutputSummary*> judged, other; // the largest of each kind
+  for (const OutputSummary& output : source.summary.outputs) {
+    const OutputName name = parse_output_name(output.name);
+    if (output.moments.count == 0 || !std::string_view(name.unit).starts_with('N')) continue;
+    const auto required =
+        std::ranges::find(source.summary.requirements, output.name,
+                          [](const Verdict& verdict) { return verdict.requirement.output; });
+    const bool is_judged = required != source.summary.requirements.end();
+    const OutputSummary*& kept = (is_judged ? judged : other)[name.quantity];
+    if (!kept || largest(output) > largest(*kept)) kept = &output;
+  }
+  Json json = Json::array();
+  for (const auto& [kind, output] : judged)
+    if (other.contains(kind) && largest(*other[kind]) > largest(*output))
+      json.push_back({{"output", other[kind]->name},
+                      {"largest", page_number(largest(*other[kind]))},
+                      {"judged", output->name},
+                      {"judged_largest", page_number(largest(*output))}});
+  return json;
+}
 
 Json correlations_json(const PageSource& source, const PageDetail& detail) {
   const Results& results = source.results;

@@ -1,4 +1,4 @@
-/// Correlations, effects with bounds, and scatters of the strongest pairs.
+/// Correlations, effects with bounds, scatters of the strongest pairs, changes by which a requirement would pass.
 #pragma once
 
 #include "montecarlo/report/data/page_detail.hpp"
@@ -30,6 +30,13 @@ struct Pair {
 /// The rows that a scatter shows as points, ascending: the extremes of both columns, then every n-th row; at most `most`.
 [[nodiscard]] std::vector<std::size_t> scatter_rows(const Column& x, const Column& y,
                                                     std::size_t most);
+
+/// CHANGES of page/DATA.md: by which changes of its inputs a failed requirement would pass. Empty for any other verdict,
+/// without rows, and for a static margin.
+[[nodiscard]] Json changes_json(const PageSource& source, const Verdict& verdict);
+
+/// `unjudged` of page/DATA.md: loads without a requirement that are larger than each judged load of their kind.
+[[nodiscard]] Json unjudged_json(const PageSource& source);
 
 /// @param threads as of thread_count (thread_pool.hpp); the bytes do not depend on them
 [[nodiscard]] Json scatters_json(const PageSource& source, const PageDetail& detail, int threads);

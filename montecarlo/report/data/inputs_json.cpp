@@ -2,6 +2,7 @@
 
 #include "distributions/prepared_distribution.hpp"
 #include "montecarlo/model/campaign/describe.hpp"
+#include "montecarlo/model/campaign/plain_words.hpp"
 #include "montecarlo/model/scene_file/scene_parameter.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 
@@ -41,6 +42,24 @@ Json scene_json(const PageSource& source, std::size_t most) {
   return json;
 }
 
+/// The tables of a draw, with their values at its median.
+Json tables_json(const Campaign& campaign, const Dispersion& dispersion, double median) {
+  Json json = Json::array();
+  for (const Driven& driven : dispersion.through) {
+    std::vector<double> values;
+    for (const double at : driven.table.knots()) values.push_back(driven.table.value_at(at));
+    const bool scaled = driven.apply == Apply::scale;
+    json.push_back({{"words", plain_words(campaign.scene, driven.targets)},
+                    {"paths", short_paths(campaign.scene, driven.targets)},
+                    {"apply", apply_names[static_cast<std::size_t>(driven.apply)]},
+                    {"unit", scaled ? std::string_view() : unit_of(driven.targets.front())},
+                    {"at", page_numbers(driven.table.knots())},
+                    {"value", page_numbers(values)},
+                    {"of_median", page_number(driven.table.value_at(median))}});
+  }
+  return json;
+}
+
 /// A dispersion: its law, the 1 % and 99 % quantiles of its draws, and its targets.
 Json dispersion_json(const Campaign& campaign, const Dispersion& dispersion,
                      const Dispersion& before_case) {
@@ -60,7 +79,11 @@ Json dispersion_json(const Campaign& campaign, const Dispersion& dispersion,
   const std::string law_text = describe(dispersion.distribution),
                     before = describe(before_case.distribution);
   const bool of_parameter = how == "set" || how == "add";
+  const double median = law.quantile(0.5);
   return {{"draw", dispersion.name},
+          {"words", plain_words(campaign.scene, dispersion)},
+          {"median", page_number(median)},
+          {"tables", tables_json(campaign, dispersion, median)},
           {"paths", std::move(paths)},
           {"apply", how},
           {"law", law_text},

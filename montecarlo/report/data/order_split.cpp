@@ -1,5 +1,7 @@
 #include "montecarlo/report/data/order_split.hpp"
 
+#include "montecarlo/foundation/statistics/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -150,6 +152,32 @@ std::vector<WingOrders> wing_orders(const OrderCounts& orders, const Scene& scen
     std::ranges::stable_sort(wing.orders, std::ranges::greater{}, &OrderSplit::Group::count);
   }
   return wings;
+}
+
+std::vector<LatchGap> latch_gaps(const Results& results, const std::vector<std::string>& hinges,
+                                 std::string_view order) {
+  const std::vector<std::string> latched = split(order);
+  std::vector<const Column*> times;
+  for (const std::string& hinge : latched) {
+    const auto found = std::ranges::find(results.outputs, hinge + ".latch_time", &Column::name);
+    if (found == results.outputs.end()) return {};
+    times.push_back(&*found);
+  }
+  const TextColumn& texts = results.latch_order.texts();
+  std::vector<bool> counts(texts.size());
+  for (std::size_t code = 0; code < texts.size(); ++code)
+    counts[code] = part_of(texts[code], hinges) == order;
+  std::vector<LatchGap> gaps;
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+    std::vector<double> between;
+    for (std::size_t row = 0; row < results.size(); ++row)
+      if (counts[results.latch_order.codes()[row]])
+        between.push_back(times[k + 1]->values[row] - times[k]->values[row]);
+    const std::vector<double> sorted = sorted_present(between);
+    if (sorted.empty()) return {};
+    gaps.push_back({latched[k], latched[k + 1], sorted.front(), quantile(sorted, 0.5)});
+  }
+  return gaps;
 }
 
 std::vector<std::vector<long>> OrderSplit::counts(const Histogram& histogram,

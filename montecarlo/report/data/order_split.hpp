@@ -68,4 +68,17 @@ struct WingOrders {
 /// differ only in how the wings' sequences interleave.
 [[nodiscard]] std::vector<WingOrders> wing_orders(const OrderCounts& orders, const Scene& scene);
 
+/// The time from one latch to the next of an order.
+struct LatchGap {
+  std::string before, after;    ///< hinges
+  double least = 0, median = 0; ///< s
+};
+
+/// The gaps of an order, over the runs in which these hinges latched in this order, whatever others did.
+/// @param hinges the hinges that count
+/// @param order  "root>mid>tip" of such hinges
+/// @return empty without a column of latch times for each
+[[nodiscard]] std::vector<LatchGap>
+latch_gaps(const Results& results, const std::vector<std::string>& hinges, std::string_view order);
+
 } // namespace wingspread

@@ -89,10 +89,28 @@ Json stalled_at_json(const Summary& summary) {
   return json;
 }
 
-Json orders_json(const OrderSplit& orders) {
+/// The gaps of an order of these hinges; empty without rows.
+Json gaps_json(const PageSource& source, const std::vector<std::string>& hinges,
+               const std::string& order) {
   Json json = Json::array();
-  for (const auto& [name, count] : orders.groups())
-    json.push_back({{"order", name}, {"count", count}});
+  if (!source.has_rows()) return json;
+  for (const LatchGap& gap : latch_gaps(source.results, hinges, order))
+    json.push_back({{"before", gap.before},
+                    {"after", gap.after},
+                    {"least", page_number(gap.least, 4)},
+                    {"median", page_number(gap.median, 4)}});
+  return json;
+}
+
+/// An order of all hinges has gaps if the scene is one wing; of several, the orders of each wing have them.
+Json orders_json(const PageSource& source, bool several_wings) {
+  std::vector<std::string> hinges;
+  for (const Hinge& hinge : source.stored.campaign.scene.hinges) hinges.push_back(hinge.name);
+  Json json = Json::array();
+  for (const auto& [name, count] : source.orders->groups())
+    json.push_back({{"order", name},
+                    {"count", count},
+                    {"gaps", several_wings ? Json::array() : gaps_json(source, hinges, name)}});
   return json;
 }
 
@@ -105,7 +123,8 @@ Json wing_orders_json(const PageSource& source) {
     Json orders = Json::array();
     for (const auto& [name, count] : wing.orders)
       if (orders.size() < OrderSplit::most_orders)
-        orders.push_back({{"order", name}, {"count", count}});
+        orders.push_back(
+            {{"order", name}, {"count", count}, {"gaps", gaps_json(source, wing.hinges, name)}});
     json.push_back({{"wing", wing.name},
                     {"hinges", wing.hinges},
                     {"orders", std::move(orders)},
@@ -173,6 +192,7 @@ Json requirement_json(const Verdict& verdict, const PageSource& source) {
                {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)},
                {"evidence", evidence(verdict)}});
   json.update(broken_json(verdict, source));
+  json["changes"] = changes_json(source, verdict);
   return json;
 }
 
@@ -204,13 +224,15 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["statuses"] = statuses_json(summary);
   json["reasons"] = reasons_json(summary);
   if (!summary.stalled_at.empty()) json["stalled_at"] = stalled_at_json(summary);
-  json["orders"] = orders_json(*source.orders);
+  Json wings = wing_orders_json(source);
+  json["orders"] = orders_json(source, !wings.empty());
   json["order_kinds"] = source.orders->kinds();
   json["without_latch"] = summary.without_latch;
-  json["wing_orders"] = wing_orders_json(source);
+  json["wing_orders"] = std::move(wings);
   json["warnings"] = all_warnings(source, detail);
   json["accuracy"] = accuracy_json(summary);
   json["requirements"] = requirements_json(source);
+  json["unjudged"] = unjudged_json(source);
   json["outputs"] = outputs_json(source, detail, threads);
   json["correlations"] = correlations_json(source, detail);
   json["sensitivity"] = effects_json(source, detail);

@@ -126,6 +126,25 @@
     });
     return sentences.filter(Boolean).map((text) => h("p.lead", text));
   }
+  // Where more runs than may did not deploy: how many, and what would change it; once for each set.
+  function deployments(rows) {
+    const items = W.sets.map(function (set, at) {
+      const failed = rows.filter(
+        (row) => row.at === at && (row.requirement.changes || []).some((block) => block.for === "deployment"),
+      );
+      if (!failed.length) return null;
+      const { requirement: one } = failed.find((row) => row.requirement.kind === "status") || failed[0];
+      return h(
+        "li",
+        h("b", shortOf(one)),
+        `: ${W.sets.length > 1 ? `in ${set.label} ` : ""}${F.count(one.not_deployed)} of ${F.runs(set.runs)} (${F.share(one.not_deployed / Math.max(1, set.runs))}) did not deploy${mayBreak(one)}. `,
+        W.needed(one, set, "deployment"),
+      );
+    });
+    return items.some(Boolean) ? h("ul.findings.stalls", items.filter(Boolean)) : null;
+  }
+  const mayBreak = (one) =>
+    W.isNumber(one.allowed) ? `, where ${one.allowed ? `at most ${F.count(one.allowed)}` : "none"} may` : "";
   // For each requirement that values beyond its limit break: where, how many runs, by how much, and what moves the output.
   function findings(rows) {
     const seen = new Set();
@@ -151,16 +170,30 @@
     return h(
       "li",
       h("b", shortOf(one)),
-      `: ${several ? `in ${set.label} ` : ""}${F.count(one.beyond)} of ${F.runs(set.runs)} (${F.share(one.beyond / Math.max(1, set.runs))}) ${one.beyond === 1 ? "has" : "have"} ${one.abs ? `|${name}|` : name} ${side} ${limit}${W.isNumber(one.allowed) ? `, where ${one.allowed ? `at most ${F.count(one.allowed)}` : "none"} may` : ""}. `,
+      `: ${several ? `in ${set.label} ` : ""}${F.count(one.beyond)} of ${F.runs(set.runs)} (${F.share(one.beyond / Math.max(1, set.runs))}) ${one.beyond === 1 ? "has" : "have"} ${one.abs ? `|${name}|` : name} ${side} ${limit}${mayBreak(one)}. `,
       W.isNumber(one.observed_value)
         ? `${F.given(100 * one.probability)} % of these runs stay ${one.upper ? "below" : "above"} ${valueText(one.observed_value, one, set)}. `
         : null,
       also.length ? `Also fails in ${listed(also)}. ` : null,
       runs.length ? [`The worst run is `, h("button.run", { onclick: () => W.selectRun(at, runs[0]) }, String(runs[0])), ". "] : null,
-      W.caseEffect(set, one.output) ? `${W.caseEffect(set, one.output)} ` : null,
-      W.influences(set, one.output).length
-        ? [several ? `Inside ${set.label} ` : "Among the runs ", W.influences(set, one.output), " ", h("a", { href: "#why" }, "More causes"), "."]
-        : null,
+      W.caseMeans(set, one.output),
+      W.needed(one, set, "limit"),
+    );
+  }
+  // One load of each kind that no requirement limits, if it is larger than all that are judged in any set.
+  function unjudged() {
+    const kindOf = (name) => name.split(".").pop(),
+      judgedOf = (kind) => d3.max(W.sets, (set) => d3.max(W.outputsOf(set).filter((one) => kindOf(one.name) === kind && (one.limits || []).length), (one) => Math.max(Math.abs(one.min), Math.abs(one.max))));
+    const all = W.sets
+      .flatMap((set) => (set.unjudged || []).map((one) => ({ ...one, set, kind: kindOf(one.output) })))
+      .filter((one) => !(one.largest <= judgedOf(one.kind)));
+    const worst = [...d3.rollup(all, (each) => each.reduce((a, b) => (b.largest > a.largest ? b : a)), (one) => one.kind).values()];
+    return worst.map(({ output, largest, judged, judged_largest, set }) =>
+      h(
+        "p.unjudged",
+        h("b", "No requirement limits "),
+        `${F.nameOf(output)}, which reaches ${F.number(largest, 3)} ${F.unit(F.unitOf(output))}${W.sets.length > 1 ? ` in ${set.label}` : ""}. The largest of its kind with a limit: ${F.nameOf(judged)}, ${F.number(judged_largest, 3)} ${F.unit(F.unitOf(output))}.`,
+      ),
     );
   }
   const listed = (names) =>
@@ -336,7 +369,9 @@
       headline(rows),
       W.staticShortfall(),
       cause(rows),
+      deployments(rows),
       findings(rows),
+      unjudged(),
       several ? [matrix(rows), h("h3", "The worst case of each requirement")] : null,
       requirementTable(shown),
       h(

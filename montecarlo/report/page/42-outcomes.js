@@ -110,6 +110,17 @@
     const kinds = set.order_kinds - set.orders.filter((one) => !["others", "no latch"].includes(one.order)).length;
     return kinds === 1 ? "one other order" : `${kinds} other orders`;
   }
+  // A short time in the unit that suits it: "1.3 s", "31 ms", "31 µs".
+  function duration(seconds) {
+    const [factor, unit] = seconds >= 0.1 ? [1, "s"] : seconds >= 1e-4 ? [1e3, "ms"] : [1e6, "µs"];
+    return `${F.number(seconds * factor, 2)} ${unit}`;
+  }
+  // Below an order, the time between its latches: "gaps 0.82 ms · 0.15 s (median), at least 31 µs · 2 ms". Nothing without rows.
+  function gapsOf({ gaps = [] }) {
+    if (!gaps.length) return null;
+    const list = (key) => gaps.map((gap) => duration(gap[key])).join(" · ");
+    return h("small.gaps", { title: gaps.map((gap) => `${gap.before} to ${gap.after}`).join(" · ") }, `gaps ${list("median")} (median), at least ${list("least")}`);
+  }
   function orders() {
     const set = W.set();
     if (!(set.orders || []).some((one) => one.order !== "no latch"))
@@ -119,7 +130,7 @@
     const total = d3.sum(set.orders, (one) => one.count) + without,
       colour = (at) => W.marks.colour(W.marks.ofOrder(set, at));
     const rows = set.orders.map((one, at) => [
-      h("span", key("", `background:${colour(at)}`), one.order === "others" ? others(set) : F.order(one.order)),
+      h("span", key("", `background:${colour(at)}`), one.order === "others" ? others(set) : F.order(one.order), gapsOf(one)),
       F.count(one.count),
       F.share(one.count / total),
     ]);
@@ -147,11 +158,10 @@
         .join(" › ");
     const listed = d3.sum(wing.orders, (one) => one.count),
       left = total - listed - wing.without_latch;
-    const rows = wing.orders.map((one) => [short(one.order), F.count(one.count), F.share(one.count / total)]);
-    if (left > 0)
-      rows.push([F.counted(wing.order_kinds - wing.orders.length, "other order"), F.count(left), F.share(left / total)]);
-    if (wing.without_latch)
-      rows.push(["no hinge latched", F.count(wing.without_latch), F.share(wing.without_latch / total)]);
+    const counts = (count) => [F.count(count), F.share(count / total)];
+    const rows = wing.orders.map((one) => [h("span", short(one.order), gapsOf(one)), ...counts(one.count)]);
+    if (left > 0) rows.push([F.counted(wing.order_kinds - wing.orders.length, "other order"), ...counts(left)]);
+    if (wing.without_latch) rows.push(["no hinge latched", ...counts(wing.without_latch)]);
     return W.table(`Wing ${wing.wing}`, ["Order", number("Runs"), number("Share")], rows, {
       class: "long-names",
       showCaption: true,

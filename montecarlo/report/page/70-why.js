@@ -57,7 +57,7 @@
           : `Strongest first.${kind === "rank" ? ` ${chance(set)}` : ""} Bars to the right: the output increases with the dispersion.`,
       description: () =>
         rows
-          .map((one) => `${one.draw}: ${pair.map(([key, text]) => `${text} ${F.fixed(one[key], 2)}`).join(", ")}`)
+          .map((one) => `${W.wordsOfDraw(set, one.draw)}: ${pair.map(([key, text]) => `${text} ${F.fixed(one[key], 2)}`).join(", ")}`)
           .join("; "),
       table: () => ({
         columns: ["dispersion", ...pair.flatMap(([, text]) => (bounded ? [text, "lower", "upper"] : [text]))],
@@ -73,7 +73,7 @@
         const left = M.labelRoom(
             width,
             0.34,
-            rows.map((one) => one.draw),
+            rows.map((one) => W.wordsOfDraw(set, one.draw)),
           ),
           row = 13 * pair.length + 9;
         const box = { left, right: width - 16, top: top + 4, bottom: top + 4 + row * rows.length };
@@ -97,7 +97,7 @@
         M.upright(svg, "line.zero-line", x(0), box);
         rows.forEach(function (one, at) {
           const upper = box.top + row * at + 4;
-          M.rowLabel(svg, one.draw, left, upper + (row - 9) / 2);
+          M.rowLabel(svg, W.wordsOfDraw(set, one.draw), left, upper + (row - 9) / 2);
           pair.forEach(function ([key, text], place) {
             const [value, low, high] = withBounds(one, key),
               y = upper + 13 * place;
@@ -125,20 +125,19 @@
     const strength = (one) => (Math.abs(one.prcc) > Math.abs(one.spearman) ? one.prcc : one.spearman),
       shown = (one) => one.spearman_lower * one.spearman_upper > 0 || one.prcc_lower * one.prcc_upper > 0;
     const acts = function (draw) {
-      const { paths = [], apply } = ((set.inputs || {}).dispersions || []).find((one) => one.draw === draw) || {};
-      if (!paths.length) return "";
+      const { words, paths = [], apply } = ((set.inputs || {}).dispersions || []).find((one) => one.draw === draw) || {};
+      if (!paths.length || (words && apply !== "by a table")) return "";
       return paths.length === 1
         ? [" (acts on ", h("code", paths[0]), ")"]
         : ` (acts on ${F.count(paths.length)} parameters${apply === "by a table" ? " by tables" : ""})`;
     };
     const most = (sign, text) => {
       const one = rows.find((each) => shown(each) && sign * strength(each) > 0);
-      return one ? [text, h("b", one.draw), acts(one.draw)] : null;
+      return one ? [text, h("b", W.drawInWords(set, one.draw)), acts(one.draw)] : null;
     };
     const parts = [most(1, "increases most with "), most(-1, "decreases most with ")].filter(Boolean);
     return parts.length ? [`${F.nameOf(name)} `, parts.map((part, at) => [at ? " and " : "", part]), "."] : [];
   }
-  W.influences = influences;
   // The case first, where there are several; then the dispersions inside the chosen one.
   function fillTornado(set, name) {
     const found = influences(set, name),
@@ -162,7 +161,7 @@
           h("summary", `${F.counted(names.length, "dispersion")} without a visible effect on any output`),
           h(
             "p.note",
-            names.join(", "),
+            names.map((name) => W.wordsOfDraw(set, name)).join(", "),
             `. Here a dispersion counts as visible only if bounds that hold with ${level} % confidence for all outputs together (Bonferroni) exclude 0 of one. The lines above hold for one output each, so a dispersion of this list can have a line beside 0. Rank correlations miss an effect that first increases and then decreases; the Sobol' indices of wingspread sensitivity show it.`,
           ),
         )

@@ -26,7 +26,7 @@
   function changes(set) {
     const { dispersions = [], scene = [] } = set.inputs || {};
     return [
-      ...dispersions.filter((one) => one.law_before_case).map((one) => one.draw),
+      ...dispersions.filter((one) => one.law_before_case).map((one) => W.wordsOfDraw(set, one.draw)),
       ...scene.filter((one) => one.case_value !== null && one.case_value !== undefined).map((one) => one.label),
     ];
   }
@@ -48,6 +48,17 @@
     return low === high
       ? `The case${changed(cases)} does not move the mean of ${F.nameOf(name)}.`
       : `The case${changed(cases)} moves the mean of ${F.nameOf(name)} from ${text(low)} in ${at(low)} to ${text(high)} in ${at(high)}. Of the variance over all cases, each with the same weight, ${F.share(share)} lies between the cases; other cases give another share. The standard deviation inside a case, pooled over the cases, is ${text(Math.sqrt(inside))}.`;
+  };
+
+  // The means in short: "Mean by case: cold 8.1, ambient 51, hot 63 N (changed: temperature)." Empty for one case.
+  W.caseMeans = function (set, name) {
+    const cases = casesOf(set, name);
+    if (cases.length < 2) return "";
+    const { unit } = cases[0].output,
+      { factor, unit: shown } = F.shown(unit),
+      differ = [...new Set(cases.flatMap((one) => changes(one.set)))],
+      more = differ.length > 3 ? ` and ${differ.length - 3} more` : "";
+    return `Mean by case: ${cases.map(({ set: one, output }) => `${one.label} ${F.number(output.mean * factor, 3)}`).join(", ")} ${shown}${differ.length ? `; the cases differ in ${differ.slice(0, 3).join(", ")}${more}` : ""}. `;
   };
 
   // The same in numbers, case by case.

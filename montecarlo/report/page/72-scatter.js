@@ -19,7 +19,7 @@
           .attr("aria-selected", (k) => String(points.run[k] === chosen()));
     }
     const element = W.figure({
-      title: `${F.nameOf(pair.output)} against ${pair.draw}`,
+      title: `${F.nameOf(pair.output)} against ${W.wordsOfDraw(set, pair.draw)}`,
       class: "scatter",
       interactive: true,
       printed: 440,
@@ -55,7 +55,7 @@
           ),
           box = M.boxFor(y, width, top, 270);
         const x = M.linear([...pair.x_edges, ...points.x], [box.left, box.right]);
-        M.axes(svg, box, x, y, { xText: pair.draw, yText: F.axis(F.name(output), unit) });
+        M.axes(svg, box, x, y, { xText: W.wordsOfDraw(set, pair.draw), yText: F.axis(F.name(output), unit) });
         cells(svg, pair, x, (value) => y(value * factor));
         const shapes = d3.symbol().size(34);
         const list = M.put(svg, "g.points", {

@@ -52,10 +52,34 @@
       ? W.table(
           "Dispersions whose law differs",
           ["Dispersion", ...W.sets.map((set) => set.label)],
-          differing.map((name) => [name, ...W.sets.map((set) => law(set, name))]),
+          differing.map((name) => [W.drawInWords(W.set(), name), ...W.sets.map((set) => law(set, name))]),
           { showCaption: true },
         )
       : null;
+  }
+
+  // What a draw does through its tables, at its median in each case: "friction of all hinges: × 1.97 in cold, × 1 in ambient".
+  function tables(set) {
+    const drawn = (one) => ((one.inputs || {}).dispersions || []).filter((each) => (each.tables || []).length);
+    return drawn(set).map(function (one) {
+      const sets = W.sets.filter((each) => drawn(each).some((other) => other.draw === one.draw)),
+        own = (each) => drawn(each).find((other) => other.draw === one.draw),
+        sign = { scale: "× ", add: "+ ", set: "" };
+      return W.table(
+        `What ${one.words || one.draw} changes, at its median`,
+        [
+          "Changes",
+          ...sets.map((each) => number(sets.length > 1 ? `${each.label}: ${F.number(own(each).median, 3)}` : `at ${F.number(own(each).median, 3)}`)),
+          "Table",
+        ],
+        one.tables.map((table, at) => [
+          h("span", { title: table.paths.join(", ") }, table.words, table.unit ? ` (${F.unit(table.unit)})` : null),
+          ...sets.map((each) => `${sign[table.apply]}${F.number(own(each).tables[at].of_median, 3)}`),
+          h("span.law", table.at.map((x, k) => `${F.given(x)}: ${F.given(table.value[k])}`).join(" · ")),
+        ]),
+        { showCaption: true, class: "drive-tables" },
+      );
+    });
   }
 
   function scene(set) {
@@ -87,7 +111,7 @@
   }
   function dispersions(set) {
     const rows = (set.inputs.dispersions || []).map((one) => [
-      one.draw,
+      h("span", one.words && one.words !== one.draw ? [one.words, " ", h("small.faint", one.draw)] : one.draw),
       h(
         "span",
         { class: String(one.law).length < 60 ? "law nowrap" : "law" },
@@ -147,6 +171,7 @@
       W.section("inputs"),
       changed(),
       laws(),
+      tables(set),
       W.sets.length > 1 ? h("h3", set.label) : null,
       scene(set),
       dispersions(set),

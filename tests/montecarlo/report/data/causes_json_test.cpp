@@ -5,6 +5,7 @@
 #include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <numeric>
 
@@ -114,4 +115,83 @@ TEST_CASE("effects come strongest first, and there are none of a single run", "[
     last = strength;
   }
   CHECK(effects_json(*made(quick_campaign(1)), {}).is_null());
+}
+
+namespace {
+
+/// A set of 1000 invented runs whose deployment time is 13 − 4 × the root spring's factor, limited to 9.2 s.
+std::unique_ptr<PageSource> slow_set() {
+  Json json = quick_campaign(1000);
+  json["requirements"] = parse_json(
+      R"([ { "output": "deployment_time", "max": 9.2, "probability": 0.99, "confidence": 0.9 } ])");
+  const Campaign campaign = campaign_of(json);
+  const ResultNames names = RunPlan(campaign).names();
+  const auto column = std::ranges::find(names.outputs, "deployment_time") - names.outputs.begin();
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  Results results(names);
+  for (long run = 0; run < 1000; ++run) {
+    std::vector<double> draws{1 + 0.05 * normal(random)};
+    for (int panel = 0; panel < 3; ++panel) draws.push_back(9 + 2 * uniform(random));
+    std::vector<double> outputs(names.outputs.size(), 1.0);
+    outputs[static_cast<std::size_t>(column)] = 13 - 4 * draws[0];
+    results.append({run, Status::deployed, draws, outputs, "root>mid>tip", ""});
+  }
+  return source_of(campaign, std::move(results));
+}
+
+} // namespace
+
+TEST_CASE(
+    "the page's change of a failed requirement is the known one, with the command that confirms it",
+    "[page][needed]") {
+  const auto source = slow_set();
+  const Verdict& verdict = source->summary.requirements.front();
+  const Json blocks = changes_json(*source, verdict);
+  REQUIRE(blocks.size() == 1);
+  CHECK(blocks[0]["for"] == "limit");
+  CHECK(blocks[0]["explained"] == 1.0);
+  REQUIRE(blocks[0]["levers"].size() == 1); // the masses have no effect
+  const Json& lever = blocks[0]["levers"][0];
+  CHECK(lever["words"] == "root spring");
+  // 13 − 4 f x ≤ 9.2 from f = 0.95/x on: in all runs but those that may break it
+  std::vector<double> factors;
+  for (const double x : source->results.draws[0].values) factors.push_back(0.95 / x);
+  std::ranges::sort(factors, std::ranges::greater{});
+  const double factor = factors[static_cast<std::size_t>(verdict.allowed.value())];
+  CHECK(lever["change"].get<double>() == Approx(factor).epsilon(1e-6));
+  CHECK(lever["beyond"] == false);
+  const double t = factor - 1;
+  CHECK(lever["command"] ==
+        "wingspread margin results/set/campaign.json --scale hinges.root.spring.torque_stowed "
+        "hinges.root.spring.torque_latched --range " +
+            fmt::format("{:.2g} {:.2g}", 1 - t / 2, 1 + 2 * t) + " --out results/margin");
+  Verdict passed = verdict;
+  passed.decision = Decision::pass;
+  CHECK(changes_json(*source, passed).empty());
+}
+
+TEST_CASE("a load without a requirement that is larger than all judged ones is told", "[page]") {
+  Json json = full_campaign(60);
+  json["integration"]["t_end"] = 20;
+  const auto source = made(json);
+  const auto largest = [&](const std::string& name) {
+    const auto at = std::ranges::find(source->summary.outputs, name, &OutputSummary::name);
+    return std::max(std::abs(at->moments.min), std::abs(at->moments.max));
+  };
+  std::vector<std::string> moments{"root.peak_moment", "mid.peak_moment", "tip.peak_moment"};
+  std::ranges::sort(moments, {}, largest);
+  CHECK(unjudged_json(*source).empty()); // nothing is judged
+  for (const auto& [judged, told] : {std::pair(1, true), std::pair(2, false)}) {
+    json["requirements"] = Json::array(
+        {{{"output", moments[judged]}, {"max", 1e9}, {"probability", 0.9}, {"confidence", 0.9}}});
+    const auto required = made(json);
+    const Json unjudged = unjudged_json(*required);
+    REQUIRE(unjudged.size() == (told ? 1 : 0));
+    if (!told) continue;
+    CHECK(unjudged[0]["output"] == moments[2]);
+    CHECK(unjudged[0]["judged"] == moments[1]);
+    CHECK(unjudged[0]["largest"] == page_number(largest(moments[2])));
+    CHECK(unjudged[0]["judged_largest"] == page_number(largest(moments[1])));
+  }
 }

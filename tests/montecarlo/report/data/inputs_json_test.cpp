@@ -47,3 +47,33 @@ TEST_CASE("inputs say what a case changes, of the scene and of laws", "[page]") 
   CHECK(mass["nominal"] == 10.0);
   CHECK(entry(inputs["settings"], "label", "seed")["value"] == "7");
 }
+
+TEST_CASE("inputs have words for dispersions, and what a draw does through its tables in each case",
+          "[page]") {
+  Json json = quick_campaign(5);
+  json["dispersions"].push_back(parse_json(R"({ "name": "temperature",
+    "distribution": { "type": "normal", "mean": 20, "std": 5 },
+    "through": [ { "to": ["hinges.*.friction.coulomb"], "apply": "scale",
+                   "table": { "at": [-60, 20, 60], "value": [2, 1, 0.5] } } ] })"));
+  json["cases"] = parse_json(R"([ { "name": "cold",
+    "distributions": { "temperature": { "type": "normal", "mean": -60, "std": 5 } } } ])");
+  const Campaign whole = campaign_of(json);
+  const Campaign cold = campaigns_of(whole).front();
+  for (const auto& [campaign, factor] : {std::pair(whole, 1.0), std::pair(cold, 2.0)}) {
+    const auto source = source_of(campaign, rows_of(RunPlan(campaign), {0, 5}));
+    source->before_case = whole;
+    const Json inputs = inputs_json(*source, {});
+    CHECK(entry(inputs["dispersions"], "draw", "root_spring")["words"] == "root spring");
+    CHECK(entry(inputs["dispersions"], "draw", "mass.panel_2")["words"] == "panel_2 mass");
+    const Json& warmth = entry(inputs["dispersions"], "draw", "temperature");
+    CHECK(warmth["words"] == "temperature");
+    REQUIRE(warmth["tables"].size() == 1);
+    const Json& table = warmth["tables"][0];
+    CHECK(table["words"] == "friction coulomb of all hinges");
+    CHECK(table["paths"] == Json{"hinges.*.friction.coulomb"});
+    CHECK(table["apply"] == "scale");
+    CHECK(table["at"] == Json{-60.0, 20.0, 60.0});
+    CHECK(table["value"] == Json{2.0, 1.0, 0.5});
+    CHECK(table["of_median"].get<double>() == Approx(factor));
+  }
+}

@@ -95,3 +95,29 @@ TEST_CASE("orders beyond the six most frequent stand together", "[page]") {
   CHECK(sum == std::ssize(rows));
   CHECK(split.of_row(rows.size() - 1) == 6);
 }
+
+TEST_CASE("gaps between the latches of an order", "[page]") {
+  Results results(ResultNames{{}, {"root.latch_time", "mid.latch_time", "tip.latch_time"}});
+  const auto add = [&](std::vector<double> times, const char* order) {
+    results.append(
+        {static_cast<long>(results.size()), Status::deployed, {}, std::move(times), order, ""});
+  };
+  add({1, 1.5, 4}, "root>mid>tip");
+  add({2, 2.2, 3}, "root>mid>tip");
+  add({1, 1.9, 2}, "root>mid>tip");
+  add({5, 4, 6}, "mid>root>tip");
+  const auto gaps = latch_gaps(results, {"root", "mid", "tip"}, "root>mid>tip");
+  REQUIRE(gaps.size() == 2);
+  CHECK(gaps[0].before == "root");
+  CHECK(gaps[0].after == "mid");
+  CHECK(gaps[0].least == Approx(0.2));
+  CHECK(gaps[0].median == Approx(0.5));
+  CHECK(gaps[1].least == Approx(0.1));
+  CHECK(gaps[1].median == Approx(0.8));
+  // of some of the hinges: the order among these, in every run
+  const auto ends = latch_gaps(results, {"root", "tip"}, "root>tip");
+  REQUIRE(ends.size() == 1);
+  CHECK(ends[0].least == Approx(1));
+  CHECK(latch_gaps(results, {"root"}, "root").empty());
+  CHECK(latch_gaps(results, {"root", "other"}, "root>other").empty());
+}

@@ -1,0 +1,82 @@
+/// How far dispersed inputs would have to move for a requirement to pass: a first-order estimate from rows.
+///
+///   symbol  meaning
+///   x_ij    draw j of run i
+///   y_i     the requirement's output; for deployment 1 of a run that did not deploy, else 0
+///   b_j     slope: least squares of y on all draws
+///   L, m    the limit; number of runs that may break it
+///   t       the change: of inputs that are scaled x → (1 + t) x, else x → x + t
+///   d_i     change of y_i for t = 1: Σ b_j x_ij, or Σ b_j, over the inputs that move together
+///   q, r    share of broken runs now; the share that may break, m/n
+///   φ, Φ    density and distribution function of the standard normal law
+///
+/// For a limit, run i stays below L up to
+///
+///   t_i = (L − y_i)/d_i                                                                       (1)
+///
+/// so the smallest |t| at which at most m runs are beyond is the order statistic m + 1 of t_i, exact where y is linear
+/// in the inputs. The runs are judged by the rule of the requirement's verdict.
+///
+/// For deployment, let a run fail where a linear index of the draws passes a threshold. For normal draws the slope of
+/// the indicator is that of the standardised index times φ(Φ⁻¹(q)) (D. R. Brillinger, in: A Festschrift for Erich L.
+/// Lehmann (1983) 97–114), so
+///
+///   t = −φ(Φ⁻¹(q)) (Φ⁻¹(q) − Φ⁻¹(r))/d̄                                                        (2)
+///
+/// The bounds of t are those of the slope d̄ by the jackknife (jackknife.hpp), which needs neither normal residuals nor
+/// an equal spread of them. They leave out what a curved response adds.
+#pragma once
+
+#include "montecarlo/results/summary/replication.hpp"
+#include "montecarlo/results/summary/verdict.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace wingspread {
+
+/// Draws that a change moves together.
+struct MovedDraws {
+  std::vector<std::size_t> columns; ///< of Results::draws
+  bool scaled = true;               ///< the change multiplies them; else it is added to each
+};
+
+/// The change of some draws by which the requirement would pass.
+struct NeededChange {
+  double now = 0;             ///< mean of the draws
+  double change = 0;          ///< factor of the draws if scaled (1 + t), else what is added (t)
+  Bounds bounds{};            ///< of the change
+  double least = 0, most = 0; ///< changes that keep the mean of each draw within the values drawn
+  /// Means over the runs that break the requirement and over the others, relative to `now` if scaled, else as they are.
+  double of_broken = 0, of_others = 0;
+
+  /// Whether the change leads beyond the values drawn.
+  [[nodiscard]] bool is_beyond() const { return change < least || change > most; }
+};
+
+enum class NeededFor { limit, deployment };
+
+struct NeededChanges {
+  NeededFor what = NeededFor::limit;
+  long runs = 0;        ///< of the estimate
+  double explained = 0; ///< R² of the linear fit, adjusted for the number of draws
+  /// One for each MovedDraws. Nothing where no change of them is enough, or where the slope's bounds include 0 at the
+  /// confidence shared over all of them (Bonferroni): the most effective of many would else often be one of chance.
+  std::vector<std::optional<NeededChange>> changes;
+};
+
+/// The estimate; nothing if no run or every run breaks it, if the draws are linear combinations of each other, or if
+/// there are fewer than 10 runs more than draws. Cost O(n k²) for n runs and k draws.
+/// @param what       limit: of the deployed runs with a value; where the others alone are more than may break it, the
+///                   share 1 − p of the deployed ones may
+/// @param confidence of the bounds
+/// @pre the verdict was decided from these rows; for `limit` the requirement has a limit on one of their outputs
+[[nodiscard]] std::optional<NeededChanges> needed_changes(NeededFor what, const Verdict& verdict,
+                                                          const Results& results,
+                                                          const Replication& replication,
+                                                          std::span<const MovedDraws> moved,
+                                                          double confidence);
+
+} // namespace wingspread

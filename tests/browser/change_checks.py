@@ -1,0 +1,108 @@
+"""What would make a failed requirement pass, loads that no requirement limits, inputs in plain words, tables and gaps: as the data have them."""
+
+import re
+
+import pages
+from number_checks import parsed
+
+LEVERS = """const lever = more => ({ words: "tip latch damping", draws: ["tip_latch"], scaled: true, unit: "", now: 1.04, change: 0.4137, lower: 0.3912, upper: 0.4406,
+        least: 0.29, most: 2.67, beyond: false, of_broken: 1.31, of_others: 0.97, command: "wingspread margin results/mock/campaign.json --scale hinges.tip.latch.damping --range 0.05 1.3 --out results/margin", ...more }),
+    far = lever({ words: "root spring", draws: ["root.spring"], change: 1.7312, lower: 1.62, upper: 1.84, least: 0.88, most: 1.12, beyond: true, command: null }),
+    warm = lever({ words: "temperature", draws: ["temperature"], scaled: false, now: 20, change: -7.5, lower: -9, upper: -6, least: -15, most: 15, command: null });
+"""
+
+
+class ChangeChecks:
+    def opened_with(self, script, kind="loads"):
+        self.open(pages.made_up(kind))
+        self.run_script(LEVERS + script + "W.outcomes();")
+
+    def test_a_failed_requirement_says_what_would_make_it_pass(self):
+        """Each change with its bounds and the values drawn; beyond them it says so; the distance that is lacking, and the command."""
+        self.opened_with("""W.sets.forEach(set => set.requirements.forEach(one => one.changes = one.verdict === "failed" && one.beyond ?
+            [{ for: "limit", runs: 1234, explained: 0.8567, levers: [lever(), warm, far] }] : []));""")
+        item = self.one(".findings li")
+        rows = self.run_script("return [...arguments[0].querySelectorAll('.needed-table tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))", item)
+        self.assertEqual(rows, [["tip latch damping", "× 0.41", "× 0.39 – 0.44", "× 0.29 – 2.67"],
+                                ["temperature", "20.0 → 12.5", "11.0 – 14.0", "5.00 – 35.0"],
+                                ["root spring", "× 1.73", "× 1.62 – 1.84", "× 0.88 – 1.12 †"]])
+        self.assertEqual(self.run_script("return arguments[0].querySelector('.needed-table th span').title", item), "tip_latch")
+        for words in ("Any one of these changes would do, by a first estimate:", "By a linear fit of 1,234 runs", "86 % of the spread", "† Beyond the values drawn: ask margin",
+                      "--scale hinges.tip.latch.damping --range 0.05 1.3"):
+            self.assertIn(words, item.text)
+        one = self.run_script("return W.verdicts.judged().find(row => row.requirement.verdict === 'failed' && row.requirement.beyond).requirement")
+        if one["margin"] is not None:
+            by = parsed(re.search(r"must (?:fall|rise) by ([\d.,]+)", item.text)[1])[0]
+            factor = self.run_script("return W.format.shown(W.verdicts.unitOf(arguments[0], W.set())).factor", one)
+            self.assertAlmostEqual(by[0], -one["margin"] * factor, delta=by[1])
+            self.assertIn("must fall by" if one["upper"] else "must rise by", item.text)
+
+    def test_without_an_estimate_it_says_why(self):
+        """Too few runs; no input that is enough; no run that deploys."""
+        given = lambda block, more="": self.opened_with(
+            "W.sets.forEach(set => set.requirements.forEach(one => one.changes = one.verdict === 'failed' && one.beyond ? [" + block + "] : []));" + more)
+        given('{ for: "limit", runs: 0, explained: null, levers: [] }')
+        draws = self.run_script("return W.set().inputs.dispersions.length")
+        self.assertIn(f"Too few runs to estimate what would change it: {draws} dispersions, so at least {draws + 11} runs", self.one(".findings .needed").text)
+        given('{ for: "limit", runs: 500, explained: 0.1, levers: [] }')
+        self.assertIn("a linear fit explains 10 % of the spread. Ask margin.", self.one(".findings .needed").text)
+        given('{ for: "limit", runs: 500, explained: 0.5, levers: [] }')
+        self.assertIn("No dispersed input alone is seen to do it", self.one(".findings .needed").text)
+        given('{ for: "limit", runs: 500, explained: 0.9, levers: [far] }')
+        self.assertIn("This change would do, by a first estimate:", self.one(".findings .needed").text)
+
+    def test_wings_that_do_not_deploy_have_a_finding_too(self):
+        """Once for each set: what the runs that did not deploy differ in."""
+        self.opened_with("""W.sets.forEach(set => set.requirements.forEach(one => { if (one.not_deployed) Object.assign(one, { verdict: "failed", allowed: 3,
+            changes: [{ for: "deployment", runs: 900, explained: 0.2, levers: [lever()] }] }); }));""", "stalls")
+        items = self.all(".findings.stalls li")
+        sets = self.run_script("return W.sets.filter(set => set.requirements.some(one => one.not_deployed)).map(set => [set.runs, set.requirements.find(one => one.not_deployed).not_deployed])")
+        self.assertTrue(sets)
+        self.assertEqual(len(items), len(sets))
+        for item, (runs, count) in zip(items, sets):
+            self.assertIn(f"{count:,} of {runs:,} runs", item.text)
+            self.assertIn("did not deploy, where at most 3 may", item.text)
+            self.assertIn("× 1.31 / × 0.97", item.text)
+
+    def test_a_margin_study_of_the_page_answers_in_its_place(self):
+        self.opened_with("""W.sets.forEach(set => set.requirements.forEach(one => one.changes = [{ for: "limit", runs: 900, explained: 0.9, levers: [lever()] }]));
+            W.studySets.push({ label: "results/margin", campaign: W.set().campaign, margin: { window: [1.096, 1.58] } });""")
+        text = self.one(".findings .needed").text
+        self.assertRegex(text, r"All requirements pass with the inputs of results/margin scaled from 1\.096 to 1\.58")
+        self.assertEqual(len(self.all(".needed-table")), 0)
+
+    def test_a_load_that_no_requirement_limits_is_told_once(self):
+        self.opened_with("""W.sets.forEach((set, at) => set.unjudged = [{ output: "tip.peak_moment", largest: 3000 + at, judged: "root.peak_moment", judged_largest: 12.25 }]);""", "cases")
+        (text,) = [one.text for one in self.all(".unjudged")]
+        sets = self.run_script("return W.sets.map(set => set.label)")
+        self.assertEqual(text, f"No requirement limits tip peak moment, which reaches {2999 + len(sets)} N·m in {sets[-1]}. The largest of its kind with a limit: root peak moment, 12.3 N·m.")
+
+    def test_dispersions_are_named_in_words(self):
+        """In the tornado and the inputs; two with the same words keep their names; the name stays in the inputs."""
+        self.open(pages.made_up("plain"))
+        effects = self.run_script("const set = W.set(); return set.sensitivity.effects.filter(one => one.output === W.chosen.output).map(one => one.draw)")
+        self.run_script("""W.set().inputs.dispersions.forEach((one, at) => one.words = at < 2 ? "the same" : `words ${at}`); W.why(); W.inputs()""")
+        words = self.run_script("return arguments[0].map(draw => W.wordsOfDraw(W.set(), draw))", effects)
+        labels = self.run_script("return [...document.querySelectorAll('figure.tornado svg text title')].map(one => one.textContent)")
+        for each in words:
+            self.assertIn(each, labels)
+        same = self.run_script("return W.set().inputs.dispersions.slice(0, 2).map(one => [one.draw, W.wordsOfDraw(W.set(), one.draw)])")
+        for draw, text in same:
+            self.assertEqual(text, f"the same ({draw})")
+        for row, draw in zip(self.table(f"Dispersions of {self.run_script('return W.set().label')}"), self.run_script("return W.set().inputs.dispersions.map(one => one.draw)")):
+            self.assertTrue(row[0].endswith(draw), row[0])
+
+    def test_what_a_case_does_through_tables(self):
+        self.open(pages.made_up("cases"))
+        self.run_script("""W.sets.forEach((set, at) => set.inputs.dispersions.push({ draw: "temperature", words: "temperature", paths: [], law: "normal", low: 0, high: 1, median: [-60, 20, 60][at],
+            tables: [{ words: "friction of all hinges", paths: ["hinges.*.friction.scale"], apply: "scale", unit: "", at: [-70, 20, 70], value: [2.2, 1, 0.9], of_median: [2.05, 1, 0.92][at] }] })); W.inputs()""")
+        self.assertEqual(self.table("What temperature changes, at its median"), [["friction of all hinges", "× 2.05", "× 1.00", "× 0.920", "−70: 2.2 · 20: 1 · 70: 0.9"]])
+
+    def test_an_order_has_its_gaps(self):
+        self.open(pages.made_up("plain"))
+        self.run_script("""W.set().orders.forEach((one, at) => one.gaps = at ? [] : [{ before: "root", after: "mid", least: 0.0312, median: 0.41 }, { before: "mid", after: "tip", least: 0.2, median: 1.25 }]); W.outcomes()""")
+        rows = self.table("Latch orders")
+        self.assertTrue(rows[0][0].endswith("gaps 0.41 s · 1.3 s (median), at least 31 ms · 0.20 s"), rows[0][0])
+        self.assertNotIn("gaps", rows[1][0])
+        self.run_script("W.set().orders[0].gaps.forEach(gap => gap.least /= 2000); W.outcomes()")
+        self.assertIn("at least 16 µs · 0.10 ms", self.table("Latch orders")[0][0])

@@ -1,0 +1,91 @@
+#include "montecarlo/analyses/sensitivity/levers.hpp"
+#include "montecarlo/engine/runs/run_plan.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <random>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// The seed scene with springs and masses, 99 % of whose runs have to deploy within 9.4 s.
+Campaign limited_campaign() {
+  Json json = quick_campaign(2000);
+  json["dispersions"].push_back(parse_json(R"({ "name": "temperature",
+    "distribution": { "type": "normal", "mean": 20, "std": 5 },
+    "through": [ { "to": ["hinges.*.friction.coulomb"], "apply": "scale",
+                   "table": { "at": [-70, 70], "value": [2, 0.5] } } ] })"));
+  json["requirements"] = parse_json(
+      R"([ { "output": "deployment_time", "max": 9.4, "probability": 0.99, "confidence": 0.9 } ])");
+  return campaign_of(json);
+}
+
+/// Invented rows with the output as a function of the draws: spring, three masses, temperature.
+template <class Output> Results rows_with(const Campaign& campaign, Output output) {
+  const ResultNames names = RunPlan(campaign).names();
+  const auto column = std::ranges::find(names.outputs, "deployment_time") - names.outputs.begin();
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  Results results(names);
+  for (long run = 0; run < 2000; ++run) {
+    const std::vector<double> draws{1 + 0.05 * normal(random), 10 + 0.4 * normal(random),
+                                    10 + 0.4 * normal(random), 10 + 0.4 * normal(random),
+                                    20 + 5 * normal(random)};
+    std::vector<double> outputs(names.outputs.size(), 1.0);
+    outputs[static_cast<std::size_t>(column)] = output(draws);
+    results.append({run, Status::deployed, draws, outputs, "root>mid>tip", ""});
+  }
+  return results;
+}
+
+LeverChanges levers_found(const Campaign& campaign, const Results& results) {
+  const Verdict verdict = judge(campaign.requirements.front(), results);
+  REQUIRE(verdict.decision == Decision::fail);
+  const auto all = lever_changes(NeededFor::limit, campaign, verdict, results, {}, 0.95, 9);
+  REQUIRE(all);
+  return *all;
+}
+
+} // namespace
+
+TEST_CASE("inputs of one quantity move together where they act alike, and alone where one acts",
+          "[needed]") {
+  const Campaign campaign = limited_campaign();
+  const Results alike = rows_with(campaign, [](const std::vector<double>& x) {
+    return 9 + 0.2 * (x[1] + x[2] + x[3] - 30) - 4 * (x[0] - 1) - 0.04 * (x[4] - 20);
+  });
+  const LeverChanges together = levers_found(campaign, alike);
+  REQUIRE(together.levers.size() == 3);
+  CHECK(together.explained == Approx(1).epsilon(1e-6));
+  const auto of = [](const LeverChanges& all, const std::string& words) {
+    const auto at = std::ranges::find(all.levers, words,
+                                      [](const LeverChange& each) { return each.lever.words; });
+    REQUIRE(at != all.levers.end());
+    return *at;
+  };
+  const LeverChange masses = of(together, "mass of all bodies");
+  CHECK(masses.lever.draws ==
+        std::vector<std::string>{"mass.panel_1", "mass.panel_2", "mass.panel_3"});
+  CHECK(masses.lever.paths == std::vector<std::string>{"bodies.*.mass"});
+  CHECK(masses.lever.moved.scaled);
+  CHECK(masses.change.change < 1);
+  const LeverChange spring = of(together, "root spring");
+  CHECK(spring.change.change > 1);
+  CHECK(spring.lever.paths == std::vector<std::string>{"hinges.root.spring.torque_stowed",
+                                                       "hinges.root.spring.torque_latched"});
+  const LeverChange warmth = of(together, "temperature");
+  CHECK(!warmth.lever.moved.scaled);
+  CHECK(warmth.change.change > 0);
+  CHECK(warmth.lever.paths.empty()); // `margin` cannot scale a temperature
+  for (std::size_t i = 1; i < together.levers.size(); ++i)
+    CHECK(together.levers[i - 1].change.is_beyond() <= together.levers[i].change.is_beyond());
+
+  const Results of_one = rows_with(campaign, [](const std::vector<double>& x) {
+    return 9 + 0.6 * (x[2] - 10) + 0.02 * (x[1] + x[3] - 20);
+  });
+  CHECK(of(levers_found(campaign, of_one), "panel_2 mass").lever.draws ==
+        std::vector<std::string>{"mass.panel_2"});
+}
