@@ -30,15 +30,20 @@ def read_bins(path):
 
 
 def draw(axes, output, bins, summary):
+    axes.set_title(output, fontsize=9)
+    axes.set_yticks([])
+    if summary["min"] is not None and summary["min"] == summary["max"]:
+        axes.set_xticks([])
+        axes.text(0.5, 0.5, f"always {summary['min']:g} {unit(output)}", ha="center", va="center", fontsize=9,
+                  transform=axes.transAxes)
+        return
     axes.stairs([density for *_, density in bins], [lower for lower, *_ in bins] + [bins[-1][1]],
                 fill=True, color="#4878a8")
     for quantile in summary["quantiles"]:
         if quantile["value"] is not None:
             axes.axvline(quantile["value"], color="#a03030", linewidth=0.8,
                          linestyle="-" if quantile["p"] == 0.5 else "--")
-    axes.set_title(output, fontsize=9)
     axes.set_xlabel(unit(output), fontsize=8)
-    axes.set_yticks([])
     axes.tick_params(labelsize=7)
 
 

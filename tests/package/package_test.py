@@ -193,6 +193,12 @@ class Packages(unittest.TestCase):
         self.assertIn(done.returncode, (0, 1), done.stderr)
         output_of(root / "usr/bin/wingspread", "report", self.folder / "out", env=bare)
 
+    def test_a_package_for_one_kind_of_processor_is_named_for_it(self):
+        arch = re.search(r"(?m)^WINGSPREAD_ARCH:\w+=(.*)$", (BUILD / "CMakeCache.txt").read_text()).group(1)
+        revision = "1~" + re.sub(r"[^A-Za-z0-9]", ".", arch) if arch else "1"
+        self.assertEqual(self.field("wingspread", "Version").split("-")[-1], revision)
+        subprocess.run(["dpkg", "--compare-versions", revision, "le", "1"], check=True)
+
     def test_it_has_what_debian_expects(self):
         names = {line.split()[-1] for line in output_of("dpkg-deb", "--contents",
                                                         self.packages["wingspread"]).splitlines()}

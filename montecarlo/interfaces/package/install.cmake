@@ -4,6 +4,14 @@ include(GNUInstallDirs)
 set(made ${PROJECT_BINARY_DIR}/package)
 find_program(WINGSPREAD_GZIP gzip)
 find_program(WINGSPREAD_HELP2MAN help2man)
+# A build for one kind of processor stops with an illegal instruction on older ones. Its packages are named for it, and the
+# tilde lets the package for any x86-64 replace them.
+set(WINGSPREAD_REVISION 1)
+if(WINGSPREAD_ARCH)
+  string(REGEX REPLACE "[^A-Za-z0-9]" "." arch ${WINGSPREAD_ARCH})
+  string(APPEND WINGSPREAD_REVISION "~${arch}")
+endif()
+set(WINGSPREAD_REVISION ${WINGSPREAD_REVISION} PARENT_SCOPE) # for cpack.cmake
 set(WINGSPREAD_MAINTAINER "The wingspread authors <wingspread@localhost>" CACHE STRING "Who makes the packages")
 
 if(WINGSPREAD_GZIP AND NOT CMAKE_CROSSCOMPILING AND NOT WINGSPREAD_SANITIZE AND NOT WINGSPREAD_MPI)
@@ -13,7 +21,7 @@ if(WINGSPREAD_GZIP AND NOT CMAKE_CROSSCOMPILING AND NOT WINGSPREAD_SANITIZE AND 
   add_custom_command(OUTPUT ${made}/made COMMENT "Man pages and schemas" VERBATIM
     COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:wingspread> -DOUT=${made} -DGZIP=${WINGSPREAD_GZIP}
             -DHELP2MAN=${WINGSPREAD_HELP2MAN}
-            -DCHANGELOG=${PROJECT_SOURCE_DIR}/CHANGELOG.md -DVERSION=${PROJECT_VERSION}-1
+            -DCHANGELOG=${PROJECT_SOURCE_DIR}/CHANGELOG.md -DVERSION=${PROJECT_VERSION}-${WINGSPREAD_REVISION}
             -DMAINTAINER=${WINGSPREAD_MAINTAINER} -P ${CMAKE_CURRENT_LIST_DIR}/make.cmake
     DEPENDS wingspread ${CMAKE_CURRENT_LIST_DIR}/make.cmake ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
   add_custom_target(wingspread_package_files ALL DEPENDS ${made}/made)

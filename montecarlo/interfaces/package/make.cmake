@@ -27,7 +27,7 @@ function(make_man_page command)
 endfunction()
 
 if(HELP2MAN)
-  string(REGEX REPLACE "-1$" "" version ${VERSION})
+  string(REGEX REPLACE "-.*" "" version ${VERSION})
   make_man_page("")
   execute_process(COMMAND ${PROGRAM} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCH "\nSubcommands:(\n  [^\n]*)+" list "${help}")
