@@ -46,6 +46,24 @@ class FindingChecks:
             if one["beyond_runs"]:
                 self.assertIn(f"The worst run is {one['beyond_runs'][0]['run']}.", text)
 
+    def test_each_requirement_stands_once_by_its_worst_case_and_every_verdict_in_the_fold(self):
+        words, rank = {"failed": "fail", "open": "undecided", "passed": "pass"}, ["passed", "open", "failed"]
+        for kind in ("cases", "loads"):
+            self.open(pages.made_up(kind))
+            stated = self.run_script("return W.data.sets.flatMap(set => set.requirements.map(one => ({ ...one, label: set.label })))")
+            badness = lambda one: (rank.index(one["verdict"]), one["broken"])
+            worst = {text: max(badness(one) for one in stated if one["text"] == text) for text in {one["text"] for one in stated}}
+            shown, folded = self.run_script("""return [...document.querySelectorAll('#verdicts table.requirements')].map(table =>
+                [...table.tBodies[0].rows].map(row => [...row.cells].map(cell => cell.textContent)))""")
+
+            def stated_by(row):
+                (one,) = [one for one in stated if one["label"] == row[2] and f"{one['name']}:" in row[0] and row[0].endswith(one["evidence"])]
+                self.assertTrue(row[1].endswith(words[one["verdict"]]), row)
+                return one
+
+            self.assertEqual(sorted((one["text"], badness(one)) for one in map(stated_by, shown)), sorted(worst.items()))
+            self.assertEqual(sorted((one["text"], one["label"]) for one in map(stated_by, folded)), sorted((one["text"], one["label"]) for one in stated))
+
     def test_static_margins_that_are_too_low_are_in_the_first_screen(self):
         """The lowest of all cases, in which cases, and that no requirement asks for them; nothing where all are high enough."""
         self.open(pages.made_up("cases"))
