@@ -59,6 +59,9 @@ class FindingChecks:
             def stated_by(row):
                 (one,) = [one for one in stated if one["label"] == row[2] and f"{one['name']}:" in row[0] and row[0].endswith(one["evidence"])]
                 self.assertTrue(row[1].endswith(words[one["verdict"]]), row)
+                for count, runs in ((one["not_deployed"], one["not_deployed_runs"]), (one["beyond"], one["beyond_runs"])):
+                    if count:  # at most three, as a list
+                        self.assertIn(f": {', '.join(str(each['run']) for each in runs[:3])} ", row[-1])
                 return one
 
             self.assertEqual(sorted((one["text"], badness(one)) for one in map(stated_by, shown)), sorted(worst.items()))
