@@ -176,6 +176,24 @@ class Quick(PoseChecks, MarkChecks, FindingChecks, NumberChecks, Page):
         points.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT, Keys.ENTER)
         self.assertIsNotNone(self.run_script("return W.chosen.run"))
 
+    def test_a_list_of_points_tells_those_who_hear_it_which_is_current_and_which_chosen(self):
+        self.open(pages.made_up("plain"))
+        points = self.one("figure.scatter [role=listbox]")
+        of_all = lambda name: self.run_script("return [...arguments[0].children].map(one => one.getAttribute(arguments[1]))", points, name)
+        current = lambda: self.run_script("return [...arguments[0].children].findIndex(one => one.id === arguments[0].getAttribute('aria-activedescendant'))", points)
+        runs = [int(label.split(":")[0].removeprefix("run ")) for label in of_all("aria-label")]
+        self.assertEqual(set(of_all("role")), {"option"})
+        self.assertEqual(len(set(of_all("id"))), len(runs))
+        self.assertEqual(sorted(runs), sorted(self.run_script("return W.set().scatters[0].points.run")))
+        self.driver.execute_script("arguments[0].focus()", points)
+        for keys, at in (((Keys.ARROW_RIGHT, Keys.ARROW_RIGHT), 1), ((Keys.ARROW_UP,), 2), ((Keys.ARROW_LEFT,), 1)):
+            points.send_keys(*keys)
+            self.assertEqual(current(), at)
+        points.send_keys(Keys.ENTER)
+        self.assertEqual(self.run_script("return W.chosen.run.run"), runs[1])
+        self.assertEqual([at for at, selected in enumerate(of_all("aria-selected")) if selected == "true"], [1])
+        self.assertEqual(set(of_all("aria-selected")), {"true", "false"})
+
     def test_search_narrows_the_list(self):
         self.open(pages.made_up("plain"))
         self.one('input[type="search"]').send_keys("tip peak")
