@@ -67,6 +67,18 @@ class FindingChecks:
             self.assertEqual(sorted((one["text"], badness(one)) for one in map(stated_by, shown)), sorted(worst.items()))
             self.assertEqual(sorted((one["text"], one["label"]) for one in map(stated_by, folded)), sorted((one["text"], one["label"]) for one in stated))
 
+    def test_printed_contents_name_what_is_shown_now(self):
+        """Headings follow the chosen output and case after the page has been opened."""
+        self.open(pages.made_up("cases"))
+        self.run_script("W.choose('set', 1); W.choose('output', 'tip.latch_time'); dispatchEvent(new Event('beforeprint'))")
+        listed = self.run_script("return [...document.querySelectorAll('.contents li')].map(li => [li.querySelector('a').hash, li.textContent])")
+        for (link, text), (section, title, parts) in zip(listed, self.run_script("""return [...document.querySelectorAll('main > section:not([hidden])')].map(section =>
+                ['#' + section.id, section.querySelector('h2').textContent, [...section.querySelectorAll('h3')].map(one => one.firstChild.textContent)])"""), strict=True):
+            self.assertEqual(link, section)
+            self.assertEqual(text, ": ".join([title] + ([" · ".join(dict.fromkeys(parts))] if parts else [])))
+        self.assertIn("tip latch time", dict(listed)["#outputs"])
+        self.assertIn("ambient", dict(listed)["#inputs"])
+
     def test_static_margins_that_are_too_low_are_in_the_first_screen(self):
         """The lowest of all cases, in which cases, and that no requirement asks for them; nothing where all are high enough."""
         self.open(pages.made_up("cases"))
