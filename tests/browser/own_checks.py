@@ -1,5 +1,6 @@
 """Pages of the program's own results: their parts, their numbers against the rows, and the kernel's runs against the program's."""
 
+import bisect
 import collections
 import csv
 import pathlib
@@ -116,6 +117,33 @@ class OwnChecks:
                         self.assertIsNone(value, f"{output['name']} of {about}")
                     else:
                         self.assertAlmostEqual(value, recorded, delta=1e-9 * max(1, abs(recorded)), msg=f"{output['name']} of {about}")
+
+    def test_the_motion_of_any_run_is_the_program_s(self):
+        """Every sample of the kernel in the page lies between neighbouring rows of the trajectory that `replay` writes."""
+        for campaign, run in (("seed", 3), ("satellite", 1)):
+            self.open(pages.real(campaign, self.CAMPAIGNS[campaign]))
+            if not self.run_script("return document.getElementById('kernel')"):
+                self.skipTest("the program was built without the kernel")
+            motion = self.driver.execute_async_script("""const [run, done] = arguments, W = window.wingspread, set = W.set();
+                W.kernel.of(set).then(kernel => { kernel.draw(run); done({ ...kernel.run([]), folder: set.folder, names: set.wing.hinges.map(hinge => hinge.name) }); }, error => done(String(error)))""", run)
+            self.assertIsInstance(motion, dict, motion)
+            file = pages.SCRATCH / f"{campaign}_{run}.csv"
+            subprocess.run([pages.PROGRAM, "replay", motion["folder"], "--run", str(run), "--out", file, "--dt", "0.002"], check=True, capture_output=True)
+            rows = [{name: float(value) for name, value in row.items() if value} for row in csv.DictReader(file.open())]
+            times = [row["t"] for row in rows]
+            self.assertEqual(motion["t"], sorted(motion["t"]))
+            self.assertGreater(len(motion["t"]), 50)
+            self.assertEqual((motion["t"][0], motion["t"][-1]), (0, motion["t_end"]))
+            for hinge, name in enumerate(motion["names"]):
+                for part in ("angle", "rate", "moment"):
+                    column = [row[f"{name}.{part}"] for row in rows]
+                    rounding = 1e-3 * max(map(abs, column))
+                    values = motion[f"{part}s"][hinge]
+                    self.assertEqual(len(values), len(motion["t"]))
+                    for t, value in zip(motion["t"], values):
+                        at = bisect.bisect_left(times, t - 1e-9)
+                        near = column[max(0, at - 2) : at + 3]
+                        self.assertTrue(min(near) - rounding <= value <= max(near) + rounding, f"{name}.{part} of run {run} of {campaign} at {t} s: {value} among {near}")
 
     def test_typed_runs_and_sliders_deploy_the_wing_anew(self):
         self.open(pages.real("seed", 300))
