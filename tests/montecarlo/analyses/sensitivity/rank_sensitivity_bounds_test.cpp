@@ -136,6 +136,18 @@ TEST_CASE("runs of one replicate have no bounds, and no dispersion is called idl
   CHECK(all.idle.empty());
 }
 
+TEST_CASE("the result says how the runs were made, and of which") {
+  const Columns x = normal_columns(2, 60, 4);
+  const RunsMade made{.replication = {}, .interim = {3}, .rows = {{"fitted", {"x0", "x1"}}}};
+  const RankSensitivity all = rank_sensitivity(results_of(x, x[0]), 0.9, made);
+  CHECK(all.runs == 60);
+  CHECK(all.confidence == 0.9);
+  CHECK(all.dispersions == std::vector<std::string>{"x0", "x1"});
+  CHECK(all.interim.planned == 3);
+  CHECK(all.replicates == 0);
+  CHECK(all.rows == made.rows);
+}
+
 TEST_CASE("a campaign that may stop at several looks shares its risk out among them") {
   const Columns x = normal_columns(3, 200, 12);
   const Results results = results_of({x[0], x[1]}, combination(x, {1, -0.5, 1}));
