@@ -56,11 +56,13 @@ public:
     show(run_.step.x, run_.step.t);
   }
 
-  /// Shows the observer the samples inside a step just accepted, by dense output.
+  /// Shows the observer the samples inside a step just accepted, by dense output. Their evaluations do not count:
+  /// `auto` compares the methods by the evaluations that their steps take.
   /// @param by_method by_method(s) writes the method's own state at s to the run's x; false: it has none
   template <class ByMethod> void notify_inside(ByMethod&& by_method) {
     if (!observer_ || !on_grid()) return;
     const Step<T>& step = run_.step;
+    const long evaluations = run_.system.work().evaluations;
     const double end = static_cast<double>(T(step.t + step.h));
     constexpr double rounding = 1 + 1e-14; // a multiple of the interval may be the end of the run
     for (double t = time_of_sample(); t <= end * rounding; t = time_of_sample()) {
@@ -71,6 +73,7 @@ public:
         step.interpolate(run_.at, s, run_.x);
       show(run_.x, T(t));
     }
+    run_.system.made_elsewhere().evaluations = evaluations;
   }
 
   /// Makes the outcome of a run that has ended.

@@ -46,6 +46,39 @@ class FindingChecks:
             if one["beyond_runs"]:
                 self.assertIn(f"The worst run is {one['beyond_runs'][0]['run']}.", text)
 
+    def test_each_requirement_stands_once_by_its_worst_case_and_every_verdict_in_the_fold(self):
+        words, rank = {"failed": "fail", "open": "undecided", "passed": "pass"}, ["passed", "open", "failed"]
+        for kind in ("cases", "loads"):
+            self.open(pages.made_up(kind))
+            stated = self.run_script("return W.data.sets.flatMap(set => set.requirements.map(one => ({ ...one, label: set.label })))")
+            badness = lambda one: (rank.index(one["verdict"]), one["broken"])
+            worst = {text: max(badness(one) for one in stated if one["text"] == text) for text in {one["text"] for one in stated}}
+            shown, folded = self.run_script("""return [...document.querySelectorAll('#verdicts table.requirements')].map(table =>
+                [...table.tBodies[0].rows].map(row => [...row.cells].map(cell => cell.textContent)))""")
+
+            def stated_by(row):
+                (one,) = [one for one in stated if one["label"] == row[2] and f"{one['name']}:" in row[0] and row[0].endswith(one["evidence"])]
+                self.assertTrue(row[1].endswith(words[one["verdict"]]), row)
+                for count, runs in ((one["not_deployed"], one["not_deployed_runs"]), (one["beyond"], one["beyond_runs"])):
+                    if count:  # at most three, as a list
+                        self.assertIn(f": {', '.join(str(each['run']) for each in runs[:3])} ", row[-1])
+                return one
+
+            self.assertEqual(sorted((one["text"], badness(one)) for one in map(stated_by, shown)), sorted(worst.items()))
+            self.assertEqual(sorted((one["text"], one["label"]) for one in map(stated_by, folded)), sorted((one["text"], one["label"]) for one in stated))
+
+    def test_printed_contents_name_what_is_shown_now(self):
+        """Headings follow the chosen output and case after the page has been opened."""
+        self.open(pages.made_up("cases"))
+        self.run_script("W.choose('set', 1); W.choose('output', 'tip.latch_time'); dispatchEvent(new Event('beforeprint'))")
+        listed = self.run_script("return [...document.querySelectorAll('.contents li')].map(li => [li.querySelector('a').hash, li.textContent])")
+        for (link, text), (section, title, parts) in zip(listed, self.run_script("""return [...document.querySelectorAll('main > section:not([hidden])')].map(section =>
+                ['#' + section.id, section.querySelector('h2').textContent, [...section.querySelectorAll('h3')].map(one => one.firstChild.textContent)])"""), strict=True):
+            self.assertEqual(link, section)
+            self.assertEqual(text, ": ".join([title] + ([" · ".join(dict.fromkeys(parts))] if parts else [])))
+        self.assertIn("tip latch time", dict(listed)["#outputs"])
+        self.assertIn("ambient", dict(listed)["#inputs"])
+
     def test_static_margins_that_are_too_low_are_in_the_first_screen(self):
         """The lowest of all cases, in which cases, and that no requirement asks for them; nothing where all are high enough."""
         self.open(pages.made_up("cases"))
@@ -232,6 +265,15 @@ class FindingChecks:
             self.assertRegex(item.text, r"The case .*(moves|does not move) the mean of")
         self.open(pages.made_up("plain"))
         self.assertNotIn("The case", self.one("#why").text)
+
+    def test_cases_of_another_folder_are_no_cause(self):
+        self.open(pages.made_up("cases"))
+        own = self.run_script("return W.sets[2].folder")
+        for folder, others in (("Results/mock/hot", 2), ("results/mocks/hot", 2), ("results/moc/hot", 2), ("mock/hot", 2), ("hot", 2), (own, 3)):
+            labels = self.run_script("""W.sets[2].folder = arguments[0];
+                return [...W.caseTable(W.sets[0], 'root.latch_time').querySelectorAll('tbody tr')].map(row => row.cells[0].textContent)""", folder)
+            self.assertEqual(labels, ["cold", "ambient", "hot"][:others], folder)
+            self.assertEqual(self.run_script("return !!W.caseEffect(W.sets[2], 'root.latch_time')"), others == 3, folder)
 
     def test_assumptions_are_those_of_the_scene(self):
         self.open(pages.made_up("plain"))

@@ -116,6 +116,7 @@ def make_copy(faults):
         if own:
             content, lines[name] = switched(content, own)
         write(COPY / name, content)
+        (COPY / name).chmod((SOURCE / name).stat().st_mode)  # the build runs scripts
     for path in COPY.rglob("*.?pp"):  # of files that have moved
         if str(path.relative_to(COPY)) not in names:
             path.unlink()

@@ -1,39 +1,23 @@
-"""The Python module against the program: the same numbers to the last bit, the same errors, and Python's manners.
+"""The Python module against the program: the same numbers to the last bit, and the same errors.
 
     WINGSPREAD_PROGRAM=build/release/wingspread PYTHONPATH=build/release/python /usr/bin/python3 tests/python/python_test.py
 """
 
-import ast
 import csv
-import inspect
 import json
 import os
 import pathlib
-import re
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
-import threading
-import time
 import unittest
 import warnings
 
 import numpy as np
 
 import wingspread
-from wingspread import _native
-
-ROOT = pathlib.Path(__file__).parent.parent.parent
-PROGRAM = pathlib.Path(os.environ["WINGSPREAD_PROGRAM"]).resolve()
-SCENE = ROOT / "studies/scenes/three_panel.json"
-CAMPAIGN = ROOT / "studies/campaigns/seed.json"
-STALL = ROOT / "studies/campaigns/stall.json"
-
-
-def program(*words):
-    return subprocess.run([str(PROGRAM), *map(str, words)], capture_output=True, text=True, check=False)
+from support import CAMPAIGN, ROOT, SCENE, STALL, program
 
 
 def scene():
@@ -289,126 +273,6 @@ class Errors(InFolder):
         self.assertGreater(len(caught), 0)
         self.assertTrue(all(warning.category is wingspread.Notice for warning in caught))
         self.assertEqual({warning.filename for warning in caught}, {__file__})
-
-
-class Manners(unittest.TestCase):
-    def test_ctrl_c_ends_a_long_run(self):
-        script = ("import sys, wingspread\n"
-                  "print('begun', flush=True)\n"
-                  "wingspread.run(sys.argv[1], runs=50_000_000)")
-        with subprocess.Popen([sys.executable, "-c", script, CAMPAIGN], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True) as process:
-            self.assertEqual(process.stdout.readline(), "begun\n")
-            time.sleep(0.5)
-            began = time.monotonic()
-            process.send_signal(signal.SIGINT)
-            _, said = process.communicate(timeout=60)
-        self.assertLess(time.monotonic() - began, 30)
-        self.assertEqual(process.returncode, -signal.SIGINT)
-        self.assertTrue(said.rstrip().endswith("KeyboardInterrupt"))
-
-    def test_others_run_while_it_computes(self):
-        model = wingspread.Model(SCENE, ["hinges.*.spring.scale"])
-        for rows in (200, 2000):  # in this thread, and in one of its own
-            # The best of some, for the machine may be busy; a call that held the lock would let none have turns.
-            self.assertGreater(max(self.turns_beside(model, rows) for _ in range(20)), 4)
-
-    @staticmethod
-    def turns_beside(model, rows):
-        thread = threading.Thread(target=model, args=(np.linspace(0.8, 1.2, rows)[:, None],), kwargs={"threads": 1})
-        thread.start()
-        turns = 0
-        while thread.is_alive():
-            turns += 1
-            time.sleep(0.001)
-        return turns
-
-    def test_the_stubs_say_what_the_module_has(self):
-        tree = ast.parse((pathlib.Path(wingspread.__file__).parent / "_native.pyi").read_text(encoding="utf-8"))
-        stubs = {node.name: node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
-        self.assertEqual(set(stubs), {name for name in dir(_native) if not name.startswith("_")})
-        for name, node in stubs.items():
-            self.check_stub(getattr(_native, name), node)
-
-    def check_stub(self, thing, node):
-        if isinstance(node, ast.FunctionDef):
-            names = [argument.arg for argument in node.args.args if argument.arg != "self"]
-            if isinstance(thing, property):
-                return self.assertEqual(names, [])
-            said = thing.__doc__.splitlines()[0]
-            told = re.findall(r"[(,] *(?:self: [^,)]*(?:, )?)?([a-z_]+): ", said.split("->")[0])
-            return self.assertEqual([name for name in told if name != "self"], names, said)
-        if issubclass(thing, Exception):
-            return None
-        members = {part.name: part for part in node.body if isinstance(part, ast.FunctionDef)}
-        public = {name for name in vars(thing) if not name.startswith("_")}
-        self.assertEqual({name for name in members if not name.startswith("_")}, public)
-        for name, part in members.items():
-            if name != "__init__" or thing.__init__.__doc__:
-                self.check_stub(inspect.getattr_static(thing, name) if name in public and isinstance(
-                    inspect.getattr_static(thing, name), property) else getattr(thing, name), part)
-        return None
-
-    def test_everything_public_is_documented_and_typed(self):
-        self.assertTrue((pathlib.Path(wingspread.__file__).parent / "py.typed").exists())
-        self.assertEqual(f"wingspread {wingspread.__version__}", program("--version").stdout.strip())
-        for name in wingspread.__all__:
-            thing = getattr(wingspread, name)
-            if name not in ("SpecError", "MachineError"):
-                self.assertTrue(thing.__doc__, name)
-            parts = [thing] if inspect.isfunction(thing) else [
-                part for key, part in vars(thing).items() if inspect.isfunction(part) and not key.startswith("_")]
-            for part in parts:
-                self.assertTrue(part.__doc__, part)
-                signature = inspect.signature(part)
-                self.assertIsNot(signature.return_annotation, inspect.Signature.empty, part)
-                for key, parameter in signature.parameters.items():
-                    if key != "self":
-                        self.assertIsNot(parameter.annotation, inspect.Parameter.empty, (part, key))
-
-
-class Fitting(unittest.TestCase):
-    """One panel whose constant torque follows from its latch time: T = 2 θ J / t²."""
-
-    torque, travel, inertia, seen, std = 2.0, 1.5, 3.0, 2.2, 0.02
-
-    def campaign(self):
-        hinge = {"name": "root", "parent": "base", "child": "panel", "parent_point": [0, 0], "child_point": [-0.5, 0],
-                 "angle": {"stowed": self.travel, "latched": 0}, "latch": {"stiffness": 1e4, "damping": 100},
-                 "spring": {"torque_stowed": self.torque, "torque_latched": self.torque}}
-        panel = {"name": "panel", "mass": 10, "inertia": self.inertia - 10 * 0.5**2}
-        return {"scene": {"name": "panel", "base": {"motion": "fixed"}, "bodies": [panel], "hinges": [hinge]},
-                "dispersions": [{"name": "spring", "distribution": {"type": "normal", "mean": 1, "std": 0.2}, "apply": "scale",
-                                 "to": ["hinges.root.spring.scale"]}],
-                "integration": {"t_end": 20}, "outputs": ["latch_time"], "sampling": {"runs": 10, "seed": 5}}
-
-    def ground(self):
-        value = {"output": "root.latch_time", "value": self.seen, "std": self.std}
-        return {"tests": [{"name": "ground", "values": [value]}], "fit": {"parameters": ["spring"], "samples": 1000}}
-
-    def test_a_fit_is_the_programs_and_finds_the_torque(self):
-        with tempfile.TemporaryDirectory() as folder:
-            places = {name: pathlib.Path(folder) / f"{name}.json" for name in ("campaign", "tests")}
-            places["campaign"].write_text(json.dumps(self.campaign()), encoding="utf-8")
-            places["tests"].write_text(json.dumps(self.ground()), encoding="utf-8")
-            done = program("fit", places["campaign"], places["tests"], "--out", pathlib.Path(folder) / "by_program")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            result, posterior = wingspread.fit(self.campaign(), self.ground(), out=pathlib.Path(folder) / "by_module")
-            rows = [(pathlib.Path(folder) / out / "posterior.csv").read_bytes() for out in ("by_program", "by_module")]
-            self.assertEqual(rows[0], rows[1])
-        self.assertTrue(result["finished"])
-        spring = result["parameters"]["spring"]
-        scale = 2 * self.travel * self.inertia / self.seen**2 / self.torque
-        self.assertAlmostEqual(spring["mean"], scale, delta=0.005)
-        self.assertAlmostEqual(spring["std"], 2 * scale * self.std / self.seen, delta=0.002)
-        self.assertAlmostEqual(float(np.mean(posterior["spring"])), spring["mean"], delta=0.003)
-
-    def test_faults_of_tests_have_their_place(self):
-        tests = self.ground()
-        tests["fit"]["parameters"] = ["sprung"]
-        with self.assertRaises(wingspread.SpecError) as caught:
-            wingspread.fit(self.campaign(), tests)
-        self.assertIn("/fit/parameters/0", str(caught.exception))
 
 
 if __name__ == "__main__":

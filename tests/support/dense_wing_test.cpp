@@ -1,4 +1,5 @@
 #include "tests/support/dense_wing.hpp"
+#include "tests/support/drifted.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <Eigen/Geometry>
@@ -23,18 +24,6 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 /// The largest difference of the accelerations, relative to the largest of them.
 double difference(const Vector<double>& found, const Vector<double>& expected) {
   return (found - expected).lpNorm<Eigen::Infinity>() / (1 + expected.lpNorm<Eigen::Infinity>());
-}
-
-/// The state after every coordinate has gone on by its rate for a time h (not a solution: a probe).
-WingState<Quad> drifted(WingState<Quad> state, const WingResponse<Quad>& response, const Quad& h) {
-  const Quad half = h * h / 2;
-  state.angles += state.rates * h + response.hinge_accelerations * half;
-  state.rates += response.hinge_accelerations * h;
-  state.base_position += state.base_velocity * h + response.base_acceleration * half;
-  state.base_velocity += response.base_acceleration * h;
-  state.base_angle += state.base_rate * h + response.base_angular_acceleration * half;
-  state.base_rate += response.base_angular_acceleration * h;
-  return state;
 }
 
 } // namespace

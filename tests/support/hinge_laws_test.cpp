@@ -1,6 +1,6 @@
 // The oracle's laws of real hinges against values by hand, and the dense wing with them against its
 // own energy.
-#include "tests/support/dense_wing.hpp"
+#include "tests/support/drifted.hpp"
 #include "tests/support/real_scenes.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,24 +14,12 @@ namespace {
 
 using Shape = Interpolation;
 
-/// The state after a time h with constant accelerations.
-WingState<Quad> after(WingState<Quad> state, const WingResponse<Quad>& response, const Quad& h) {
-  const Quad half = h * h / 2;
-  state.angles += state.rates * h + response.hinge_accelerations * half;
-  state.rates += response.hinge_accelerations * h;
-  state.base_position += state.base_velocity * h + response.base_acceleration * half;
-  state.base_velocity += response.base_acceleration * h;
-  state.base_angle += state.base_rate * h + response.base_angular_acceleration * half;
-  state.base_rate += response.base_angular_acceleration * h;
-  return state;
-}
-
 /// d(T + P)/dt, W.
 double power(const DenseWing<Quad>& wing, const WingState<Quad>& state) {
   const Quad h = 1e-12;
   const WingResponse<Quad> response = wing.respond(state);
-  const WingBalance<Quad> late = wing.balance(after(state, response, h));
-  const WingBalance<Quad> early = wing.balance(after(state, response, -h));
+  const WingBalance<Quad> late = wing.balance(drifted(state, response, h));
+  const WingBalance<Quad> early = wing.balance(drifted(state, response, -h));
   return static_cast<double>((late.kinetic + late.potential - early.kinetic - early.potential) /
                              (2 * h));
 }

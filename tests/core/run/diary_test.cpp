@@ -1,6 +1,8 @@
 // The record of a run: its energy, and samples at multiples of an interval.
 #include "core/deployment.hpp"
 #include "tests/support/closed_forms.hpp"
+#include "tests/support/random_cases.hpp"
+#include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -57,6 +59,45 @@ TEST_CASE("samples change nothing of the run, also where a hinge latches or stic
   CHECK(times.size() == 109); // ⌊40/0.37⌋ + 1
   CHECK(std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end());
   CHECK(last == alone.final.angles[0]); // it sticks
+}
+
+TEST_CASE("samples change no bit of a run and none of its work: random wings whose hinges stick") {
+  int at_rest = 0;
+  for (int seed = 1; seed <= random_cases(600, 30); ++seed) {
+    Draws draws(seed);
+    RandomScene options;
+    options.bodies = 2 + seed % 3;
+    options.branching = seed % 2 == 0;
+    options.motion = static_cast<BaseMotion>(seed % 3);
+    Scene scene = random_scene(seed, options);
+    for (Hinge& hinge : scene.hinges) {
+      const double level = draws.log_uniform(0.02, 0.7) * std::abs(hinge.spring.torque_stowed);
+      rub(hinge, level, 1.2 * level);
+      hinge.latch = Latch{draws.log_uniform(1e3, 1e6),
+                          draws.log_uniform(1, 1e3)}; // `auto` changes the method
+    }
+    const Integration how = within(1e-7, 8);
+    const Outcome alone = Deployment().run(scene, how, to_the_end);
+    Goal goal = to_the_end;
+    goal.sample_interval = 2e-3;
+    bool rests = false;
+    const auto see = [&](const Sample& sample) {
+      rests = rests || (sample.t > 0 && std::ranges::find(sample.rates, 0.0) != sample.rates.end());
+    };
+    const Outcome watched = Deployment().run(scene, how, goal, see);
+    at_rest += rests;
+    CAPTURE(seed, alone.reason, watched.reason);
+    CHECK(watched.final.angles == alone.final.angles);
+    CHECK(watched.final.rates == alone.final.rates);
+    CHECK(watched.phases.size() == alone.phases.size());
+    CHECK(watched.work.steps == alone.work.steps);
+    CHECK(watched.work.rejected == alone.work.rejected);
+    CHECK(watched.work.rhs_evaluations == alone.work.rhs_evaluations);
+    REQUIRE(watched.latches.size() == alone.latches.size());
+    for (std::size_t k = 0; k < alone.latches.size(); ++k)
+      CHECK(watched.latches[k].time == alone.latches[k].time);
+  }
+  CHECK(at_rest > 10);
 }
 
 TEST_CASE("samples show how a base moves, free or driven") {

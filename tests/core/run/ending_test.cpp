@@ -1,6 +1,5 @@
 // When a run ends and why, and that an early end loses no peak.
 #include "core/deployment.hpp"
-#include "tests/support/random_cases.hpp"
 #include "tests/support/random_scenes.hpp"
 #include "tests/support/real_scenes.hpp"
 #include "tests/support/whole_runs.hpp"
@@ -9,7 +8,6 @@
 
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
 
 using namespace wingspread;
@@ -329,131 +327,4 @@ TEST_CASE("a run that ends at a latch evaluates nothing after it, unless it is o
       CHECK(peaks.peak_moment[last].value ==
             Approx(100 * std::abs(out.latches[0].rates[last])).epsilon(0.02)); // and the spring
   }
-}
-
-namespace {
-
-const Goal families[] = {{},
-                         {.peak_moment = false, .peak_force = false, .overtravel = false},
-                         {.peak_force = false},
-                         {.peak_moment = false, .end_state = false},
-                         to_the_end};
-
-/// Random wings none of whose hinges can move, on bases of every motion.
-Scene immovable(std::uint64_t seed) {
-  RandomScene options;
-  options.bodies = 1 + static_cast<int>(seed % 4);
-  options.motion = static_cast<BaseMotion>(seed % 3);
-  options.friction = false;
-  RealFeatures features;
-  features.measured = features.stops = features.backlash = false;
-  Scene scene = random_scene(seed, options);
-  if (seed % 2 == 0) scene = with_real_hinges(scene, seed, features);
-  scene.base.angular_acceleration = 0;
-  if (seed % 5 < 3) scene.base.acceleration = {0, 0}, scene.environment.gravity = {0, 0};
-  for (Hinge& hinge : scene.hinges) rub(hinge, 1e6), hinge.initial_rate = 0;
-  return scene;
-}
-
-/// Random wings of which some deploy, some stall, and some stop half-way with a few hinges latched.
-Scene reluctant(std::uint64_t seed) {
-  Draws draws(seed);
-  RandomScene options;
-  options.bodies = 1 + static_cast<int>(seed % 3);
-  options.mass_lower = 1, options.mass_upper = 20;
-  options.motion = static_cast<BaseMotion>(seed / 3 % 3);
-  options.harness = options.friction = false;
-  Scene scene = random_scene(seed, options);
-  scene.base.angular_acceleration = 0;
-  if (seed % 2 == 0) scene.base.acceleration = {0, 0};
-  for (Hinge& hinge : scene.hinges) {
-    hinge.spring.torque_stowed *= 3, hinge.spring.torque_latched *= 3;
-    hinge.friction.viscous = draws.log_uniform(0.01, 3);
-    if (draws.chance(0.9)) {
-      const double level = draws.log_uniform(0.2, 2) * std::abs(hinge.spring.torque_stowed);
-      rub(hinge, level, draws.chance(0.5) ? level : 1.2 * level);
-    }
-    hinge.latch = Latch{draws.log_uniform(1e2, 1e4), draws.log_uniform(1, 1e2)};
-    if (draws.chance(0.1)) hinge.latch.reset();
-  }
-  return scene;
-}
-
-/// The time that the reason of a stall names, s.
-double time_of(const std::string& reason) {
-  const std::string before = "from t = ";
-  return std::stod(reason.substr(reason.find(before) + before.size()));
-}
-
-/// Checks that the hinges of a run to t_end move up to this time and not after.
-void check_standstill(const Scene& scene, const Integration& how, double from) {
-  double moved = 0;
-  const auto see = [&](const Sample& sample) {
-    for (const double rate : sample.rates)
-      if (rate != 0) moved = sample.t;
-  };
-  (void)Deployment().run(scene, how, to_the_end, see);
-  CHECK(moved <= from * 1.001);
-  if (from > 0) CHECK(moved > 0);
-}
-
-} // namespace
-
-TEST_CASE("a wing that never moves costs next to nothing, whatever carries it") {
-  int stalled = 0;
-  for (int seed = 1; seed <= random_cases(3000, 60); ++seed) {
-    const Scene scene = immovable(seed);
-    for (const Goal& goal : families) {
-      const Outcome out = Deployment().run(scene, within(1e-8, 30), goal);
-      CAPTURE(seed, goal.to_t_end, out.reason, out.work.steps, out.work.rhs_evaluations);
-      CHECK((out.status == Status::stalled || out.status == Status::timed_out));
-      CHECK(out.work.rhs_evaluations < 100 * (out.work.steps + out.work.rejected + 1));
-      if (out.status != Status::stalled) continue;
-      ++stalled;
-      CHECK(time_of(out.reason) == 0);
-      CHECK(out.t_end == (goal.to_t_end ? 30 : 0));
-    }
-  }
-  CHECK(stalled > 150);
-}
-
-TEST_CASE("every claim on a run's end holds in the run to t_end") {
-  int stalled = 0, stuck = 0, partly = 0, final = 0, open = 0;
-  for (int seed = 1; seed <= random_cases(3000, 80); ++seed) {
-    const Scene scene = reluctant(seed);
-    const Integration how = within(1e-8, Draws(seed).log_uniform(0.5, 20));
-    Integration further = how;
-    further.t_end = how.t_end + 20;
-    const Outcome late = Deployment().run(scene, further, to_the_end);
-    const Outcome whole = Deployment().run(scene, how, to_the_end);
-    if (late.status == Status::failed || whole.status == Status::failed) continue;
-    for (const Goal& goal : families) {
-      const Outcome out = Deployment().run(scene, how, goal);
-      CAPTURE(seed, how.t_end, goal.to_t_end, goal.peak_moment, goal.peak_force, out.t_end);
-      CAPTURE(out.reason, whole.reason, to_string(out.status), to_string(whole.status));
-      CHECK(out.status == whole.status);
-      if (whole.reason.find("sticks") == std::string::npos) CHECK(out.reason == whole.reason);
-      CHECK(out.latches.size() == whole.latches.size());
-      if (out.status == Status::stalled) CHECK(late.latches.size() == out.latches.size());
-      if (!out.peaks_final) continue;
-      ++final;
-      open += out.status == Status::timed_out;
-      for (std::size_t i = 0; i < out.peak_moment.size(); ++i)
-        CHECK(late.peak_moment[i].value <= out.peak_moment[i].value * (1 + 1e-9));
-      for (std::size_t i = 0; i < out.peak_force.size(); ++i)
-        CHECK(late.peak_force[i].value <= out.peak_force[i].value * (1 + 1e-9));
-    }
-    if (whole.status != Status::stalled) continue;
-    ++stalled;
-    partly += !whole.latches.empty();
-    if (whole.reason.find("sticks") == std::string::npos) continue;
-    ++stuck;
-    CAPTURE(seed, whole.reason);
-    check_standstill(scene, how, time_of(whole.reason));
-  }
-  CAPTURE(stalled, stuck, partly, final, open);
-  CHECK(stalled > 20);
-  CHECK(stuck > 8);
-  CHECK(partly > 3);
-  CHECK(final > 60);
 }

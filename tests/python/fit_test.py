@@ -1,0 +1,59 @@
+"""The Python module's fit against the program's, and against a closed form. Started as python_test.py is."""
+
+import json
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+
+import wingspread
+from support import program
+
+
+class Fitting(unittest.TestCase):
+    """One panel whose constant torque follows from its latch time: T = 2 θ J / t²."""
+
+    torque, travel, inertia, seen, std = 2.0, 1.5, 3.0, 2.2, 0.02
+
+    def campaign(self):
+        hinge = {"name": "root", "parent": "base", "child": "panel", "parent_point": [0, 0], "child_point": [-0.5, 0],
+                 "angle": {"stowed": self.travel, "latched": 0}, "latch": {"stiffness": 1e4, "damping": 100},
+                 "spring": {"torque_stowed": self.torque, "torque_latched": self.torque}}
+        panel = {"name": "panel", "mass": 10, "inertia": self.inertia - 10 * 0.5**2}
+        return {"scene": {"name": "panel", "base": {"motion": "fixed"}, "bodies": [panel], "hinges": [hinge]},
+                "dispersions": [{"name": "spring", "distribution": {"type": "normal", "mean": 1, "std": 0.2}, "apply": "scale",
+                                 "to": ["hinges.root.spring.scale"]}],
+                "integration": {"t_end": 20}, "outputs": ["latch_time"], "sampling": {"runs": 10, "seed": 5}}
+
+    def ground(self):
+        value = {"output": "root.latch_time", "value": self.seen, "std": self.std}
+        return {"tests": [{"name": "ground", "values": [value]}], "fit": {"parameters": ["spring"], "samples": 1000}}
+
+    def test_a_fit_is_the_programs_and_finds_the_torque(self):
+        with tempfile.TemporaryDirectory() as folder:
+            places = {name: pathlib.Path(folder) / f"{name}.json" for name in ("campaign", "tests")}
+            places["campaign"].write_text(json.dumps(self.campaign()), encoding="utf-8")
+            places["tests"].write_text(json.dumps(self.ground()), encoding="utf-8")
+            done = program("fit", places["campaign"], places["tests"], "--out", pathlib.Path(folder) / "by_program")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            result, posterior = wingspread.fit(self.campaign(), self.ground(), out=pathlib.Path(folder) / "by_module")
+            rows = [(pathlib.Path(folder) / out / "posterior.csv").read_bytes() for out in ("by_program", "by_module")]
+            self.assertEqual(rows[0], rows[1])
+        self.assertTrue(result["finished"])
+        spring = result["parameters"]["spring"]
+        scale = 2 * self.travel * self.inertia / self.seen**2 / self.torque
+        self.assertAlmostEqual(spring["mean"], scale, delta=0.005)
+        self.assertAlmostEqual(spring["std"], 2 * scale * self.std / self.seen, delta=0.002)
+        self.assertAlmostEqual(float(np.mean(posterior["spring"])), spring["mean"], delta=0.003)
+
+    def test_faults_of_tests_have_their_place(self):
+        tests = self.ground()
+        tests["fit"]["parameters"] = ["sprung"]
+        with self.assertRaises(wingspread.SpecError) as caught:
+            wingspread.fit(self.campaign(), tests)
+        self.assertIn("/fit/parameters/0", str(caught.exception))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,98 @@
+"""The Python module's manners: Ctrl-C, other threads, type stubs, docstrings. Started as python_test.py is."""
+
+import ast
+import inspect
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import wingspread
+from support import CAMPAIGN, SCENE, program
+from wingspread import _native
+
+
+class Manners(unittest.TestCase):
+    def test_ctrl_c_ends_a_long_run(self):
+        script = ("import sys, wingspread\n"
+                  "print('begun', flush=True)\n"
+                  "wingspread.run(sys.argv[1], runs=50_000_000)")
+        with subprocess.Popen([sys.executable, "-c", script, CAMPAIGN], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True) as process:
+            self.assertEqual(process.stdout.readline(), "begun\n")
+            time.sleep(0.5)
+            began = time.monotonic()
+            process.send_signal(signal.SIGINT)
+            _, said = process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - began, 30)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertTrue(said.rstrip().endswith("KeyboardInterrupt"))
+
+    def test_others_run_while_it_computes(self):
+        model = wingspread.Model(SCENE, ["hinges.*.spring.scale"])
+        for rows in (200, 2000):  # in this thread, and in one of its own
+            # The best of some, for the machine may be busy; a call that held the lock would let none have turns.
+            self.assertGreater(max(self.turns_beside(model, rows) for _ in range(20)), 4)
+
+    @staticmethod
+    def turns_beside(model, rows):
+        thread = threading.Thread(target=model, args=(np.linspace(0.8, 1.2, rows)[:, None],), kwargs={"threads": 1})
+        thread.start()
+        turns = 0
+        while thread.is_alive():
+            turns += 1
+            time.sleep(0.001)
+        return turns
+
+    def test_the_stubs_say_what_the_module_has(self):
+        tree = ast.parse((pathlib.Path(wingspread.__file__).parent / "_native.pyi").read_text(encoding="utf-8"))
+        stubs = {node.name: node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+        self.assertEqual(set(stubs), {name for name in dir(_native) if not name.startswith("_")})
+        for name, node in stubs.items():
+            self.check_stub(getattr(_native, name), node)
+
+    def check_stub(self, thing, node):
+        if isinstance(node, ast.FunctionDef):
+            names = [argument.arg for argument in node.args.args if argument.arg != "self"]
+            if isinstance(thing, property):
+                return self.assertEqual(names, [])
+            said = thing.__doc__.splitlines()[0]
+            told = re.findall(r"[(,] *(?:self: [^,)]*(?:, )?)?([a-z_]+): ", said.split("->")[0])
+            return self.assertEqual([name for name in told if name != "self"], names, said)
+        if issubclass(thing, Exception):
+            return None
+        members = {part.name: part for part in node.body if isinstance(part, ast.FunctionDef)}
+        public = {name for name in vars(thing) if not name.startswith("_")}
+        self.assertEqual({name for name in members if not name.startswith("_")}, public)
+        for name, part in members.items():
+            if name != "__init__" or thing.__init__.__doc__:
+                self.check_stub(inspect.getattr_static(thing, name) if name in public and isinstance(
+                    inspect.getattr_static(thing, name), property) else getattr(thing, name), part)
+        return None
+
+    def test_everything_public_is_documented_and_typed(self):
+        self.assertTrue((pathlib.Path(wingspread.__file__).parent / "py.typed").exists())
+        self.assertEqual(f"wingspread {wingspread.__version__}", program("--version").stdout.strip())
+        for name in wingspread.__all__:
+            thing = getattr(wingspread, name)
+            if name not in ("SpecError", "MachineError"):
+                self.assertTrue(thing.__doc__, name)
+            parts = [thing] if inspect.isfunction(thing) else [
+                part for key, part in vars(thing).items() if inspect.isfunction(part) and not key.startswith("_")]
+            for part in parts:
+                self.assertTrue(part.__doc__, part)
+                signature = inspect.signature(part)
+                self.assertIsNot(signature.return_annotation, inspect.Signature.empty, part)
+                for key, parameter in signature.parameters.items():
+                    if key != "self":
+                        self.assertIsNot(parameter.annotation, inspect.Parameter.empty, (part, key))
+
+
+if __name__ == "__main__":
+    unittest.main()
