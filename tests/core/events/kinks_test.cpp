@@ -123,12 +123,14 @@ TEST_CASE("a step that is refused for a loop's jump does not leap over a detent 
                                       {1, 1, 1 + depth, 1, 1}, Interpolation::linear);
     const double rate = std::sqrt(2 * (1 + depth * half_width) / panel_inertia);
     for (const std::string method : {"auto", "dop853", "dopri5", "cash_karp54"}) {
-      Integration how = within(1e-6, 5);
+      Integration how = within(1e-8, 5);
       how.method = method;
       const Outcome out = Deployment().run(scene, how, latches_only);
       CAPTURE(k, half_width, middle, depth, method, out.reason);
       REQUIRE(out.latches.size() == 1);
-      CHECK(relative(out.latches[0].rates[2], rate) < 2e-6);
+      // To leap over the detent, or half of it, costs 5e-4 to 2.5e-2. Over a single knot the error estimate
+      // of a step decides, and misses it by up to 500 tolerances: the worst of 400 runs is off by 4.8e-6
+      CHECK(relative(out.latches[0].rates[2], rate) < 2e-5);
     }
   }
 }
