@@ -59,7 +59,7 @@ public:
   [[nodiscard]] std::optional<Due<T>> first(const Step<T>& step, State<T>& x, State<T>& dxdt,
                                             const std::optional<KinkLimit>& kinks = std::nullopt) {
     std::optional<Due<T>> first;
-    if (kinks && system_.wing().is_real())
+    if (kinks && (system_.wing().is_real() || system_.layout().smoothed))
       if (const auto found = KinkSearch<T, AnySystem>(system_, step, *kinks).first())
         first = Due<T>{Event::kink, 0, found->s, T(0), Edge::stop, found->kink};
     const auto offer = [&](Event event, int i, const std::optional<T>& s, const T& slope) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/events/leaps.hpp"
+#include "core/laws/smoothed_latch.hpp"
 
 #include <optional>
 
@@ -27,6 +28,9 @@ public:
       if (!system_.sticks(i) && system_.motor_runs(i)) search_motor(i);
     const int loops = static_cast<int>(system_.wing().loops.size());
     for (int l = 0; l < loops; ++l) search_loop(l);
+    if (system_.layout().smoothed && !limit_.leaps_only)
+      for (int i = 1; i <= system_.layout().bodies; ++i)
+        if (system_.wing().hinges[i].has_latch) search_smoothed_latch(i);
     return first_;
   }
 
@@ -151,6 +155,25 @@ private:
     });
   }
 
+  /// The ends of a latch's smooth steps h(u): h'' jumps there by 6. At S = 0 nothing is seen of it, for S rises from 0 as
+  /// the cube of time. Once S ≥ ε the latch does not depend on S any more.
+  void search_smoothed_latch(int i) {
+    const Layout& at = system_.layout();
+    const HingeTerms<T>& hinge = system_.wing().hinges[i];
+    const int k = at.latch(i);
+    const T& epsilon = system_.epsilon();
+    if (!(step_.x[k] < epsilon)) return;
+    const T bend = T(3) / (epsilon * epsilon);
+    const Quintic<T> angle = step_.coordinate(at.angle(i), at.freedoms());
+    for (const T& beyond : {T(0), epsilon})
+      offer_passage({Of::angle, i, fused(hinge.sense, beyond, hinge.latched), T(0)}, angle,
+                    {i, T(0), T(0), bend, true});
+    const Quintic<T> rate = step_.rate_of(angle, at.angle(i), at.freedoms());
+    offer_passage({Of::latch, i, epsilon, T(0)},
+                  cubic_hermite(step_.h, step_.x[k], step_.dxdt[k], step_.x1[k], step_.dxdt1[k]),
+                  {i, T(0), T(0), bend * most_of_smoothed_latch(hinge, angle, rate)});
+  }
+
   [[nodiscard]] static T largest(const T& a, const T& b) {
     using std::abs;
     return larger(T(abs(a)), T(abs(b)));
@@ -186,14 +209,15 @@ private:
   /// (1).
   [[nodiscard]] bool matters(const T& s, const T& speed, const KinkChange<T>& change) const {
     using std::abs;
-    const int r = system_.layout().rate(change.hinge);
+    const Layout& at = system_.layout();
+    const int r = change.of_latch ? at.latch(change.hinge) : at.rate(change.hinge);
+    const T mobility = change.of_latch ? T(1) : mobility_bound(system_, change.hinge);
     const T tau = limit_.refused ? step_.h : T(step_.h * smaller(s, T(T(1) - s)));
     const T way = speed * tau;
     const T impulse =
         tau * (change.jump + way * fused(T(0.5), change.turn, way * change.bend / T(3)));
     const T rate = larger(T(abs(step_.x[r])), T(abs(step_.x1[r])));
-    return mobility_bound(system_, change.hinge) * impulse >
-           fused(T(limit_.rtol), rate, T(limit_.atol));
+    return mobility * impulse > fused(T(limit_.rtol), rate, T(limit_.atol));
   }
 
   const AnySystem& system_;

@@ -1,6 +1,6 @@
 /// Kinks: where a law bends or jumps inside its domain, and no event changes the law. A strand of a loop goes slack, a
 /// hinge passes a knot of a table, a damper's power law its regularization rate, a stop the rate at which it lets go, a
-/// motor its torque limit.
+/// motor its torque limit, a smoothed latch the ends of its smooth steps.
 ///
 /// Estimates of extrapolation, of implicit methods and of Fehlberg's formula expect a smooth right-hand side: they may
 /// accept a step over a kink and be wrong by a thousand tolerances. Their steps therefore end at the kinks that matter. So
@@ -13,7 +13,8 @@
 ///
 ///     Δφ̇ ≤ σ (jump τ + turn abs(u̇) τ²/2 + bend u̇² τ³/3),    σ ≥ (M⁻¹)_ii                           (1)
 ///
-/// (mobility_bound). Where (1) is below the tolerance of a step, the kink does not matter.
+/// (mobility_bound). Where (1) is below the tolerance of a step, the kink does not matter. The same holds of Ṡ, the rate of a
+/// smoothed latch's own state, with σ = 1.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -33,10 +34,11 @@ struct KinkLimit {
 /// A function u of the state and its value b at a kink.
 template <class T> struct Kink {
   enum class Of : signed char {
-    angle,  ///< of hinge `index`
-    rate,   ///< of hinge `index`
-    excess, ///< of the rate that the motor of hinge `index` commands, over the hinge's
-    strands ///< K e of loop `index`
+    angle,   ///< of hinge `index`
+    rate,    ///< of hinge `index`
+    excess,  ///< of the rate that the motor of hinge `index` commands, over the hinge's
+    strands, ///< K e of loop `index`
+    latch    ///< S of the smoothed latch of hinge `index`
   };
   Of of;
   int index;
@@ -44,13 +46,14 @@ template <class T> struct Kink {
   T way; ///< in which u passes b: −1 or 1
 };
 
-/// The change of a law across a kink, as in (1), at a hinge; and the steepest u̇ of the step.
+/// The change of a law across a kink, as in (1), at a hinge.
 template <class T> struct KinkChange {
   int hinge;
   T jump, turn, bend;
+  bool of_latch = false; ///< of Ṡ of the hinge's smoothed latch, not of the moment
 };
 
-/// u, u̇ and ü; of a rate ü is unknown, 0. @param x, dxdt the state at t and its derivative
+/// u, u̇ and ü; of a rate and of S, ü is unknown, 0. @param x, dxdt the state at t and its derivative
 template <class T, class AnySystem>
 [[nodiscard]] Jet<T> argument(const AnySystem& system, const Kink<T>& kink, const State<T>& x,
                               const State<T>& dxdt, const T& t) {
@@ -62,6 +65,8 @@ template <class T, class AnySystem>
   }
   if (kink.of == Kink<T>::Of::angle)
     return {x[at.angle(kink.index)], x[at.rate(kink.index)], dxdt[at.rate(kink.index)]};
+  if (kink.of == Kink<T>::Of::latch)
+    return {x[at.latch(kink.index)], dxdt[at.latch(kink.index)], T(0)};
   if (kink.of == Kink<T>::Of::rate)
     return {x[at.rate(kink.index)], dxdt[at.rate(kink.index)], T(0)};
   const LoopTerms<T>& loop = system.wing().loops[kink.index];

@@ -24,7 +24,7 @@ public:
   /// @return whether there is one: the step must then be made again, to the event
   [[nodiscard]] bool cut_at_event(const std::optional<KinkLimit>& kinks, double rtol) {
     nearest_ = nearest(rtol);
-    missed_ = false;
+    missed_ = false, searches_ = 0;
     due_ = events_.first(run_.step, run_.x, run_.dxdt, kinks);
     if (due_) begin();
     return due_.has_value();
@@ -37,8 +37,8 @@ public:
     if (!kinks || !kinks->leaps_only || missed_) return false;
     due_ = events_.first_jump(run_.step, *kinks);
     if (!due_) return false;
+    searches_ = 0;
     begin();
-    of_refused_ = true;
     return true;
   }
 
@@ -70,11 +70,12 @@ public:
     return false;
   }
 
-  /// Looks for other events, and other jumps, in a step that ends at the jump for which a longer one was refused: in that
-  /// one none was sought. @return whether there is one: the step must then be made again, to the event
+  /// Searches a step that ends at a kink for events before it. The longer step, in which the kink was found, was refused or
+  /// leapt over what lies there, and its dense output need not show them: a detent may release a hinge that sticks.
+  /// @return whether there is one: the step must then be made again, to the event
   [[nodiscard]] bool cut_at_earlier_event(const std::optional<KinkLimit>& kinks) {
-    if (!of_refused_) return false;
-    of_refused_ = false;
+    constexpr int most_searches = 8; // heuristic: a kink that the landing misses is found anew
+    if (due_->event != Event::kink || ++searches_ > most_searches) return false;
     const std::optional<Due<T>> seen = events_.first(run_.step, run_.x, run_.dxdt, kinks);
     if (!seen) return false;
     due_ = seen;
@@ -116,7 +117,6 @@ public:
 private:
   void begin() {
     corrections_ = 0;
-    of_refused_ = false;
     longest_ = run_.step.h;
     cut(due_->s * longest_);
   }
@@ -204,9 +204,9 @@ private:
   Events<T, AnySystem>& events_;
   std::optional<Due<T>> due_; ///< the event that ends the step
   int corrections_ = 0;       ///< made to its instant
+  int searches_ = 0;          ///< for earlier events, since the step was planned
   bool missed_ = false;       ///< the last landing ended before its event
   T nearest_ = T(0);          ///< how far the end may miss it, in steps
-  bool of_refused_ = false;   ///< the step in which it was found was refused
   T longest_ = T(0);          ///< the step in which it was found
 };
 

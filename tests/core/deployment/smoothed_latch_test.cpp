@@ -30,10 +30,14 @@ TEST_CASE("a smoothed latch is as wrong as its width, and no wronger", "[long]")
     CAPTURE(epsilon);
     with_every_method(
         seed_scene(), how, to_the_end, MayGiveUp::all_but_auto, [&](const Outcome& out) {
-          // the reference is good to 1e-7 (its own tests); the kinks of the smooth steps cost the
-          // methods of high order more than their error estimates see, still far less than
-          // the smoothing itself does; extrapolation, whose steps are the longest, loses most
-          const double most = out.phases.front().method == "seulex" ? 5e-5 : 1e-5;
+          // the reference is good to 1e-7 (its own tests); the kinks of the smooth steps cost explicit
+          // methods of high order more than their error estimates see, still far less than the
+          // smoothing itself does. Methods whose estimates expect smooth laws end steps at the kinks:
+          // over them seulex loses up to 3e-5, whatever the tolerance
+          const std::string& method = out.phases.front().method;
+          const bool ends_at_kinks = method == "seulex" || method == "rosenbrock_w" ||
+                                     method == "bulirsch_stoer" || method == "fehlberg78";
+          const double most = ends_at_kinks ? 2e-7 : 1e-5;
           for (int hinge : {0, 1})
             CHECK(relative(out.peak_moment[hinge].value, exact.peak_moment[hinge].value) < most);
         });

@@ -1,7 +1,7 @@
 // The load of a sticking hinge between the ends of steps, and releases that no sample shows.
-#include "core/deployment.hpp"
+#include "tests/core/deployment/real_runs.hpp"
 #include "tests/core/events/rubbed_wings.hpp"
-#include "tests/support/whole_runs.hpp"
+#include "tests/support/random_cases.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -151,5 +151,39 @@ TEST_CASE("the largest load of a panel that a turning base does not tear loose i
                         CHECK(std::abs(out.peak_moment[0].value - 1.5) < 1e-9);
                         CHECK(std::abs(std::sin(rate * out.peak_moment[0].time)) > 1 - 1e-8);
                       });
+  }
+}
+
+// Two discs turn as one under 1 N·m and a detent, 1 + D at its middle. The second bears 2/5 of the torque. Work and angle of
+// the release follow from its limit, 2/5 (1 + share D). A step that leaps over the detent shows nothing of the load inside.
+TEST_CASE("a detent tears a stuck hinge loose at its own angle, however narrow the detent") {
+  Draws draws(11);
+  for (int k = 0; k < random_cases(100, 10); ++k) {
+    const double half_width = draws.log_uniform(1e-5, 1e-2), middle = draws.uniform(0.05, 0.9);
+    const double D = draws.uniform(0.1, 1) * std::min(100.0, 0.05 / half_width);
+    const double share = draws.uniform(0.05, 0.95), limit = 0.4 * (1 + share * D);
+    Scene scene = coaxial_discs(3, 2);
+    scene.hinges[0].spring.table =
+        torque_table({0, middle - half_width, middle, middle + half_width, 1}, {1, 1, 1 + D, 1, 1},
+                     Interpolation::linear);
+    rub(scene.hinges[1], 0.2 * limit, limit);
+    const double angle = middle - half_width * (1 - share);
+    const double rate = std::sqrt(2 * (angle + 0.5 * half_width * share * share * D) / 5);
+    (void)run_everywhere(scene, 1e-6, 3.5, true); // the same in lanes
+    for (const double rtol : {1e-6, 1e-9})
+      for (const char* method : {"auto", "dopri5", "dop853", "cash_karp54", "seulex"}) {
+        Integration how = within(rtol, 3.5);
+        how.method = method;
+        Sample last;
+        bool moved = false;
+        const Outcome out = Deployment().run(scene, how, to_the_end, [&](const Sample& sample) {
+          moved = moved || sample.rates[1] != 0;
+          if (!moved) last = sample;
+        });
+        CAPTURE(k, half_width, middle, D, share, rtol, method, out.reason);
+        REQUIRE(moved);
+        CHECK(std::abs(last.angles[0] - angle) < 1e-5 * half_width + 1e-12);
+        CHECK(relative(last.rates[0], rate) < 30 * rtol);
+      }
   }
 }

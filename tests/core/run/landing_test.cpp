@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -158,4 +160,94 @@ TEST_CASE(
   arrives(quick);
   CHECK_FALSE(at.landing.correct_end());
   CHECK(std::abs(step.x1[0]) < 1e-12);
+}
+
+namespace {
+
+/// Two pairs of discs on a fixed base, each pair with a damped loop that goes slack at |x_a − x_b| = 2 M_p/K = 0.1 rad, on
+/// steps in which the outer disc of each pair moves evenly: the discs are so heavy that the loops hardly turn them.
+struct TwoLoops {
+  TwoLoops()
+      : wing(make_wing<double>(scene, outward_order(scene))),
+        system((set_parameters(wing, scene), wing), std::nullopt, work), run(system, how, goal),
+        events(system), landing(run, events) {
+    events.start();
+    run.step.t = 1, run.step.h = 0.1;
+    run.step.x = at({0, 0}), run.step.dxdt.assign(8, 0);
+    system(run.step.x, run.step.dxdt, 1);
+  }
+
+  /// Ends the step with these angles of the outer discs, reached evenly.
+  void end(const std::array<double, 2>& angles) {
+    Step<double>& step = run.step;
+    step.x = at({0, 0}), step.x1 = at(angles);
+    for (const int pair : {0, 1})
+      for (State<double>* x : {&step.x, &step.x1}) (*x)[5 + 2 * pair] = angles[pair] / step.h;
+    for (auto [x, dxdt] : {std::pair{&step.x, &step.dxdt}, std::pair{&step.x1, &step.dxdt1}}) {
+      dxdt->assign(8, 0);
+      std::copy(x->begin() + 4, x->end(), dxdt->begin());
+    }
+  }
+
+  [[nodiscard]] static State<double> at(const std::array<double, 2>& angles) {
+    return {0, angles[0], 0, angles[1], 0, 0, 0, 0};
+  }
+
+  [[nodiscard]] static Scene two_pairs() {
+    Scene scene = coaxial_discs(1e6, 1e6);
+    scene.bodies.push_back({"disc_3", 1, 1e6}), scene.bodies.push_back({"disc_4", 1, 1e6});
+    for (const int k : {0, 1}) {
+      Hinge hinge = scene.hinges[k];
+      hinge.name += "_of_pair_2";
+      hinge.parent = k == 0 ? -1 : 2, hinge.child = 2 + k;
+      scene.hinges.push_back(hinge);
+    }
+    for (const int pair : {0, 1}) {
+      Synchronisation loop;
+      loop.name = "cable_" + std::to_string(pair), loop.first = 2 * pair,
+      loop.second = 2 * pair + 1;
+      loop.stiffness = 100, loop.damping = 10, loop.preload = 5;
+      scene.synchronisations.push_back(loop);
+    }
+    return scene;
+  }
+
+  Scene scene = two_pairs();
+  Integration how;
+  Goal goal = latches_only;
+  Wing<double> wing;
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::fixed> system;
+  using AnySystem = decltype(system);
+  Underway<double, AnySystem> run;
+  Events<double, AnySystem> events;
+  Landing<double, AnySystem> landing;
+};
+
+} // namespace
+
+TEST_CASE("a jump that a refused step does not show is found in the step that ends at another") {
+  const KinkLimit jumps{1e-8, 1e-10, true};
+  // loop 1 goes slack at 0.06 s, loop 2 at 0.03 s; the refused step ends far off and has loop 2 taut throughout
+  for (const int late : {0, 1}) {
+    std::array<double, 2> refused{}, exact{};
+    refused[late] = 0.1 * 0.1 / 0.06, refused[1 - late] = 0.05;
+    TwoLoops pairs;
+    pairs.end(refused);
+    REQUIRE(pairs.landing.cut_refused_step(jumps, 1e-8));
+    CHECK(pairs.run.step.h == Approx(0.06).epsilon(1e-4));
+    exact[late] = 0.1 * pairs.run.step.h / 0.06;
+    exact[1 - late] = 0.1 * pairs.run.step.h / 0.03;
+    pairs.end(exact);
+    CHECK_FALSE(pairs.landing.correct_end());
+    REQUIRE(pairs.landing.cut_at_earlier_event(jumps));
+    CHECK(pairs.run.step.h == Approx(0.03).epsilon(1e-4));
+    // no other lies before that one
+    exact[late] = 0.1 * pairs.run.step.h / 0.06;
+    exact[1 - late] = 0.1 * pairs.run.step.h / 0.03;
+    pairs.end(exact);
+    CHECK_FALSE(pairs.landing.correct_end());
+    CHECK_FALSE(pairs.landing.cut_at_earlier_event(jumps));
+    CHECK(pairs.landing.at_jump());
+  }
 }
