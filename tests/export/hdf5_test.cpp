@@ -224,6 +224,12 @@ TEST_CASE("what cannot be exported is refused, and nothing is left of it") {
             ": found a folder, expected a file: HDF5 goes back and forth in it\n");
   CHECK(refused(path, "/dev/full").code == 2);
   CHECK(refused(path, folder.path() / "nowhere/r.h5").code == 2);
+  const std::string rowless = folder.path() / "rowless";
+  REQUIRE(run_program(folder, {"run", std::filesystem::path(path) / "campaign.json", "--no-rows",
+                               "--out", rowless})
+              .code == 0);
+  CHECK_THAT(refused(rowless, file).error,
+             Catch::Contains(rowless) && Catch::Contains("--no-rows"));
   std::filesystem::remove(std::filesystem::path(path) / runs_file);
   const auto [code, out, error] = refused(path, file);
   CHECK(code == 2);
