@@ -166,7 +166,9 @@ TEST_CASE(
     const std::size_t from = page.find(begin) + begin.size();
     return parse_json(page.substr(from, page.find("</script>", from) - from))["sets"][0];
   };
-  const Json full = data_of(made.rows), found = data_of(made.none);
+  Json full = data_of(made.rows);
+  const Json found = data_of(made.none);
+  for (Json& order : full["orders"]) order["gaps"] = Json::array(); // times between latches take rows
   CHECK((full["rows"] == true && found["rows"] == false));
   CHECK(found["made_by"].get<std::string>().ends_with(" --no-rows --out again"));
   for (const char* key : {"runs", "planned", "statuses", "reasons", "orders", "order_kinds",
