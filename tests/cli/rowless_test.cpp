@@ -168,7 +168,8 @@ TEST_CASE(
   };
   Json full = data_of(made.rows);
   const Json found = data_of(made.none);
-  for (Json& order : full["orders"]) order["gaps"] = Json::array(); // times between latches take rows
+  for (Json& order : full["orders"])
+    order["gaps"] = Json::array(); // times between latches take rows
   CHECK((full["rows"] == true && found["rows"] == false));
   CHECK(found["made_by"].get<std::string>().ends_with(" --no-rows --out again"));
   for (const char* key : {"runs", "planned", "statuses", "reasons", "orders", "order_kinds",
