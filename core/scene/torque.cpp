@@ -33,10 +33,6 @@ double measured_friction_at(const Hinge& hinge, double travel) {
   return hinge.friction.scale * std::max(value_at(table->friction(), angle_at(hinge, travel)), 0.0);
 }
 
-double friction_level_at(const Hinge& hinge, double travel) {
-  return hinge.friction.scale * hinge.friction.coulomb + measured_friction_at(hinge, travel);
-}
-
 double static_level_at(const Hinge& hinge, double travel) {
   const Friction& friction = hinge.friction;
   const bool exact = friction.model == FrictionModel::exact;

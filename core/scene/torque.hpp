@@ -15,9 +15,6 @@ namespace wingspread {
 /// Friction level measured by a torque test both ways, times friction's scale, N·m; 0 without such a test.
 [[nodiscard]] double measured_friction_at(const Hinge& hinge, double travel);
 
-/// The Coulomb level that sliding has to overcome, N·m.
-[[nodiscard]] double friction_level_at(const Hinge& hinge, double travel);
-
 /// The level that holds at rest, N·m: `static` of the exact friction, else the Coulomb level.
 [[nodiscard]] double static_level_at(const Hinge& hinge, double travel);
 

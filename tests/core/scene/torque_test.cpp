@@ -47,15 +47,13 @@ TEST_CASE("friction's levels, with what a torque test both ways adds", "[torque]
   Hinge hinge = hinge_from(0, 2);
   hinge.friction.coulomb = 0.5;
   CHECK(measured_friction_at(hinge, 0) == 0);
-  CHECK(friction_level_at(hinge, 0) == 0.5);
+  CHECK(static_level_at(hinge, 0) == 0.5);
   hinge.spring.table = std::make_shared<const TorqueTable>(
       std::vector{0.0, 2.0}, std::vector{1.0, 1.0}, std::vector{1.0, 3.0}, Interpolation::linear);
   hinge.friction.scale = 2;
   CHECK(measured_friction_at(hinge, 0.5) == 1); // 2 times half of 2 − 1
-  CHECK(friction_level_at(hinge, 0.5) == 2);
   CHECK(static_level_at(hinge, 0.5) == 2);
   hinge.friction.model = FrictionModel::exact;
   hinge.friction.static_level = 0.75;
-  CHECK(friction_level_at(hinge, 0.5) == 2);
   CHECK(static_level_at(hinge, 0.5) == 2.5);
 }
