@@ -242,7 +242,7 @@ class MarkChecks:
                 bounds = [bound for bound, trivial in ((found["lower"], 0), (found["upper"], 1)) if bound != trivial]
                 self.check(share.replace("%", "% "), found["rate"], *bounds, share=True, about=cell)
         texts = {self.words(one): None for each in sets for one in each["requirements"]}
-        matrix = {row[0]: row[1:] for row in self.table("Verdict and margin by case")}
+        matrix = {row[0]: row[1:] for row in self.table("Verdict and distance to the limit by case")}
         self.assertEqual(set(matrix), set(texts))
         for text, cells in matrix.items():
             for cell, one_set in zip(cells, sets, strict=True):
@@ -298,10 +298,13 @@ class MarkChecks:
         data = self.run_script("return W.data")
         one = data["sets"][0]
         facts = [fact.text for fact in self.all("#subtitle .facts span")]
-        for fact in (f"{one['runs']:,} runs", f"{one['replicates']} replicates", f"seed {one['seed']}", f"bounds at {100 * one['confidence']:g} %", f"shard {one['shard']}",
+        for fact in (f"{one['runs']:,} runs", f"bounds at {100 * one['confidence']:g} %", f"shard {one['shard']}",
                      f"bounds hold over {one['looks']} interim analyses", "rows from another tool"):
             self.assertTrue(any(fact in each for each in facts), f"{fact}: {facts}")
         text = self.one("#verdicts").text
+        for fact in (f"{one['replicates']} replicates", f"seed {one['seed']}", f"wingspread {one['version']}", one["hash"]):
+            self.assertIn(fact, self.one(".again").text)
+            self.assertNotIn(fact, self.one("#subtitle").text)
         self.assertIn(f"{one['label']} holds {one['runs']:,} of {one['planned']:,} planned runs", text)
         accuracy = one["accuracy"]
         worst = max(accuracy["outputs"], key=lambda row: row["largest"] / row["standard_error"])

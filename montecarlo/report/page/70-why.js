@@ -144,7 +144,7 @@
       between = W.caseEffect(set, name);
     W.fill(
       tornadoHost,
-      between ? [h("p.effects", between), W.caseTable(set, name)] : null,
+      between ? [h("p.effects", between), W.caseMechanism(set, name) ? h("p.note", W.caseMechanism(set, name)) : null, W.caseTable(set, name)] : null,
       found.length ? h("p.effects", between ? `Inside ${set.label}: ` : null, found) : null,
       tornado(set, name),
     );
