@@ -233,7 +233,7 @@ class MarkChecks:
         self.open(pages.made_up("cases"))
         sets, comparisons = self.run_script("return [W.data.sets, W.data.comparisons]")
         statuses = [one["status"] for one in sets[0]["statuses"] if one["status"] == "deployed" or any(s["count"] for each in sets for s in each["statuses"] if s["status"] == one["status"])]
-        for row, one in zip(self.table("Outcomes by case, with 95 % bounds"), sets, strict=True):
+        for row, one in zip(self.table("Outcomes by case, with 95 % two-sided bounds"), sets, strict=True):
             self.check(row[1], one["runs"], about=row[0])
             for cell, status in zip(row[2:], statuses, strict=True):
                 found = next(each for each in one["statuses"] if each["status"] == status)
@@ -341,7 +341,7 @@ class MarkChecks:
         highest = output["quantiles"][2]
         self.assertNotRegex(rows[2][1], NUMBER)
         self.assertEqual(rows[2][2], highest["note"])
-        self.assertIn("99 % among runs with a value", rows[3][0])
+        self.assertIn("99 % quantile among runs with a value", rows[3][0])
         self.check(rows[3][1], highest["among"]["value"], about="among")
         self.check(rows[3][2], highest["among"]["lower"], highest["among"]["upper"], about="among")
         factor = self.factor(output, "rad")

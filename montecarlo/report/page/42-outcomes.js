@@ -18,7 +18,7 @@
   const key = (name, style) => h("i", { class: `key ${name}`.trim(), style, "aria-hidden": "true" });
 
   function outcomes() {
-    const confidence = `${100 * (W.set().confidence || 0.95)} % bounds`;
+    const confidence = `${100 * (W.set().confidence || 0.95)} % two-sided bounds`;
     if (W.sets.length === 1) {
       const set = W.set();
       const rows = set.statuses.map((one) => ({

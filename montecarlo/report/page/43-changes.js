@@ -133,7 +133,7 @@
       .join("; ");
   }
   function table(one, set, block, limited) {
-    const level = `${F.given(100 * set.confidence)} % bounds`,
+    const level = `${F.given(100 * set.confidence)} % two-sided bounds`,
       beyond = block.levers.some((lever) => lever.beyond),
       several = elsewhere(one, set, block, block.levers[0]).length > 0;
     const rows = block.levers.map(function (lever) {

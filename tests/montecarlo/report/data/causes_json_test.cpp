@@ -162,7 +162,8 @@ TEST_CASE(
   const double factor = factors[static_cast<std::size_t>(verdict.allowed.value())];
   CHECK(lever["change"].get<double>() == Approx(factor).epsilon(1e-6));
   CHECK(lever["beyond"] == false);
-  CHECK(blocks[0]["needs"] == Json::array({{{"draws", lever["draws"]}, {"change", lever["change"]}}}));
+  CHECK(blocks[0]["needs"] ==
+        Json::array({{{"draws", lever["draws"]}, {"change", lever["change"]}}}));
   const double t = factor - 1;
   CHECK(lever["command"] ==
         "wingspread margin results/set/campaign.json --scale hinges.root.spring.torque_stowed "
