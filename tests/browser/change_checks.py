@@ -112,12 +112,12 @@ class ChangeChecks:
         self.opened_with("""W.sets.forEach((set, at) => set.unjudged = [{ output: "tip.peak_moment", largest: 3000 + at, judged: "root.peak_moment", judged_largest: 12.25 }]);""", "cases")
         (text,) = [one.text for one in self.all(".unjudged")]
         sets = self.run_script("return W.sets.map(set => set.label)")
-        self.assertEqual(text, f"No requirement limits tip peak moment (it reaches {2999 + len(sets)} N·m in {sets[-1]}). Of the loads with a requirement the largest of its kind, root peak moment, reaches 12.3 N·m.")
+        self.assertEqual(text, f"No requirement limits tip peak moment; it reaches {2999 + len(sets)} N·m in {sets[-1]}. root peak moment, the largest of its kind with a requirement, reaches 12.3 N·m.")
         mirror = lambda largest: self.run_script("""W.sets.forEach((set, at) => { set.unjudged = []; set.wing_orders = ["root", "tip"].map(name => ({ wing: name, hinges: [name], orders: [], order_kinds: 0, without_latch: 0 }));
             const [judged, other] = ["root", "tip"].map(name => set.outputs.find(one => one.name === name + ".peak_moment"));
             Object.assign(judged, { min: 0, max: 10, limits: [0] }); Object.assign(other, { min: 0, max: at ? 0 : arguments[0], limits: [] }); });
             W.outcomes(); return [...document.querySelectorAll('.unjudged')].map(one => one.textContent)""", largest)
-        self.assertEqual(mirror(9.5), [f"No requirement limits tip peak moment (it reaches 9.50 N·m in {sets[0]}). Of the loads with a requirement its mirror image, root peak moment, reaches 10.0 N·m."])
+        self.assertEqual(mirror(9.5), [f"No requirement limits tip peak moment; it reaches 9.50 N·m in {sets[0]}. root peak moment, its mirror image with a requirement, reaches 10.0 N·m."])
         self.assertEqual(mirror(8.5), [])
 
     def test_dispersions_are_named_in_words(self):

@@ -127,10 +127,11 @@
     const value = (name, number) => `${F.number(number, 3)} ${F.unit(F.unitOf(name))}`;
     return h(
       "p.unjudged",
-      h("b", "No requirement limits "),
-      `${W.verdicts.listed(shown.map((one) => `${F.nameOf(one.output)} (it reaches ${value(one.output, one.largest)}${W.sets.length > 1 ? ` in ${one.set.label}` : ""})`))}. `,
-      "Of the loads with a requirement ",
-      `${W.verdicts.listed(shown.map((one) => `${one.mirror ? "its mirror image" : "the largest of its kind"}, ${F.nameOf(one.judged)}, reaches ${value(one.judged, one.judged_largest)}`))}.`,
+      shown.map((one, at) => [
+        at ? " Nor does one limit " : h("b", "No requirement limits "),
+        `${F.nameOf(one.output)}; it reaches ${value(one.output, one.largest)}${W.sets.length > 1 ? ` in ${one.set.label}` : ""}. `,
+        `${F.nameOf(one.judged)}, ${one.mirror ? "its mirror image" : "the largest of its kind"} with a requirement, reaches ${value(one.judged, one.judged_largest)}.`,
+      ]),
     );
   };
 })();
