@@ -27,9 +27,13 @@ class ChangeChecks:
                                 ["temperature", "20.0 → 12.5", "11.0 – 14.0", "5.00 – 35.0"],
                                 ["root spring", "× 1.73", "× 1.62 – 1.84", "× 0.88 – 1.12 †"]])
         self.assertEqual(self.run_script("return arguments[0].querySelector('.needed-table th span').title", item), "tip_latch")
-        for words in ("Any one of these changes would do, by a first estimate:", "By a linear fit of 1,234 runs", "86 % of the spread", "† Beyond the values drawn: ask margin",
-                      "--scale hinges.tip.latch.damping --range 0.05 1.3"):
+        for words in ("Any one of these changes would do, by a first estimate:", "By a linear fit of 1,234 runs", "86 % of the spread", "† Beyond the values drawn: ask wingspread margin",
+                      "The bounds cover the runs' scatter about the fit, not a curved response."):
             self.assertIn(words, item.text)
+        self.assertEqual(self.run_script("return arguments[0].querySelector('.needed details').open", item), False)
+        folded = self.run_script("return arguments[0].querySelector('.needed details').textContent", item)
+        self.assertIn("--scale hinges.tip.latch.damping --range 0.05 1.3", folded)
+        self.assertIn("Static margins are not among them", folded)
         one = self.run_script("return W.verdicts.judged().find(row => row.requirement.verdict === 'failed' && row.requirement.beyond).requirement")
         if one["margin"] is not None:
             by = parsed(re.search(r"must (?:fall|rise) by ([\d.,]+)", item.text)[1])[0]
@@ -45,7 +49,7 @@ class ChangeChecks:
         draws = self.run_script("return W.set().inputs.dispersions.length")
         self.assertIn(f"Too few runs to estimate what would change it: {draws} dispersions, so at least {draws + 11} runs", self.one(".findings .needed").text)
         given('{ for: "limit", runs: 500, explained: 0.1, levers: [] }')
-        self.assertIn("a linear fit explains 10 % of the spread. Ask margin.", self.one(".findings .needed").text)
+        self.assertIn("a linear fit explains 10 % of the spread. Ask wingspread margin.", self.one(".findings .needed").text)
         given('{ for: "limit", runs: 500, explained: 0.5, levers: [] }')
         self.assertIn("No dispersed input alone is seen to do it", self.one(".findings .needed").text)
         given('{ for: "limit", runs: 500, explained: 0.9, levers: [far] }')
@@ -71,11 +75,50 @@ class ChangeChecks:
         self.assertRegex(text, r"All requirements pass with the inputs of results/margin scaled from 1\.096 to 1\.58")
         self.assertEqual(len(self.all(".needed-table")), 0)
 
-    def test_a_load_that_no_requirement_limits_is_told_once(self):
+    def test_a_change_of_a_latch_that_makes_the_peak_says_so(self):
+        """Where the damping's jump is most of the hinge's nominal peak; not for a hinge whose latch has none."""
+        given = lambda jumps: (self.opened_with("""W.sets.forEach(set => { set.latch_jumps = """ + jumps + """; set.inputs.dispersions.push({ draw: "tip_latch", words: "tip latch damping", paths: ["hinges.tip.latch.damping"], apply: "scale", law: "", low: 0, high: 1, median: 1 });
+            set.requirements.forEach(one => one.changes = [{ for: "limit", runs: 900, explained: 0.9, levers: [lever()] }]); });"""), [one.text for one in self.all(".findings .caution")])[1]
+        (text, *_) = given('[{ hinge: "tip", moment: 9.9, peak: 10 }]')
+        self.assertEqual(text, "May be an artefact of the latch law: the jump of damping times rate as the latch engages makes 99 % of the nominal peak moment of tip. Measure the damping, or give “dissipation”.")
+        self.assertEqual(given('[{ hinge: "root", moment: 9.9, peak: 10 }]'), [])
+
+    def test_a_change_that_takes_torque_warns_of_static_margins_and_deployment(self):
+        """Weaker springs, more friction, stiffer harness, stronger dampers; not the other way."""
+        told = lambda path, change: (self.opened_with(f"""W.sets.forEach(set => {{ (set.static_margins.hinges || []).forEach(one => Object.assign(one, {{ least: 0.2, lower: 0.1, required: 0 }}));
+            set.inputs.dispersions.push({{ draw: "tip_latch", words: "", paths: ["hinges.tip.{path}"], apply: "scale", law: "", low: 0, high: 1, median: 1 }});
+            set.requirements.forEach(one => one.changes = [{{ for: "limit", runs: 900, explained: 0.9, levers: [lever({{ change: {change} }})] }}]); }}); W.sets[0].static_margins.hinges[0].lower = -0.61; """), self.all(".findings .caution"))[1]
+        first = lambda path, change: next((one.text for one in told(path, change)), None)
+        label = lambda: self.run_script("return W.sets[0].label")
+        self.assertEqual(first("spring.scale", 0.63), f"Weaker springs lower the static margins (lowest now: −0.61 in {label()}) and can keep the wing from deploying.")
+        self.assertIsNone(first("spring.scale", 1.3))
+        self.assertRegex(first("friction.scale", 2), "^More friction would lower the static margins .* and can keep the wing from deploying")
+        self.assertIsNone(first("friction.scale", 0.5))
+        self.assertRegex(first("harness.scale", 2), "^A stiffer harness would lower the static margins")
+        self.assertEqual(first("damper.peak_torque", 1.4), "A stronger damper slows the deployment. Static margins count it only at a stated rate.")
+        self.assertIsNone(first("damper.peak_torque", 0.7))
+
+    def test_other_cases_that_fail_say_whether_the_change_is_enough(self):
+        self.open(pages.made_up("cases"))
+        cells = self.run_script(LEVERS + """const failed = W.sets[0].requirements.find(one => one.limit !== null && !one.static_margin);
+            W.sets.forEach((set, at) => set.requirements = [{ ...failed, verdict: "failed", beyond: 100, broken: 100, not_deployed: 0, margin: -1 - (at === 0), changes: [{ for: "limit", runs: 900, explained: 0.9,
+                levers: [lever(), warm, far], needs: [{ draws: ["tip_latch"], change: [0, 0.6, 0.3][at] }, { draws: ["temperature"], change: [0, -9, 3][at] }, ...(at === 1 ? [{ draws: ["root.spring"], change: 1.7 }] : [])] }] }]);
+            W.outcomes(); return [...document.querySelectorAll('.findings .needed-table tbody tr')].map(row => row.lastChild.textContent.replace(/\u00a0/g, " "))""")
+        b, c = self.run_script("return W.sets.slice(1).map(set => set.label)")
+        self.assertEqual(cells, [f"enough for {b} (× 0.60); {c} needs × 0.30", f"{b} needs 11.0; {c} needs 23.0", f"enough for {b} (× 1.70); {c}: not estimated"])
+
+    def test_loads_that_no_requirement_limits_are_told_in_one_line(self):
+        """The largest values are named as reached, not as limits; a mirror image too, if it reaches nearly as much."""
         self.opened_with("""W.sets.forEach((set, at) => set.unjudged = [{ output: "tip.peak_moment", largest: 3000 + at, judged: "root.peak_moment", judged_largest: 12.25 }]);""", "cases")
         (text,) = [one.text for one in self.all(".unjudged")]
         sets = self.run_script("return W.sets.map(set => set.label)")
-        self.assertEqual(text, f"No requirement limits tip peak moment, which reaches {2999 + len(sets)} N·m in {sets[-1]}. The largest of its kind with a limit: root peak moment, 12.3 N·m.")
+        self.assertEqual(text, f"No requirement limits tip peak moment; it reaches {2999 + len(sets)} N·m in {sets[-1]}. root peak moment, the largest of its kind with a requirement, reaches 12.3 N·m.")
+        mirror = lambda largest: self.run_script("""W.sets.forEach((set, at) => { set.unjudged = []; set.wing_orders = ["root", "tip"].map(name => ({ wing: name, hinges: [name], orders: [], order_kinds: 0, without_latch: 0 }));
+            const [judged, other] = ["root", "tip"].map(name => set.outputs.find(one => one.name === name + ".peak_moment"));
+            Object.assign(judged, { min: 0, max: 10, limits: [0] }); Object.assign(other, { min: 0, max: at ? 0 : arguments[0], limits: [] }); });
+            W.outcomes(); return [...document.querySelectorAll('.unjudged')].map(one => one.textContent)""", largest)
+        self.assertEqual(mirror(9.5), [f"No requirement limits tip peak moment; it reaches 9.50 N·m in {sets[0]}. root peak moment, its mirror image with a requirement, reaches 10.0 N·m."])
+        self.assertEqual(mirror(8.5), [])
 
     def test_dispersions_are_named_in_words(self):
         """In the tornado and the inputs; two with the same words keep their names; the name stays in the inputs."""

@@ -36,9 +36,14 @@ class FindingChecks:
             allowed = one.get("allowed")
             self.assertEqual(re.findall(r"where (?:at most )?(\S+) may", text), [] if allowed is None else [str(allowed or "none")], one["text"])
             if one["observed_value"] is not None:
-                bound = re.search(r"of these runs stay \w+ ([\d.,−]+) ", text)[1]
+                level, value = re.search(r"The ([\d.]+) % quantile is ([\d.,−]+) ", text).groups()
+                self.assertAlmostEqual(float(level), 100 * (one["probability"] if one["upper"] else 1 - one["probability"]))
                 factor = self.run_script("return W.format.shown(W.verdicts.unitOf(arguments[0], W.set())).factor", one)
-                self.assertAlmostEqual(parsed(bound)[0][0], one["observed_value"] * factor, delta=2 * parsed(bound)[0][1])
+                self.assertAlmostEqual(parsed(value)[0][0], one["observed_value"] * factor, delta=2 * parsed(value)[0][1])
+                bound = re.search(rf"its one-sided {100 * one['confidence']:g} % bound ([\d.,−]+) ", text)
+                self.assertEqual(bound is None, one["guaranteed_value"] is None)
+                if bound:
+                    self.assertAlmostEqual(parsed(bound[1])[0][0], one["guaranteed_value"] * factor, delta=2 * parsed(bound[1])[0][1])
             also = [other["set"] for other in judged if other["text"] == one["text"] and other["verdict"] == "failed" and other["set"] != one["set"]]
             self.assertEqual("Also fails in" in text, bool(also))
             for label in also:
@@ -78,6 +83,68 @@ class FindingChecks:
             self.assertEqual(text, ": ".join([title] + ([" · ".join(dict.fromkeys(parts))] if parts else [])))
         self.assertIn("tip latch time", dict(listed)["#outputs"])
         self.assertIn("ambient", dict(listed)["#inputs"])
+
+    def test_why_fewer_runs_may_break_a_requirement_than_its_share(self):
+        """Said where the confidence takes some of them, and not where all of the share may."""
+        self.open(pages.made_up("loads"))
+        told = lambda allowed: self.run_script("""W.sets.forEach(set => { set.runs = 1000; set.requirements.forEach(one => Object.assign(one, { allowed: arguments[0], probability: 0.99, confidence: 0.9 })); }); W.outcomes();
+            return document.querySelector('.findings li').textContent""", allowed)
+        self.assertIn("where at most 5 may (1 % of the runs is 10; 90 % confidence takes the rest). ", told(5))
+        self.assertIn("where none may (1 % of the runs is 10; 90 % confidence takes the rest). ", told(0))
+        self.assertIn("where at most 10 may. ", told(10))
+
+    def test_a_share_that_cannot_be_shown_better_is_told(self):
+        """No run breaks it, so that the distance is as large as this number of runs can show; else nothing."""
+        self.open(pages.made_up("cases"))
+        told = lambda broken: self.run_script("""W.sets.forEach(set => set.requirements = [{ ...set.requirements[0], name: "DEP-1", id: "", output: "deployed", kind: "status", limit: null, text: "DEP-1: deployed", verdict: "passed", static_margin: false,
+            probability: 0.997, confidence: 0.9, observed: 1, guaranteed: 0.9977, margin: null, broken: arguments[0], runs: set.runs, not_deployed: 0, changes: [] }]); W.outcomes();
+            return [...document.querySelectorAll('.matrix')].map(one => one.closest('.scroll').nextElementSibling?.textContent ?? '')""", broken)
+        runs = self.run_script("return W.sets[0].runs")
+        self.assertEqual(told(0), [f"DEP-1: no run breaks it. Its distance is small because {runs:,} runs can show no more than 99.77 % at 90 % confidence."])
+        self.assertNotIn("can show no more", told(1)[0])
+
+    def test_the_mechanism_of_a_case_is_named(self):
+        """The parameters that the cases change through a draw's tables, the largest factor first; without small ones; or the inputs that they set."""
+        self.open(pages.made_up("cases"))
+        clear = """W.sets.forEach((set, at) => { set.inputs.scene.forEach(one => one.case_value = null); set.inputs.dispersions.forEach(one => Object.assign(one, { median: 1, tables: [] })); """
+        told = lambda script: self.run_script(clear + script + " }); W.why(); return W.caseMechanism(W.set(), W.chosen.output)").replace("\u00a0", " ")
+        table = """const table = (words, values) => ({ words, paths: [], apply: "scale", unit: "", at: [0, 1], value: [1, 1], of_median: values[at] });"""
+        labels = self.run_script("return W.sets.map(set => set.label)")
+        self.assertEqual(told(table + """set.inputs.dispersions.push({ draw: "temperature", words: "temperature", paths: [], apply: "by a table", law: "normal", low: 0, high: 1, median: 20 * at,
+            tables: [table("friction of all hinges", [2, 1, 0.905]), table("harness of all hinges", [2.34, 1, 0.9]), table("damper peak torque", [0.994, 1, 0.993])] })"""),
+            f"Through temperature: harness of all hinges × 2.34 in {labels[0]}, × 0.900 in {labels[2]}; friction of all hinges × 2.00 in {labels[0]}, × 0.905 in {labels[2]}.")
+        self.run_script("W.sets.forEach(set => set.inputs.dispersions.pop())")
+        self.assertEqual(told(""), "")
+        label, unit = self.run_script("const one = W.sets[0].inputs.scene.find(one => typeof one.value === 'number' && one.unit); return [one.label, W.format.unit(one.unit)]")
+        self.assertEqual(told("""if (at === 1) Object.assign(set.inputs.scene.find(one => typeof one.value === 'number' && one.unit), { case_value: 12.5 })"""),
+                         f"The cases change: {label} 12.5 {unit} in {labels[1]}.")
+
+    def test_a_nominal_base_that_does_not_turn_is_explained_by_mirror_images(self):
+        """Only where the nominal rate is 0 up to rounding and every parameter of the two wings agrees but for its sign."""
+        self.open(pages.made_up("plain"))
+        told = lambda script: self.run_script("""const set = W.set(), [one, other] = set.wing.hinges, body = hinge => set.wing.bodies.find(each => set.wing.hinges[each.hinge] === hinge).name;
+            set.wing_orders = [one, other].map(hinge => ({ wing: hinge.name, hinges: [hinge.name], orders: [], order_kinds: 0, without_latch: 0 }));
+            set.inputs.scene = [1, -1].flatMap((sign, at) => [{ path: `hinges.${[one, other][at].name}.spring.scale`, label: '', unit: '', value: sign * 1.2, case_value: null }, { path: `bodies.${body([one, other][at])}.mass`, label: '', unit: 'kg', value: 3, case_value: null }]);
+            Object.assign(set.outputs[0], { name: 'base.peak_rate', nominal: 2e-14, min: 0, max: 0.12 }); """ + script + """ W.outputs();
+            return [...document.querySelectorAll('#outputs .note')].map(one => one.textContent).filter(text => text.includes('mirror'))""")
+        self.assertEqual(len(told("")), 1)
+        self.assertEqual(told("set.outputs[0].nominal = 1e-3;"), [])
+        self.assertEqual(told("set.inputs.scene[1].value = 3.1;"), [])
+        self.assertEqual(told("set.inputs.scene[2].case_value = 1.1;"), [])
+
+    def test_the_selected_case_gives_the_numbers_of_a_warning(self):
+        self.open(pages.made_up("cases"))
+        self.run_script("W.sets.forEach((set, at) => set.warnings = [`jump of ${at + 5} %`]); W.choose('set', 1)")
+        label = self.run_script("return W.set().label")
+        self.assertIn(f"jump of 6 % (every case; numbers of {label})", self.one("#verdicts .warnings").text)
+
+    def test_the_worst_run_of_a_case_names_its_case(self):
+        self.open(pages.made_up("cases"))
+        for label, names in self.run_script("return W.sets.map(set => [set.label, set.motions.map(one => one.label)])"):
+            worst = [name for name in names if name.startswith("worst")]
+            self.assertTrue(worst)
+            for name in worst:
+                self.assertEqual(name, f"worst in {label}: root peak moment")
 
     def test_static_margins_that_are_too_low_are_in_the_first_screen(self):
         """The lowest of all cases, in which cases, and that no requirement asks for them; nothing where all are high enough."""
@@ -135,18 +202,19 @@ class FindingChecks:
                     figure.querySelector('.legend').textContent, figure.querySelector('.note').textContent]""")
         self.assertEqual(paths[0], len(runs))
         self.assertEqual(ticks[-1], str(runs[-1]))
-        self.assertIn("95 % bounds", legend)
+        self.assertIn("95 % two-sided bounds", legend)
         self.assertIn(f"From {runs[-1]} runs on both bounds are known", note)
 
     def test_what_a_bound_bounds_is_said(self):
         """The column of bounds, the dispersions without a visible effect, the share of runs with a larger error."""
         self.open(pages.made_up("plain"))
         heads = lambda: self.run_script("return [...document.querySelectorAll('table.requirements thead th')].map(one => one.textContent)")
-        self.assertIn("90 % confidence bound", heads())
+        self.assertIn("One-sided 90 % bound", heads())
         self.run_script("""const set = W.set(); set.requirements[0].confidence = 0.8; set.sensitivity.idle = ['tip.harness'];
             set.accuracy.beyond_largest = { runs: 0, share_at_most: 0.259 }; W.outcomes(); W.why()""")
-        self.assertIn("Confidence bound", heads())
-        self.assertIn("With 95 % confidence at most 25.9 % of all runs have a larger error", self.one("#verdicts").text)
+        self.assertIn("One-sided bound", heads())
+        repeated = self.run_script("return W.set().accuracy.runs")
+        self.assertIn(f"With 95 % confidence at most 25.9 % of all runs have a larger error than the largest of these {repeated};", self.one("#verdicts").text)
         self.assertRegex(self.one("#why").text, r"tip\.harness\. .*95 % confidence for all outputs together \(Bonferroni\)")
 
     def test_the_player_opens_at_the_start(self):
@@ -262,7 +330,7 @@ class FindingChecks:
             self.assertEqual(len({text.partition(".")[2].__len__() for row in rows for text in row[1:] if text != "–"}), 1)  # as many decimals everywhere
         self.open(pages.made_up("loads"))
         for item in self.all(".findings li"):
-            self.assertRegex(item.text, r"The case .*(moves|does not move) the mean of")
+            self.assertRegex(item.text, r"Mean by case: cold \S+, hot \S+ ")
         self.open(pages.made_up("plain"))
         self.assertNotIn("The case", self.one("#why").text)
 

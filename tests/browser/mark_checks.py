@@ -233,7 +233,7 @@ class MarkChecks:
         self.open(pages.made_up("cases"))
         sets, comparisons = self.run_script("return [W.data.sets, W.data.comparisons]")
         statuses = [one["status"] for one in sets[0]["statuses"] if one["status"] == "deployed" or any(s["count"] for each in sets for s in each["statuses"] if s["status"] == one["status"])]
-        for row, one in zip(self.table("Outcomes by case, with 95 % bounds"), sets, strict=True):
+        for row, one in zip(self.table("Outcomes by case, with 95 % two-sided bounds"), sets, strict=True):
             self.check(row[1], one["runs"], about=row[0])
             for cell, status in zip(row[2:], statuses, strict=True):
                 found = next(each for each in one["statuses"] if each["status"] == status)
@@ -242,7 +242,7 @@ class MarkChecks:
                 bounds = [bound for bound, trivial in ((found["lower"], 0), (found["upper"], 1)) if bound != trivial]
                 self.check(share.replace("%", "% "), found["rate"], *bounds, share=True, about=cell)
         texts = {self.words(one): None for each in sets for one in each["requirements"]}
-        matrix = {row[0]: row[1:] for row in self.table("Verdict and margin by case")}
+        matrix = {row[0]: row[1:] for row in self.table("Verdict and distance to the limit by case")}
         self.assertEqual(set(matrix), set(texts))
         for text, cells in matrix.items():
             for cell, one_set in zip(cells, sets, strict=True):
@@ -298,10 +298,13 @@ class MarkChecks:
         data = self.run_script("return W.data")
         one = data["sets"][0]
         facts = [fact.text for fact in self.all("#subtitle .facts span")]
-        for fact in (f"{one['runs']:,} runs", f"{one['replicates']} replicates", f"seed {one['seed']}", f"bounds at {100 * one['confidence']:g} %", f"shard {one['shard']}",
+        for fact in (f"{one['runs']:,} runs", f"bounds at {100 * one['confidence']:g} %", f"shard {one['shard']}",
                      f"bounds hold over {one['looks']} interim analyses", "rows from another tool"):
             self.assertTrue(any(fact in each for each in facts), f"{fact}: {facts}")
         text = self.one("#verdicts").text
+        for fact in (f"{one['replicates']} replicates", f"seed {one['seed']}", f"wingspread {one['version']}", one["hash"]):
+            self.assertIn(fact, self.one(".again").text)
+            self.assertNotIn(fact, self.one("#subtitle").text)
         self.assertIn(f"{one['label']} holds {one['runs']:,} of {one['planned']:,} planned runs", text)
         accuracy = one["accuracy"]
         worst = max(accuracy["outputs"], key=lambda row: row["largest"] / row["standard_error"])
@@ -338,7 +341,7 @@ class MarkChecks:
         highest = output["quantiles"][2]
         self.assertNotRegex(rows[2][1], NUMBER)
         self.assertEqual(rows[2][2], highest["note"])
-        self.assertIn("99 % among runs with a value", rows[3][0])
+        self.assertIn("99 % quantile among runs with a value", rows[3][0])
         self.check(rows[3][1], highest["among"]["value"], about="among")
         self.check(rows[3][2], highest["among"]["lower"], highest["among"]["upper"], about="among")
         factor = self.factor(output, "rad")

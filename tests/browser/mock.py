@@ -167,6 +167,7 @@ def make_set(label, seed, hinge_count=3, count=2000, shift=0.0, stalls=0.0, all_
             ("stalled", f"{hinges[-1]} sticks, and what loads it stays as it is", tally[1]), ("failed", "more than 1000000 steps", tally[4])) if k],
         "orders": orders, "order_kinds": kinds, "without_latch": sum(not row["order"] for row in rows), "wing_orders": [], "kernel": None,
         "warnings": ["root turned beyond its stowed angle by more than 1 deg in 12 runs, and has no stop"] if full else [],
+        "latch_jumps": [],
         "accuracy": {"runs": 40, "method": "auto", "rtol": 1e-8, "reference_method": "dop853", "reference_rtol": 1e-12, "order_in_doubt": 0,
                      "outputs": [{"output": o["name"], "largest": 3e-7 * abs(o["mean"]), "rms": 1e-7 * abs(o["mean"]),
                                   "standard_error": o["mean_error"]} for o in outputs if o["mean"] and o["mean_error"]]} if full else None,

@@ -40,7 +40,7 @@ def motions(hinges, rows, folder, all_failed):
     first = rows[0]
     found = [nominal, motion(f"median of {hinges[0]}.peak_moment", "its value is the median", first["run"], first["status"], "", first["times"], hinges, folder)]
     worst = max(rows, key=lambda row: row["peaks"][hinges[0]])
-    found.append(motion(f"worst {hinges[0]}.peak_moment", "the largest of all runs", worst["run"], worst["status"], "", worst["times"], hinges, folder))
+    found.append(motion(f"worst: {hinges[0]}.peak_moment", "the largest of all runs", worst["run"], worst["status"], "", worst["times"], hinges, folder))
     for row in rows:
         if row["status"] == "stalled":
             found.append(motion("stalled", "it does not deploy", row["run"], "stalled", f"{hinges[-1]} sticks", row["times"], hinges, folder))

@@ -174,16 +174,21 @@ Json lever_json(const PageSource& source, const LeverChange& each) {
 }
 
 Json block_json(const PageSource& source, const Verdict& verdict, NeededFor what) {
-  constexpr std::size_t most_levers = 3;
+  constexpr std::size_t most_levers = 3, most_needs = 24;
   const auto found = lever_changes(what, source.stored.campaign, verdict, source.results,
-                                   source.replication, source.confidence, most_levers);
+                                   source.replication, source.confidence, most_needs);
   Json json{{"for", what == NeededFor::limit ? "limit" : "deployment"},
             {"runs", found ? found->runs : 0},
             {"explained", found ? page_number(found->explained, 3) : Json(nullptr)},
-            {"levers", Json::array()}};
-  if (found)
-    for (const LeverChange& each : found->levers)
-      json["levers"].push_back(lever_json(source, each));
+            {"levers", Json::array()},
+            {"needs", Json::array()}};
+  if (!found) return json;
+  const std::span<const LeverChange> all = found->levers;
+  for (const LeverChange& each : all.first(std::min(all.size(), most_levers)))
+    json["levers"].push_back(lever_json(source, each));
+  for (const LeverChange& each : all)
+    json["needs"].push_back(
+        {{"draws", each.lever.draws}, {"change", page_number(each.change.change)}});
   return json;
 }
 

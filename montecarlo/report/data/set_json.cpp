@@ -209,6 +209,16 @@ std::vector<std::string> all_warnings(const PageSource& source, const PageDetail
   return lines;
 }
 
+/// Hinges whose peak moment in the nominal run is mostly the jump of their latch's damping.
+Json latch_jumps_json(const Summary& summary) {
+  Json json = Json::array();
+  for (const LatchJump& jump : summary.latch_jumps)
+    json.push_back({{"hinge", jump.hinge},
+                    {"moment", page_number(jump.moment)},
+                    {"peak", page_number(jump.peak)}});
+  return json;
+}
+
 Json requirements_json(const PageSource& source) {
   Json json = Json::array();
   for (const Verdict& verdict : source.summary.requirements)
@@ -230,6 +240,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["without_latch"] = summary.without_latch;
   json["wing_orders"] = std::move(wings);
   json["warnings"] = all_warnings(source, detail);
+  json["latch_jumps"] = latch_jumps_json(summary);
   json["accuracy"] = accuracy_json(summary);
   json["requirements"] = requirements_json(source);
   json["unjudged"] = unjudged_json(source);

@@ -71,7 +71,7 @@
 
   // The level of a quantile: "1 %", "99.5 %".
   F.level = (p) => F.share(p).replace(/\.0 /, " ");
-  F.quantileName = (p) => (p === 0.5 ? "Median" : F.level(p));
+  F.quantileName = (p) => (p === 0.5 ? "Median" : `${F.level(p)} quantile`);
 
   // Units: "N m" reads N·m; radians may be shown in degrees.
   F.unit = (unit) => (unit || "").replace(/ /g, "·").replace(/\^2/g, "²").replace(/\*/g, "·");

@@ -1,4 +1,4 @@
-// The first screen: the verdict and margin of every requirement, by case, the worst first.
+// The first screen: the verdict of every requirement and its distance to the limit, by case, the worst first.
 (function () {
   "use strict";
   const W = window.wingspread;
@@ -115,87 +115,6 @@
   const keyOf = (one) => one.text;
   const shortOf = (one) => one.id || one.name || F.nameOf(one.output);
 
-  // One sentence where wings that did not deploy are the only failures of a set.
-  function cause(rows) {
-    const sentences = W.sets.map(function (set, at) {
-      const failed = rows.filter((row) => row.at === at && verdictOf(row.requirement.verdict) === "failed");
-      const only = failed.every(({ requirement: one }) => one.not_deployed > 0 && one.not_deployed === one.broken);
-      if (failed.length < 2 || !only) return null;
-      const count = failed[0].requirement.not_deployed;
-      return `${W.sets.length > 1 ? `${set.label}: ` : ""}${F.count(count)} of ${F.runs(set.runs)} did not deploy, and a run that does not deploy breaks every requirement. No deployed run is beyond a limit.`;
-    });
-    return sentences.filter(Boolean).map((text) => h("p.lead", text));
-  }
-  // Where more runs than may did not deploy: how many, and what would change it; once for each set.
-  function deployments(rows) {
-    const items = W.sets.map(function (set, at) {
-      const failed = rows.filter(
-        (row) => row.at === at && (row.requirement.changes || []).some((block) => block.for === "deployment"),
-      );
-      if (!failed.length) return null;
-      const { requirement: one } = failed.find((row) => row.requirement.kind === "status") || failed[0];
-      return h(
-        "li",
-        h("b", shortOf(one)),
-        `: ${W.sets.length > 1 ? `in ${set.label} ` : ""}${F.count(one.not_deployed)} of ${F.runs(set.runs)} (${F.share(one.not_deployed / Math.max(1, set.runs))}) did not deploy${mayBreak(one)}. `,
-        W.needed(one, set, "deployment"),
-      );
-    });
-    return items.some(Boolean) ? h("ul.findings.stalls", items.filter(Boolean)) : null;
-  }
-  const mayBreak = (one) =>
-    W.isNumber(one.allowed) ? `, where ${one.allowed ? `at most ${F.count(one.allowed)}` : "none"} may` : "";
-  // For each requirement that values beyond its limit break: where, how many runs, by how much, and what moves the output.
-  function findings(rows) {
-    const seen = new Set();
-    const items = rows
-      .filter(({ requirement: one }) => verdictOf(one.verdict) === "failed" && W.isNumber(one.limit) && one.beyond)
-      .filter(({ requirement: one }) => !seen.has(keyOf(one)) && seen.add(keyOf(one)))
-      .map((row) => finding(row, alsoIn(rows, row)));
-    if (!items.length) return null;
-    const more = items.splice(4).length;
-    return [h("ul.findings", items), more ? h("p.note", `${F.counted(more, "more requirement")} below.`) : null];
-  }
-  // The other sets in which the requirement of a row fails, each with its margin.
-  const alsoIn = (rows, { requirement, at }) =>
-    rows
-      .filter((row) => row.at !== at && keyOf(row.requirement) === keyOf(requirement) && verdictOf(row.requirement.verdict) === "failed")
-      .map((row) => (marginText(row.requirement, row.set) === F.none ? row.set.label : `${row.set.label} (${marginText(row.requirement, row.set)})`));
-  function finding({ requirement: one, set, at }, also) {
-    const several = W.sets.length > 1,
-      side = one.upper ? "above" : "below",
-      limit = F.written(one.limit, unitOf(one, set)),
-      name = F.nameOf(one.output);
-    const runs = (one.beyond_runs || []).map((each) => each.run);
-    return h(
-      "li",
-      h("b", shortOf(one)),
-      `: ${several ? `in ${set.label} ` : ""}${F.count(one.beyond)} of ${F.runs(set.runs)} (${F.share(one.beyond / Math.max(1, set.runs))}) ${one.beyond === 1 ? "has" : "have"} ${one.abs ? `|${name}|` : name} ${side} ${limit}${mayBreak(one)}. `,
-      W.isNumber(one.observed_value)
-        ? `${F.given(100 * one.probability)} % of these runs stay ${one.upper ? "below" : "above"} ${valueText(one.observed_value, one, set)}. `
-        : null,
-      also.length ? `Also fails in ${listed(also)}. ` : null,
-      runs.length ? [`The worst run is `, h("button.run", { onclick: () => W.selectRun(at, runs[0]) }, String(runs[0])), ". "] : null,
-      W.caseMeans(set, one.output),
-      W.needed(one, set, "limit"),
-    );
-  }
-  // One load of each kind that no requirement limits, if it is larger than all that are judged in any set.
-  function unjudged() {
-    const kindOf = (name) => name.split(".").pop(),
-      judgedOf = (kind) => d3.max(W.sets, (set) => d3.max(W.outputsOf(set).filter((one) => kindOf(one.name) === kind && (one.limits || []).length), (one) => Math.max(Math.abs(one.min), Math.abs(one.max))));
-    const all = W.sets
-      .flatMap((set) => (set.unjudged || []).map((one) => ({ ...one, set, kind: kindOf(one.output) })))
-      .filter((one) => !(one.largest <= judgedOf(one.kind)));
-    const worst = [...d3.rollup(all, (each) => each.reduce((a, b) => (b.largest > a.largest ? b : a)), (one) => one.kind).values()];
-    return worst.map(({ output, largest, judged, judged_largest, set }) =>
-      h(
-        "p.unjudged",
-        h("b", "No requirement limits "),
-        `${F.nameOf(output)}, which reaches ${F.number(largest, 3)} ${F.unit(F.unitOf(output))}${W.sets.length > 1 ? ` in ${set.label}` : ""}. The largest of its kind with a limit: ${F.nameOf(judged)}, ${F.number(judged_largest, 3)} ${F.unit(F.unitOf(output))}.`,
-      ),
-    );
-  }
   const listed = (names) =>
     names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}` : names[0];
 
@@ -290,10 +209,15 @@
     return lines.filter(Boolean).flatMap((each) => [each, " "]); // the blank parts the lines for those who hear them
   }
 
-  // "90 % confidence bound", if all requirements ask for the same confidence.
+  // "One-sided 90 % bound", if all requirements ask for the same confidence.
   function boundName(rows) {
     const levels = new Set(rows.map((row) => row.requirement.confidence));
-    return levels.size === 1 ? `${F.given(100 * [...levels][0])} % confidence bound` : "Confidence bound";
+    return levels.size === 1 ? `One-sided ${F.given(100 * [...levels][0])} % bound` : "One-sided bound";
+  }
+  // What the runs say of a requirement: a quantile of a limited output, else a share of the runs.
+  function quantityOf(rows) {
+    const limited = new Set(rows.map((row) => W.isNumber(row.requirement.limit)));
+    return limited.size > 1 ? "Quantile or share" : limited.has(true) ? "Quantile" : "Share";
   }
   function requirementTable(rows) {
     const several = W.sets.length > 1;
@@ -301,9 +225,9 @@
       "Requirement",
       "Verdict",
       several && "Case",
-      number("Observed"),
+      number(quantityOf(rows)),
       number(boundName(rows)),
-      number("Margin"),
+      number("Distance to the limit"),
       "Against the limit",
       "Runs that break it",
     ].filter(Boolean);
@@ -314,6 +238,7 @@
           "span",
           wordsOf(one, set),
           h("span.evidence", one.evidence, one.disproved && !/disproved/.test(one.evidence) ? " · disproved" : null),
+          isAtMost(one) ? h("span.evidence", `${F.runs(set.runs)} can show no more`) : null,
         ),
         W.badge(one.verdict),
         several && h("span.nowrap", set.label),
@@ -327,6 +252,14 @@
     return W.table("Requirements, the worst first", columns, body, { class: "requirements", stacks: true });
   }
 
+  // Whether a requirement on a share has as large a bound as its number of runs can show: no run breaks it.
+  const isAtMost = (one) => !W.isNumber(one.limit) && verdictOf(one.verdict) === "passed" && one.broken === 0 && W.isNumber(one.guaranteed);
+  function thinBecauseOfRuns(rows) {
+    const found = [...new Map(rows.filter(({ requirement: one }) => isAtMost(one)).map((row) => [keyOf(row.requirement), row])).values()];
+    return found.map(({ requirement: one, set }) =>
+      h("p.note", `${shortOf(one)}: no run breaks it. Its distance is small because ${F.runs(set.runs)} can show no more than ${F.share(one.guaranteed)} at ${F.given(100 * one.confidence)} % confidence.`),
+    );
+  }
   // One cell per requirement and case.
   function matrix(rows) {
     const texts = [...new Set(rows.map((row) => keyOf(row.requirement)))];
@@ -343,7 +276,7 @@
       return h("span.cell", W.badge(one.verdict, true), " ", known ? margin : one.not_deployed ? `${F.count(one.not_deployed)} not deployed` : F.none);
     };
     return W.table(
-      "Verdict and margin by case",
+      "Verdict and distance to the limit by case",
       ["Requirement", ...W.sets.map((set) => number(set.label))],
       texts.map((text) => [words(text), ...W.sets.map((set, at) => cell(text, at))]),
       { class: "matrix", showCaption: true, stacks: true },
@@ -367,20 +300,19 @@
         : null;
     return [
       headline(rows),
+      several ? [matrix(rows), thinBecauseOfRuns(rows)] : null,
+      W.unjudged(),
       W.staticShortfall(),
-      cause(rows),
-      deployments(rows),
-      findings(rows),
-      unjudged(),
-      several ? [matrix(rows), h("h3", "The worst case of each requirement")] : null,
+      W.findings(rows),
+      several ? h("h3", "The worst case of each requirement") : null,
       requirementTable(shown),
       h(
         "p.note",
-        "“99 % at 90 %”: 99 % of all deployments must keep the limit, and the runs must show it with a confidence of 90 %. So fewer runs may break it than 1 % of them. Pass: the runs show it. Fail: they do not, though there are enough of them; “disproved”: they show the opposite, that fewer deployments keep the limit. Undecided: too few runs. ● Observed: the quantile (or the share) of these runs. ┃ Confidence bound: the bound of that quantile (or share) over all deployments, at the required confidence. Shaded: where the requirement passes; each picture has a scale of its own. Margin: the distance from the confidence bound to the limit, of a share in percentage points.",
+        "“99 % at 90 %”: 99 % of all deployments must keep the limit, and the runs must show it with a confidence of 90 %. So fewer runs may break it than 1 % of them. Pass: the runs show it. Fail: they do not, though there are enough of them; “disproved”: they show the opposite, that fewer deployments keep the limit. Undecided: too few runs. ● Quantile (or share) of these runs. ┃ Its one-sided bound over all deployments, at the required confidence. Shaded: where the requirement passes; each picture has a scale of its own. Distance to the limit: from the one-sided bound, positive where the requirement passes; of a share in percentage points.",
       ),
       more,
     ];
   }
 
-  W.verdicts = { judged, requirements, verdictOf, unitOf, guaranteed, observed, marginText, wordsOf, keyOf };
+  W.verdicts = { judged, requirements, verdictOf, unitOf, guaranteed, observed, valueText, marginText, wordsOf, keyOf, shortOf, listed };
 })();

@@ -18,7 +18,7 @@
   const key = (name, style) => h("i", { class: `key ${name}`.trim(), style, "aria-hidden": "true" });
 
   function outcomes() {
-    const confidence = `${100 * (W.set().confidence || 0.95)} % bounds`;
+    const confidence = `${100 * (W.set().confidence || 0.95)} % two-sided bounds`;
     if (W.sets.length === 1) {
       const set = W.set();
       const rows = set.statuses.map((one) => ({
@@ -169,7 +169,8 @@
   }
 
   function warnings() {
-    const all = W.sets.flatMap((set) => (set.warnings || []).map((text) => ({ set, text })));
+    // The selected case first: of warnings that differ in numbers, its numbers are shown.
+    const all = [W.set(), ...W.sets.filter((set) => set !== W.set())].flatMap((set) => (set.warnings || []).map((text) => ({ set, text })));
     // Warnings that differ in numbers only are one.
     const kind = (text) => text.replace(/\d[\d.]*(e[-+]?\d+)?/g, "#");
     const texts = [...new Map(all.map((one) => [kind(one.text), one.text]).reverse()).values()].reverse();
@@ -181,7 +182,7 @@
       ...texts.map(function (text) {
         const same = all.filter((one) => one.text === text).map((one) => one.set.label),
           other = all.filter((one) => one.text !== text && kind(one.text) === kind(text)).map((one) => one.set.label),
-          where = [...new Set([...same, ...other])];
+          where = W.sets.map((set) => set.label).filter((label) => same.includes(label) || other.includes(label));
         return h(
           "li",
           text,
@@ -248,7 +249,7 @@
           ? ` In ${F.runs(one.order_in_doubt)} the outcome or the latch order is in doubt${one.in_doubt ? `: ${one.in_doubt.join(", ")}` : ""}.`
           : ` In none of them the outcome or the latch order is in doubt.`,
         one.beyond_largest
-          ? ` With ${F.given(100 * set.confidence)} % confidence at most ${F.share(one.beyond_largest.share_at_most)} of all runs have a larger error; more repeated runs lower this bound.`
+          ? ` With ${F.given(100 * set.confidence)} % confidence at most ${F.share(one.beyond_largest.share_at_most)} of all runs have a larger error than the largest of these ${F.count(one.runs)}; more repeated runs lower this bound.`
           : null,
         one.moved && one.moved.runs
           ? ` In ${F.runs(one.moved.runs)} an output moves by more than 1 %: at most ${F.share(one.moved.share_at_most)} of all.`
@@ -259,6 +260,7 @@
     ];
   }
 
+  const designOf = (set) => `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}`;
   function again() {
     const made = [...new Map(W.sets.filter((set) => set.made_by).map((set) => [set.made_by, set])).values()];
     return h(
@@ -274,24 +276,12 @@
           `wingspread ${set.version}, seed ${set.seed}, campaign hash `,
           h("code.hash", set.hash),
         ]),
+        W.set().design ? `; ${designOf(W.set())}` : null,
         made.length ? ". The same seed gives the same bytes on any number of threads." : null,
       ),
     );
   }
 
-  // The document's number, revision, date, author and organisation, as the user gave them.
-  function identity(words) {
-    const kinds = [
-      ["document", "Document"],
-      ["revision", "Revision"],
-      ["date", "Date"],
-      ["author", "Author"],
-      ["organisation", "Organisation"],
-    ].filter(([key]) => words[key]);
-    return kinds.length
-      ? h("dl.identity", kinds.map(([key, name]) => h("div", h("dt", name), h("dd", words[key]))))
-      : null;
-  }
   // Where requirements have an identifier, a source or a rationale, a table traces them.
   function traced() {
     const all = [...new Map(W.sets.flatMap((set) => (set.requirements || []).map((one) => [W.verdicts.keyOf(one), { one, set }]))).values()],
@@ -314,58 +304,8 @@
       : null;
   }
 
-  // "2 folders (A, B) of 3 cases (cold, ambient, hot)", "3 cases: cold, ambient, hot".
-  function extent() {
-    const distinct = (read) => [...new Set(W.sets.map(read))],
-      cases = distinct((set) => set.case).filter(Boolean),
-      folders = distinct((set) => (set.case ? set.label.split(" · ").slice(0, -1).join(" · ") : set.label)).filter(Boolean);
-    if (cases.length && folders.length > 1 && W.sets.length === cases.length * folders.length)
-      return `${folders.length} folders (${folders.join(", ")}) of ${cases.length} cases (${cases.join(", ")})`;
-    return `${W.sets.length} ${cases.length ? "cases" : "folders"}: ${W.sets.map((set) => set.label).join(", ")}`;
-  }
-  function subtitle() {
-    const set = W.set(),
-      one = (read) => [...new Set(W.sets.map(read))];
-    const facts = [
-      W.sets.length > 1 ? extent() : null,
-      W.onlyStudies
-        ? null
-        : one((each) => each.runs).length === 1
-          ? `${F.runs(set.runs)}${W.sets.length > 1 ? " each" : ""}`
-          : `${F.count(d3.min(W.sets, (each) => each.runs))} to ${F.runs(d3.max(W.sets, (each) => each.runs))}`,
-      set.design
-        ? `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}`
-        : null,
-      set.seed === "" ? null : `seed ${one((each) => each.seed).join(", ")}`,
-      set.foreign ? "rows from another tool" : null,
-      `bounds at ${100 * set.confidence} %`,
-      set.shard ? `shard ${set.shard}` : null,
-      set.stopped ? `stopped early: its goals were met (${F.count(set.planned)} runs planned)` : null,
-      set.looks > 1 ? `bounds hold over ${set.looks} interim analyses` : null,
-      `wingspread ${one((each) => each.version).join(", ")}`,
-      W.sets.length > 1 ? null : `hash ${String(set.hash).slice(0, 12)}`, // of several sets: below their commands
-    ];
-    const words = W.data.document || {};
-    W.fill(
-      document.getElementById("subtitle"),
-      words.title ? h("p.wing-name", `Wing: ${W.data.title}`) : null,
-      identity(words),
-      set.description ? h("p.description", set.description) : null,
-      h(
-        "p.facts",
-        facts.filter(Boolean).map((fact) => h("span", fact)),
-      ),
-    );
-    const wings = [...new Set(W.sets.map((each) => each.campaign))].filter(Boolean),
-      title = words.title || (wings.length > 1 ? wings.join(" and ") : W.data.title);
-    document.getElementById("title").textContent = title;
-    document.title = words.title || `${title} · wingspread report`;
-    document.getElementById("colophon").textContent =
-      `Made by ${W.data.command} (wingspread ${W.data.version}). This page contains its data and uses no network.`;
-  }
-
   W.outcomes = function () {
-    subtitle();
+    W.subtitle();
     if (W.onlyStudies) {
       const labels = W.studySets.map((set) => `${set.label}${set.made_by ? ` (${set.made_by})` : ""}`);
       W.fill(

@@ -23,11 +23,13 @@
     return one.scaled
       ? {
           by: `× ${times(one.change)}`,
+          need: `×\u00a0${times(one.change)}`,
           bounds: `× ${range(one.lower, one.upper, times)}`,
           drawn: `× ${range(one.least, one.most, times)}`,
         }
       : {
           by: `${three(at(0))} → ${three(at(one.change))} ${unit}`.trim(),
+          need: `${three(at(one.change))} ${unit}`.trim(),
           bounds: range(at(one.lower), at(one.upper), three),
           drawn: range(at(one.least), at(one.most), three),
         };
@@ -50,35 +52,115 @@
     return h(
       "p.needed",
       `All requirements pass with the inputs of ${found.label} scaled ${W.isNumber(low) ? `from ${F.number(low, 4)}` : "below"} ${W.isNumber(high) ? `to ${F.number(high, 4)}` : "upwards"}: `,
-      h("a", { href: "#why" }, "margin window"),
+      h("a", { href: "#why" }, "permissible spring strength"),
       ".",
     );
   }
   function aim(one, set, limited) {
     if (!limited || !W.isNumber(one.margin)) return limited ? "Of the runs that deploy: " : "";
     const by = W.verdicts.marginText({ ...one, margin: -one.margin }, set).replace("+", "");
-    return `To pass, the confidence bound (${W.verdicts.guaranteed(one, set)}) must ${one.upper ? "fall" : "rise"} by ${by}. `;
+    return `To pass, the one-sided bound (${W.verdicts.guaranteed(one, set)}) must ${one.upper ? "fall" : "rise"} by ${by}. `;
+  }
+
+  // The parameters that a lever moves, as "R_root" and "spring.scale".
+  function movedBy(set, lever) {
+    const all = (set.inputs || {}).dispersions || [];
+    return lever.draws
+      .flatMap((draw) => (all.find((one) => one.draw === draw) || {}).paths || [])
+      .map((path) => /^hinges\.(.+?)\.((?:spring|friction|harness|damper|latch)\..+)$/.exec(path))
+      .filter(Boolean)
+      .map(([, hinge, quantity]) => ({ hinge, quantity }));
+  }
+  // A latch's damping makes its hinge's moment jump as it engages. Where the jump is most of the peak moment, the change may
+  // only mend the latch law.
+  function jumpCaution(set, lever) {
+    const hinges = movedBy(set, lever)
+      .filter(({ quantity }) => quantity === "latch.damping")
+      .map(({ hinge }) => (set.latch_jumps || []).find((one) => one.hinge === hinge))
+      .filter(Boolean);
+    if (!hinges.length) return null;
+    const shares = hinges.map((one) => Math.min(1, one.moment / one.peak)),
+      [low, high] = d3.extent(shares).map((share) => F.share(share, 0)),
+      names = hinges.length > 3 ? F.counted(hinges.length, "hinge") : W.verdicts.listed(hinges.map((one) => one.hinge));
+    return `May be an artefact of the latch law: the jump of damping times rate as the latch engages makes ${low === high ? low : `${low} to ${high}`} of the nominal peak moment of ${names}. Measure the damping, or give “dissipation”.`;
+  }
+  // What a change does to static margins and to the deployment. Static margins count dampers only at a stated rate.
+  function torqueCaution(set, lever) {
+    const grows = lever.scaled ? lever.change > 1 : lever.change > 0,
+      kinds = new Set(movedBy(set, lever).map(({ quantity }) => quantity.split(".")[0]));
+    const lowest = W.lowestStaticMargin();
+    const lower = `${lowest ? `lower the static margins (lowest now: ${lowest})` : "lower the static margins"} and can keep the wing from deploying.`;
+    if (kinds.has("spring") && lever.scaled && !grows) return `Weaker springs ${lower}`;
+    if (kinds.has("friction") && grows) return `More friction would ${lower}`;
+    if (kinds.has("harness") && grows && lever.scaled) return `A stiffer harness would ${lower}`;
+    if (kinds.has("damper") && grows) return "A stronger damper slows the deployment. Static margins count it only at a stated rate.";
+    return null;
+  }
+  const cautions = (set, lever) =>
+    [jumpCaution(set, lever), torqueCaution(set, lever)].filter(Boolean).map((text) => h("small.caution", text));
+
+  // The needs of other sets that fail the same requirement, of a lever's draws.
+  function elsewhere(one, set, block, lever) {
+    return W.sets
+      .filter((other) => other !== set && other.campaign === set.campaign)
+      .map((other) => ({
+        label: other.label,
+        block: (other.requirements || [])
+          .filter((each) => W.verdicts.keyOf(each) === W.verdicts.keyOf(one))
+          .flatMap((each) => each.changes || [])
+          .find((each) => each.for === block.for),
+      }))
+      .filter((other) => other.block)
+      .map((other) => ({
+        label: other.label,
+        change: ((other.block.needs || []).find((need) => String(need.draws) === String(lever.draws)) || {}).change,
+      }));
+  }
+  // "enough for ambient (× 0.43)", "ambient needs × 0.5", "ambient: not estimated".
+  function elsewhereText(lever, others) {
+    const still = lever.scaled ? 1 : 0,
+      size = (change) => (lever.scaled ? Math.abs(Math.log(change)) : Math.abs(change)),
+      enough = ({ change }) => (change - still) * (lever.change - still) > 0 && size(change) <= size(lever.change),
+      needs = ({ change }) => texts({ ...lever, change }).need;
+    return others
+      .map((other) =>
+        !W.isNumber(other.change)
+          ? `${other.label}: not estimated`
+          : enough(other)
+            ? `enough for ${other.label} (${needs(other)})`
+            : `${other.label} needs ${needs(other)}`,
+      )
+      .join("; ");
   }
   function table(one, set, block, limited) {
-    const level = `${F.given(100 * set.confidence)} % bounds`,
-      beyond = block.levers.some((lever) => lever.beyond);
+    const level = `${F.given(100 * set.confidence)} % two-sided bounds`,
+      beyond = block.levers.some((lever) => lever.beyond),
+      several = elsewhere(one, set, block, block.levers[0]).length > 0;
     const rows = block.levers.map(function (lever) {
       const text = texts(lever);
       return [
-        h("span", { title: lever.draws.join(", ") }, lever.words, nominals(set, lever)),
+        h("span", { title: lever.draws.join(", ") }, lever.words, nominals(set, lever), cautions(set, lever)),
         h("b.nowrap", text.by),
         h("span.nowrap", text.bounds),
         h("span.nowrap", text.drawn, lever.beyond ? h("span.beyond", { title: "beyond the values drawn" }, " †") : null),
         ...(limited ? [] : [`${had(lever, lever.of_broken)} / ${had(lever, lever.of_others)}`]),
+        ...(several ? [elsewhereText(lever, elsewhere(one, set, block, lever))] : []),
       ];
     });
-    const heads = ["Change of", number("By"), number(level), number("Drawn"), ...(limited ? [] : [number("Not deployed / deployed had")])];
+    const heads = [
+      "Change of",
+      number("By"),
+      number(level),
+      number("Drawn"),
+      ...(limited ? [] : [number("Not deployed / deployed had")]),
+      ...(several ? ["Other cases that fail"] : []),
+    ];
     return [
       W.table(`What would make ${one.name || F.nameOf(one.output)} pass`, heads, rows, { class: "needed-table", stacks: true }),
       h(
         "p.note",
-        `By a linear fit of ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `, which explains ${F.share(block.explained, 0)} of the spread` : ""}. ${block.levers.some((lever) => lever.scaled) ? "× multiplies the present value. " : ""}`,
-        beyond ? "† Beyond the values drawn: ask margin. " : null,
+        `By a linear fit of ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `, which explains ${F.share(block.explained, 0)} of the spread` : ""}. The bounds cover the runs' scatter about the fit, not a curved response. ${block.levers.some((lever) => lever.scaled) ? "× multiplies the present value. " : ""}`,
+        beyond ? "† Beyond the values drawn: ask wingspread margin. " : null,
         h("a", { href: "#why" }, "More causes"),
         ".",
       ),
@@ -89,10 +171,23 @@
     const draws = ((set.inputs || {}).dispersions || []).length;
     if (!limited && one.not_deployed === set.runs) return "No run deploys: these runs do not show what would change it.";
     if (block.runs && limited && block.explained < 0.25)
-      return `These runs do not show what would change it: a linear fit explains ${F.share(block.explained, 0)} of the spread. Ask margin.`;
+      return `These runs do not show what would change it: a linear fit explains ${F.share(block.explained, 0)} of the spread. Ask wingspread margin.`;
     return block.runs
       ? "No dispersed input alone is seen to do it within a factor of 5."
       : `Too few runs to estimate what would change it: ${F.counted(draws, "dispersion")}, so at least ${F.runs(draws + 11)} with a value.`;
+  }
+  // The command, folded: it judges the requirements; static margins are among them only if the campaign asks for them.
+  function confirmation(command, first) {
+    const asked = W.sets.some((set) => (set.requirements || []).some((each) => each.static_margin));
+    return h(
+      "details",
+      h("summary", `Confirm ${first ? "the first change" : "the change"} with new runs: wingspread margin`),
+      h(
+        "p.note",
+        `It judges all requirements${asked ? "" : ". Static margins are not among them; it prints them for the springs as they are and for the scale that it recommends"}.`,
+      ),
+      W.command(command, "command that confirms the change"),
+    );
   }
   W.needed = function (one, set, kind) {
     const block = (one.changes || []).find((each) => each.for === kind);
@@ -106,7 +201,7 @@
       "div.needed",
       h("p", aim(one, set, limited), block.levers.length > 1 ? "Any one of these changes would do, by a first estimate:" : "This change would do, by a first estimate:"),
       table(one, set, block, limited),
-      command ? [h("p", `To confirm ${block.levers.length > 1 && block.levers[0].command ? "the first " : ""}with new runs, against all requirements:`), W.command(command, "command that confirms the change")] : null,
+      command ? confirmation(command, block.levers.length > 1 && block.levers[0].command) : null,
     );
   };
 })();

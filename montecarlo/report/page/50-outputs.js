@@ -120,7 +120,30 @@
       found.textContent = `${count} of ${outputs.length}`;
     }
     narrow();
-    return [h("div.controls", h("label.search", "Search ", search), found), table];
+    return [h("div.controls", h("label.search", "Search ", search), found), table, stillBase(set)];
+  }
+  // Whether two wings mirror each other: every parameter of a hinge and of its body is equal but for its sign.
+  function mirrorImages(set) {
+    const hinges = (set.wing_orders || []).map((wing) => wing.hinges || []);
+    if (hinges.length !== 2 || !hinges[0].length || hinges[0].length !== hinges[1].length) return false;
+    const bodyOf = (name) => ((set.wing || {}).bodies || []).find((one) => W.set().wing.hinges[one.hinge] && W.set().wing.hinges[one.hinge].name === name),
+      pairs = hinges[0].flatMap((name, at) => {
+        const [a, b] = [bodyOf(name), bodyOf(hinges[1][at])];
+        return [[`hinges.${name}.`, `hinges.${hinges[1][at]}.`], ...(a && b ? [[`bodies.${a.name}.`, `bodies.${b.name}.`]] : [])];
+      }),
+      scene = ((set.inputs || {}).scene || []).map((one) => [one.path, W.isNumber(one.case_value) ? one.case_value : one.value]);
+    const part = (start) => new Map(scene.filter(([path]) => path.startsWith(start)).map(([path, value]) => [path.slice(start.length), value]));
+    return pairs.every(function ([one, other]) {
+      const [a, b] = [part(one), part(other)];
+      return a.size === b.size && [...a].every(([path, value]) => (W.isNumber(value) ? Math.abs(value) === Math.abs(b.get(path)) : value === b.get(path)));
+    });
+  }
+  // Why a base that turns in the runs has a nominal rate of 0, up to rounding.
+  function stillBase(set) {
+    const still = W.outputsOf(set).filter((one) => ["base.peak_rate", "base.peak_angle"].includes(one.name) && W.isNumber(one.nominal) && one.max > 0 && Math.abs(one.nominal) < 1e-9 * one.max);
+    return still.length && mirrorImages(set)
+      ? h("p.note", `${still.map((one) => F.name(one)).join(" and ")}: the nominal wings are mirror images, so the nominal base does not turn.`)
+      : null;
   }
   function byArrows(event) {
     if (!["ArrowDown", "ArrowUp"].includes(event.key) || !event.target.matches(".pick")) return;
@@ -156,7 +179,7 @@
       ]);
     return W.table(
       `Quantiles of ${F.name(output)}`, // over all runs
-      ["Quantile", number("Value", F.shown(output.unit).unit), number(`${100 * set.confidence} % bounds`)],
+      ["Quantile", number("Value", F.shown(output.unit).unit), number(`${F.given(100 * set.confidence)} % two-sided bounds`)],
       rows,
       { showCaption: true },
     );

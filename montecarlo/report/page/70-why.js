@@ -36,7 +36,7 @@
   function chance(set) {
     const level = set.sensitivity.confidence || set.confidence,
       tested = ((set.inputs || {}).dispersions || []).length,
-      words = `Lines are ${F.given(100 * level)} % confidence bounds`;
+      words = `Lines are ${F.given(100 * level)} % two-sided bounds`;
     return tested > 1
       ? `${words} of one coefficient: if none of the ${F.count(tested)} dispersions had an effect, about ${F.number((1 - level) * tested, 2)} of them would still exclude 0.`
       : `${words}.`;
@@ -144,7 +144,7 @@
       between = W.caseEffect(set, name);
     W.fill(
       tornadoHost,
-      between ? [h("p.effects", between), W.caseTable(set, name)] : null,
+      between ? [h("p.effects", between), W.caseMechanism(set, name) ? h("p.note", W.caseMechanism(set, name)) : null, W.caseTable(set, name)] : null,
       found.length ? h("p.effects", between ? `Inside ${set.label}: ` : null, found) : null,
       tornado(set, name),
     );

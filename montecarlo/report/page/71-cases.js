@@ -50,15 +50,61 @@
       : `The case${changed(cases)} moves the mean of ${F.nameOf(name)} from ${text(low)} in ${at(low)} to ${text(high)} in ${at(high)}. Of the variance over all cases, each with the same weight, ${F.share(share)} lies between the cases; other cases give another share. The standard deviation inside a case, pooled over the cases, is ${text(Math.sqrt(inside))}.`;
   };
 
-  // The means in short: "Mean by case: cold 8.1, ambient 51, hot 63 N (changed: temperature)." Empty for one case.
+  const SIGN = { scale: "×\u00a0", add: "+\u00a0" };
+  const LEAST = Math.log(1.02); // smaller factors move no mean visibly (heuristic)
+  // What differs between the cases: { words, by: the draw, at: ["× 2 in cold"] where it is not neutral, size: the largest ratio }.
+  function differing(sets) {
+    const found = [];
+    const add = function (words, by, apply, values, nominal, unit = "") {
+      if (new Set(values.map((value) => F.number(value, 3))).size < 2) return;
+      if (apply === "scale" && !(d3.max(values, (value) => Math.abs(Math.log(value))) > LEAST)) return;
+      const still = apply === "scale" ? 1 : apply === "add" ? 0 : nominal,
+        text = (value) => (typeof value === "number" ? F.number(value, 3) : String(value));
+      found.push({
+        words,
+        by,
+        at: sets
+          .map((set, at) => [set.label, values[at]])
+          .filter(([, value]) => F.number(value, 3) !== F.number(still, 3))
+          .map(([label, value]) => `${SIGN[apply] || ""}${text(value)}${unit ? ` ${F.unit(unit)}` : ""} in ${label}`),
+        size: apply === "scale" ? d3.max(values, (value) => Math.abs(Math.log(value))) : 0,
+      });
+    };
+    const drawsOf = (set) => (set.inputs || {}).dispersions || [];
+    for (const one of drawsOf(sets[0])) {
+      const same = sets.map((set) => drawsOf(set).find((each) => each.draw === one.draw));
+      if (same.some((each) => !each)) continue;
+      (one.tables || []).forEach((table, at) => add(table.words, W.wordsOfDraw(sets[0], one.draw), table.apply, same.map((each) => ((each.tables || [])[at] || {}).of_median), null, table.apply === "scale" ? "" : table.unit));
+      if (!(one.tables || []).length) add(W.wordsOfDraw(sets[0], one.draw), null, one.apply, same.map((each) => each.median), one.median, one.apply === "scale" ? "" : one.unit);
+    }
+    for (const one of (sets[0].inputs || {}).scene || []) {
+      const values = sets.map((set) => {
+        const own = ((set.inputs || {}).scene || []).find((each) => each.path === one.path) || {};
+        return W.isNumber(own.case_value) ? own.case_value : own.value;
+      });
+      if (values.every(W.isNumber)) add(one.label, null, "set", values, one.value, one.unit);
+    }
+    return d3.sort(found, (one) => -one.size);
+  }
+  // The mechanism in one line: "Through temperature: friction of all hinges × 2.00 in cold, × 0.905 in hot; …". Empty for one
+  // case.
+  W.caseMechanism = function (set, name) {
+    const cases = casesOf(set, name).map((one) => one.set),
+      all = cases.length < 2 ? [] : differing(cases),
+      draws = [...new Set(all.map((one) => one.by))],
+      more = all.length - 4;
+    return all.length
+      ? `${draws.length === 1 && draws[0] ? `Through ${draws[0]}` : "The cases change"}: ${all.slice(0, 4).map((one) => `${one.words} ${one.at.join(", ")}`).join("; ")}${more > 0 ? `; and ${F.counted(more, "more input")}` : ""}.`
+      : "";
+  };
+
+  // The means in short: "Mean by case: cold 8.1, ambient 51, hot 63 N." Empty for one case.
   W.caseMeans = function (set, name) {
     const cases = casesOf(set, name);
     if (cases.length < 2) return "";
     const { unit } = cases[0].output,
-      { factor, unit: shown } = F.shown(unit),
-      differ = [...new Set(cases.flatMap((one) => changes(one.set)))],
-      more = differ.length > 3 ? ` and ${differ.length - 3} more` : "";
-    return `Mean by case: ${cases.map(({ set: one, output }) => `${one.label} ${F.number(output.mean * factor, 3)}`).join(", ")} ${shown}${differ.length ? `; the cases differ in ${differ.slice(0, 3).join(", ")}${more}` : ""}. `;
+      { factor, unit: shown } = F.shown(unit);
+    return `Mean by case: ${cases.map(({ set: one, output }) => `${one.label} ${F.number(output.mean * factor, 3)}`).join(", ")} ${shown}. `;
   };
 
   // The same in numbers, case by case.

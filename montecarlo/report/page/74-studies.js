@@ -14,7 +14,7 @@
         ? `The window is ${ends}${advice}.${margin.why_none ? ` No recommendation: ${margin.why_none}.` : ""}`
         : margin.why_none || "No scale meets all requirements.";
     return W.figure({
-      title: "Margin window: permissible spring strength",
+      title: "Permissible spring strength (wingspread margin)",
       class: "margin",
       note: words,
       description: `Share of runs that meet each requirement against the springs' scale. ${words}`,
@@ -100,7 +100,7 @@
   };
   const standard = (kind) =>
     STANDARDS[kind]
-      ? `${STANDARDS[kind][0]}, with its default factors: margin = ${STANDARDS[kind][1]}; T: available torque; ${SYMBOLS[kind] || "fixed: springs and inertia that resist; variable: friction, harness, hysteresis and the like"}. The campaign may replace factors. `
+      ? `${STANDARDS[kind][0]}, with its default factors: static margin = ${STANDARDS[kind][1]}; T: available torque; ${SYMBOLS[kind] || "fixed: springs and inertia that resist; variable: friction, harness, hysteresis and the like"}. The campaign may replace factors. `
       : "";
   const listed = (names) => (names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}` : names[0]);
   // The hinges of every case with the lower of their nominal margin and its quantile over draws.
@@ -148,7 +148,12 @@
       ".",
     );
   };
-  // The lowest margin of each case, the case with the lowest first.
+  // "−0.61 in cold", the lowest static margin of all cases against what is required; null without static margins.
+  W.lowestStaticMargin = function () {
+    const lowest = lowestOf(statics());
+    return lowest ? `${F.fixed(lowest.value, 2)}${W.sets.length > 1 ? ` in ${lowest.set.label}` : ""}` : null;
+  };
+  // The lowest static margin of each case, the case with the lowest first.
   function lowestByCase(set) {
     const cases = W.sets.map((each) => lowestOf(statics().filter((row) => row.set === each))).filter(Boolean);
     if (cases.length < 2 || !W.sets.includes(set)) return null;
@@ -189,7 +194,7 @@
             .map((one) => `${one.hinge}: least ${F.fixed(one.least, 2)}`)
             .join("; "),
         table: () => ({
-          columns: ["hinge", `travel ${unit}`, "margin", "margin, lower quantile", "required"],
+          columns: ["hinge", `travel ${unit}`, "static margin", "static margin, lower quantile", "required"],
           rows: hinges.flatMap((one) =>
             travel(one).map((angle, at) => [
               one.hinge,
@@ -215,7 +220,7 @@
             part.flatMap(travel),
             [box.left, box.right],
           );
-          M.axes(svg, box, x, y, { xText: `travel from the stowed angle (${unit})`, yText: "margin" });
+          M.axes(svg, box, x, y, { xText: `travel from the stowed angle (${unit})`, yText: "static margin" });
           for (const required of new Set(part.map((one) => one.required).filter(W.isNumber)))
             M.put(svg, "line.limit", { x1: box.left, x2: box.right, y1: y(required), y2: y(required) });
           part.forEach((one, at) =>
@@ -237,7 +242,7 @@
       h(
         "p.note",
         standard(kind),
-        `${kind === "NASA, one spring out" ? "It takes a spring away" : "It multiplies the resisting torques by factors"} and counts no kinetic energy, so a wing with a margin below 0 can still deploy.`,
+        `${kind === "NASA, one spring out" ? "It takes a spring away" : "It multiplies the resisting torques by factors"} and counts no kinetic energy, so a wing with a static margin below 0 can still deploy.`,
       ),
     ];
   }
@@ -322,7 +327,7 @@
     };
     for (const set of sets) {
       if (W.studySets.includes(set) && W.effectOutputs(set).length) add("sobol", "Sensitivity", set, indices(set));
-      if (set.margin && (set.margin.scales || []).length) add("margin", "Margin window", set, marginWindow(set.margin));
+      if (set.margin && (set.margin.scales || []).length) add("margin", "Permissible spring strength", set, marginWindow(set.margin));
       if (!found.has("static") && set.static_margins && (set.static_margins.hinges || []).length)
         add("static", "Static margins", set, staticMargins(set.static_margins, set));
       if (set.rare) add("rare", "Rare events", set, rareEvent(set.rare));
@@ -332,7 +337,7 @@
       }
     }
     const names = {
-      margin: "the margin window (wingspread margin)",
+      margin: "the permissible spring strength (wingspread margin)",
       static: "static margins (motorization in the campaign)",
       rare: "rare events (wingspread rare)",
       fit: "a fit to deployment tests (wingspread fit)",

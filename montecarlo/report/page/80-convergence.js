@@ -49,7 +49,7 @@
           [
             { text: text.toLowerCase(), line: "var(--c0)" },
             rows.some((row) => W.isNumber(row[2]) || W.isNumber(row[3])) && {
-              text: `${F.given(100 * set.confidence)} % bounds`,
+              text: `${F.given(100 * set.confidence)} % two-sided bounds`,
               fill: "var(--c0)",
               opacity: 0.2,
             },

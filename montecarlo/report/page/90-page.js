@@ -134,9 +134,10 @@
   window.addEventListener("afterprint", () => opened.splice(0).forEach((one) => (one.open = false)));
 
   // "largest tip.peak_moment" in words, as the output is named everywhere else.
+  // Of several sets, the worst run of one names its set: another case may have a worse one.
   const inWords = (set, text) =>
     text &&
-    text.replace(/^(largest|least|worst:) (\S+)/, (all, most, name) =>
+    text.replace(/^worst: /, W.sets.length > 1 ? `worst in ${set.label}: ` : "worst: ").replace(/^(largest|least|worst(?: in .+)?:) (\S+)/, (all, most, name) =>
       W.outputsOf(set).some((output) => output.name === name) ? `${most} ${W.format.nameOf(name)}` : all,
     );
   for (const set of W.sets)

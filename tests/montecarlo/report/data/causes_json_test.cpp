@@ -1,6 +1,7 @@
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/report/data/causes_json.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
+#include "montecarlo/report/data/set_json.hpp"
 #include "tests/montecarlo/report/data/page_support.hpp"
 #include "tests/montecarlo/sample_support.hpp"
 
@@ -161,6 +162,8 @@ TEST_CASE(
   const double factor = factors[static_cast<std::size_t>(verdict.allowed.value())];
   CHECK(lever["change"].get<double>() == Approx(factor).epsilon(1e-6));
   CHECK(lever["beyond"] == false);
+  CHECK(blocks[0]["needs"] ==
+        Json::array({{{"draws", lever["draws"]}, {"change", lever["change"]}}}));
   const double t = factor - 1;
   CHECK(lever["command"] ==
         "wingspread margin results/set/campaign.json --scale hinges.root.spring.torque_stowed "
@@ -169,6 +172,13 @@ TEST_CASE(
   Verdict passed = verdict;
   passed.decision = Decision::pass;
   CHECK(changes_json(*source, passed).empty());
+}
+
+TEST_CASE("the page has the latches whose damping makes most of the nominal peak", "[page]") {
+  const auto source = made(quick_campaign(20));
+  source->summary.latch_jumps = {{"root", 200, 350}};
+  CHECK(set_json(*source, {}, 1)["latch_jumps"] ==
+        Json::array({{{"hinge", "root"}, {"moment", 200.0}, {"peak", 350.0}}}));
 }
 
 TEST_CASE("a load without a requirement that is larger than all judged ones is told", "[page]") {

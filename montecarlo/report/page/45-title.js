@@ -1,0 +1,70 @@
+// Above the verdicts: the title, the document's identity, and how many runs of which cases there are.
+(function () {
+  "use strict";
+  const W = window.wingspread;
+  const { h, format: F } = W;
+
+  // The document's number, revision, date, author and organisation, as the user gave them.
+  function identity(words) {
+    const kinds = [
+      ["document", "Document"],
+      ["revision", "Revision"],
+      ["date", "Date"],
+      ["author", "Author"],
+      ["organisation", "Organisation"],
+    ].filter(([key]) => words[key]);
+    return kinds.length
+      ? h("dl.identity", kinds.map(([key, name]) => h("div", h("dt", name), h("dd", words[key]))))
+      : null;
+  }
+  // "2 folders (A, B) of 3 cases (cold, ambient, hot)", "3 cases: cold, ambient, hot".
+  function extent() {
+    const distinct = (read) => [...new Set(W.sets.map(read))],
+      cases = distinct((set) => set.case).filter(Boolean),
+      folders = distinct((set) => (set.case ? set.label.split(" · ").slice(0, -1).join(" · ") : set.label)).filter(Boolean);
+    if (cases.length && folders.length > 1 && W.sets.length === cases.length * folders.length)
+      return `${folders.length} folders (${folders.join(", ")}) of ${cases.length} cases (${cases.join(", ")})`;
+    return `${W.sets.length} ${cases.length ? "cases" : "folders"}: ${W.sets.map((set) => set.label).join(", ")}`;
+  }
+  // "requirements at 90 % confidence, two-sided bounds at 95 %": both, where they differ.
+  function confidences(set) {
+    const own = `${F.given(100 * set.confidence)} %`,
+      asked = [...new Set(W.sets.flatMap((each) => (each.requirements || []).map((one) => `${F.given(100 * one.confidence)} %`)))];
+    if (!asked.length || (asked.length === 1 && asked[0] === own)) return `bounds at ${own}`;
+    return `requirements at ${W.verdicts.listed(asked)} confidence, two-sided bounds at ${own}`;
+  }
+  W.subtitle = function () {
+    const set = W.set(),
+      one = (read) => [...new Set(W.sets.map(read))];
+    const facts = [
+      W.sets.length > 1 ? extent() : null,
+      W.onlyStudies
+        ? null
+        : one((each) => each.runs).length === 1
+          ? `${F.runs(set.runs)}${W.sets.length > 1 ? " each" : ""}`
+          : `${F.count(d3.min(W.sets, (each) => each.runs))} to ${F.runs(d3.max(W.sets, (each) => each.runs))}`,
+      set.foreign ? "rows from another tool" : null,
+      confidences(set),
+      set.shard ? `shard ${set.shard}` : null,
+      set.stopped ? `stopped early: its goals were met (${F.count(set.planned)} runs planned)` : null,
+      set.looks > 1 ? `bounds hold over ${set.looks} interim analyses` : null,
+    ];
+    const words = W.data.document || {};
+    W.fill(
+      document.getElementById("subtitle"),
+      words.title ? h("p.wing-name", `Wing: ${W.data.title}`) : null,
+      identity(words),
+      set.description ? h("p.description", set.description) : null,
+      h(
+        "p.facts",
+        facts.filter(Boolean).map((fact) => h("span", fact)),
+      ),
+    );
+    const wings = [...new Set(W.sets.map((each) => each.campaign))].filter(Boolean),
+      title = words.title || (wings.length > 1 ? wings.join(" and ") : W.data.title);
+    document.getElementById("title").textContent = title;
+    document.title = words.title || `${title} · wingspread report`;
+    document.getElementById("colophon").textContent =
+      `Made by ${W.data.command} (wingspread ${W.data.version}). This page contains its data and uses no network.`;
+  };
+})();
