@@ -72,18 +72,6 @@ class FindingChecks:
             self.assertEqual(sorted((one["text"], badness(one)) for one in map(stated_by, shown)), sorted(worst.items()))
             self.assertEqual(sorted((one["text"], one["label"]) for one in map(stated_by, folded)), sorted((one["text"], one["label"]) for one in stated))
 
-    def test_printed_contents_name_what_is_shown_now(self):
-        """Headings follow the chosen output and case after the page has been opened."""
-        self.open(pages.made_up("cases"))
-        self.run_script("W.choose('set', 1); W.choose('output', 'tip.latch_time'); dispatchEvent(new Event('beforeprint'))")
-        listed = self.run_script("return [...document.querySelectorAll('.contents li')].map(li => [li.querySelector('a').hash, li.textContent])")
-        for (link, text), (section, title, parts) in zip(listed, self.run_script("""return [...document.querySelectorAll('main > section:not([hidden])')].map(section =>
-                ['#' + section.id, section.querySelector('h2').textContent, [...section.querySelectorAll('h3')].map(one => one.firstChild.textContent)])"""), strict=True):
-            self.assertEqual(link, section)
-            self.assertEqual(text, ": ".join([title] + ([" · ".join(dict.fromkeys(parts))] if parts else [])))
-        self.assertIn("tip latch time", dict(listed)["#outputs"])
-        self.assertIn("ambient", dict(listed)["#inputs"])
-
     def test_why_fewer_runs_may_break_a_requirement_than_its_share(self):
         """Said where the confidence takes some of them, and not where all of the share may."""
         self.open(pages.made_up("loads"))

@@ -338,3 +338,15 @@ class NumberChecks(Numbers):
             self.check(row[1], one["value"], near=1e-6, about=one["path"])
             self.check(row[3], one["value"] * DEGREES if one["unit"] == "rad" else None, near=1e-5, about=one["path"])
             self.check(row[4], one["case_value"], about=one["path"])
+
+    def test_printed_contents_name_what_is_shown_now(self):
+        """Headings follow the chosen output and case after the page has been opened."""
+        self.open(pages.made_up("cases"))
+        self.run_script("W.choose('set', 1); W.choose('output', 'tip.latch_time'); dispatchEvent(new Event('beforeprint'))")
+        listed = self.run_script("return [...document.querySelectorAll('.contents li')].map(li => [li.querySelector('a').hash, li.textContent])")
+        for (link, text), (section, title, parts) in zip(listed, self.run_script("""return [...document.querySelectorAll('main > section:not([hidden])')].map(section =>
+                ['#' + section.id, section.querySelector('h2').textContent, [...section.querySelectorAll('h3')].map(one => one.firstChild.textContent)])"""), strict=True):
+            self.assertEqual(link, section)
+            self.assertEqual(text, ": ".join([title] + ([" · ".join(dict.fromkeys(parts))] if parts else [])))
+        self.assertIn("tip latch time", dict(listed)["#outputs"])
+        self.assertIn("ambient", dict(listed)["#inputs"])
