@@ -27,7 +27,7 @@ class ChangeChecks:
                                 ["temperature", "20.0 → 12.5", "11.0 – 14.0", "5.00 – 35.0"],
                                 ["root spring", "× 1.73", "× 1.62 – 1.84", "× 0.88 – 1.12 †"]])
         self.assertEqual(self.run_script("return arguments[0].querySelector('.needed-table th span').title", item), "tip_latch")
-        for words in ("Any one of these changes would do, by a first estimate:", "By a linear fit of 1,234 runs", "86 % of the spread", "† Beyond the values drawn: ask wingspread margin",
+        for words in ("Estimated changes, each alone, not yet run:", "By a linear fit of 1,234 runs", "86 % of the spread", "† Beyond the values drawn: ask wingspread margin",
                       "The bounds cover the runs' scatter about the fit, not a curved response."):
             self.assertIn(words, item.text)
         self.assertEqual(self.run_script("return arguments[0].querySelector('.needed details').open", item), False)
@@ -105,19 +105,19 @@ class ChangeChecks:
                 levers: [lever(), warm, far], needs: [{ draws: ["tip_latch"], change: [0, 0.6, 0.3][at] }, { draws: ["temperature"], change: [0, -9, 3][at] }, ...(at === 1 ? [{ draws: ["root.spring"], change: 1.7 }] : [])] }] }]);
             W.outcomes(); return [...document.querySelectorAll('.findings .needed-table tbody tr')].map(row => row.lastChild.textContent.replace(/\u00a0/g, " "))""")
         b, c = self.run_script("return W.sets.slice(1).map(set => set.label)")
-        self.assertEqual(cells, [f"enough for {b} (× 0.60); {c} needs × 0.30", f"{b} needs 11.0; {c} needs 23.0", f"enough for {b} (× 1.70); {c}: not estimated"])
+        self.assertEqual(cells, [f"enough for {b} too (needs × 0.60); {c} needs × 0.30", f"{b} needs 11.0; {c} needs 23.0", f"enough for {b} too (needs × 1.70); {c}: not estimated"])
 
     def test_loads_that_no_requirement_limits_are_told_in_one_line(self):
         """The largest values are named as reached, not as limits; a mirror image too, if it reaches nearly as much."""
         self.opened_with("""W.sets.forEach((set, at) => set.unjudged = [{ output: "tip.peak_moment", largest: 3000 + at, judged: "root.peak_moment", judged_largest: 12.25 }]);""", "cases")
         (text,) = [one.text for one in self.all(".unjudged")]
         sets = self.run_script("return W.sets.map(set => set.label)")
-        self.assertEqual(text, f"No requirement limits tip peak moment; it reaches {2999 + len(sets)} N·m in {sets[-1]}. root peak moment, the largest of its kind with a requirement, reaches 12.3 N·m.")
+        self.assertEqual(text, f"Without a requirement: tip peak moment reaches {2999 + len(sets)} N·m in {sets[-1]}; the largest of its kind with one, root peak moment, reaches 12.3 N·m.")
         mirror = lambda largest: self.run_script("""W.sets.forEach((set, at) => { set.unjudged = []; set.wing_orders = ["root", "tip"].map(name => ({ wing: name, hinges: [name], orders: [], order_kinds: 0, without_latch: 0 }));
             const [judged, other] = ["root", "tip"].map(name => set.outputs.find(one => one.name === name + ".peak_moment"));
             Object.assign(judged, { min: 0, max: 10, limits: [0] }); Object.assign(other, { min: 0, max: at ? 0 : arguments[0], limits: [] }); });
             W.outcomes(); return [...document.querySelectorAll('.unjudged')].map(one => one.textContent)""", largest)
-        self.assertEqual(mirror(9.5), [f"No requirement limits tip peak moment; it reaches 9.50 N·m in {sets[0]}. root peak moment, its mirror image with a requirement, reaches 10.0 N·m."])
+        self.assertEqual(mirror(9.5), [f"Without a requirement: tip peak moment reaches 9.50 N·m in {sets[0]}; its mirror image root peak moment, which has one, reaches 10.0 N·m."])
         self.assertEqual(mirror(8.5), [])
 
     def test_dispersions_are_named_in_words(self):

@@ -77,8 +77,8 @@ class FindingChecks:
         self.open(pages.made_up("loads"))
         told = lambda allowed: self.run_script("""W.sets.forEach(set => { set.runs = 1000; set.requirements.forEach(one => Object.assign(one, { allowed: arguments[0], probability: 0.99, confidence: 0.9 })); }); W.outcomes();
             return document.querySelector('.findings li').textContent""", allowed)
-        self.assertIn("where at most 5 may (1 % of the runs is 10; 90 % confidence takes the rest). ", told(5))
-        self.assertIn("where none may (1 % of the runs is 10; 90 % confidence takes the rest). ", told(0))
+        self.assertIn("where at most 5 may (1 % of the runs is 10; to be 90 % sure, only 5 may). ", told(5))
+        self.assertIn("where none may (1 % of the runs is 10; to be 90 % sure, none may). ", told(0))
         self.assertIn("where at most 10 may. ", told(10))
 
     def test_a_share_that_cannot_be_shown_better_is_told(self):
@@ -202,7 +202,7 @@ class FindingChecks:
             set.accuracy.beyond_largest = { runs: 0, share_at_most: 0.259 }; W.outcomes(); W.why()""")
         self.assertIn("One-sided bound", heads())
         repeated = self.run_script("return W.set().accuracy.runs")
-        self.assertIn(f"With 95 % confidence at most 25.9 % of all runs have a larger error than the largest of these {repeated};", self.one("#verdicts").text)
+        self.assertIn(f"As only {repeated} runs were repeated, up to 25.9 % of all runs may have a larger error than the largest of these (95 % confidence);", self.one("#verdicts").text)
         self.assertRegex(self.one("#why").text, r"tip\.harness\. .*95 % confidence for all outputs together \(Bonferroni\)")
 
     def test_the_player_opens_at_the_start(self):

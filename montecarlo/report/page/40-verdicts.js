@@ -308,7 +308,7 @@
       requirementTable(shown),
       h(
         "p.note",
-        "“99 % at 90 %”: 99 % of all deployments must keep the limit, and the runs must show it with a confidence of 90 %. So fewer runs may break it than 1 % of them. Pass: the runs show it. Fail: they do not, though there are enough of them; “disproved”: they show the opposite, that fewer deployments keep the limit. Undecided: too few runs. ● Quantile (or share) of these runs. ┃ Its one-sided bound over all deployments, at the required confidence. Shaded: where the requirement passes; each picture has a scale of its own. Distance to the limit: from the one-sided bound, positive where the requirement passes; of a share in percentage points.",
+        "“99 % at 90 %”: 99 % of all deployments must keep the limit, and the runs must show it with a confidence of 90 %. So fewer runs may break it than 1 % of them. Pass: the runs show it. Fail: there are enough runs, but too many break it; “disproved”: they show, with the same confidence, that fewer deployments keep the limit. Undecided: too few runs. ● Quantile (or share) of these runs. ┃ Its one-sided bound over all deployments, at the required confidence. Shaded: where the requirement passes; each picture has a scale of its own. Distance to the limit: from the one-sided bound, positive where the requirement passes; of a share in percentage points.",
       ),
       more,
     ];

@@ -249,7 +249,7 @@
           ? ` In ${F.runs(one.order_in_doubt)} the outcome or the latch order is in doubt${one.in_doubt ? `: ${one.in_doubt.join(", ")}` : ""}.`
           : ` In none of them the outcome or the latch order is in doubt.`,
         one.beyond_largest
-          ? ` With ${F.given(100 * set.confidence)} % confidence at most ${F.share(one.beyond_largest.share_at_most)} of all runs have a larger error than the largest of these ${F.count(one.runs)}; more repeated runs lower this bound.`
+          ? ` As only ${F.runs(one.runs)} ${one.runs === 1 ? "was" : "were"} repeated, up to ${F.share(one.beyond_largest.share_at_most)} of all runs may have a larger error than the largest of these (${F.given(100 * set.confidence)} % confidence); more repeated runs lower this share.`
           : null,
         one.moved && one.moved.runs
           ? ` In ${F.runs(one.moved.runs)} an output moves by more than 1 %: at most ${F.share(one.moved.share_at_most)} of all.`

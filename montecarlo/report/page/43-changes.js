@@ -116,7 +116,7 @@
         change: ((other.block.needs || []).find((need) => String(need.draws) === String(lever.draws)) || {}).change,
       }));
   }
-  // "enough for ambient (× 0.43)", "ambient needs × 0.5", "ambient: not estimated".
+  // "enough for ambient too (needs × 0.43)", "ambient needs × 0.5", "ambient: not estimated".
   function elsewhereText(lever, others) {
     const still = lever.scaled ? 1 : 0,
       size = (change) => (lever.scaled ? Math.abs(Math.log(change)) : Math.abs(change)),
@@ -127,7 +127,7 @@
         !W.isNumber(other.change)
           ? `${other.label}: not estimated`
           : enough(other)
-            ? `enough for ${other.label} (${needs(other)})`
+            ? `enough for ${other.label} too (needs ${needs(other)})`
             : `${other.label} needs ${needs(other)}`,
       )
       .join("; ");
@@ -199,7 +199,7 @@
     const { command } = block.levers.find((lever) => lever.command) || {};
     return h(
       "div.needed",
-      h("p", aim(one, set, limited), block.levers.length > 1 ? "Any one of these changes would do, by a first estimate:" : "This change would do, by a first estimate:"),
+      h("p", aim(one, set, limited), block.levers.length > 1 ? "Estimated changes, each alone, not yet run:" : "An estimated change, not yet run:"),
       table(one, set, block, limited),
       command ? confirmation(command, block.levers.length > 1 && block.levers[0].command) : null,
     );

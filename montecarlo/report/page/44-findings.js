@@ -33,14 +33,14 @@
     });
     return items.some(Boolean) ? h("ul.findings.stalls", items.filter(Boolean)) : null;
   }
-  // ", where at most 5 may (1 % of the runs is 10; 90 % confidence takes the rest)".
+  // ", where at most 5 may (1 % of the runs is 10; to be 90 % sure, only 5 may)".
   function mayBreak(one, set) {
     if (!W.isNumber(one.allowed)) return "";
     const share = 1 - one.probability,
       plain = share * set.runs;
     const why =
       one.allowed < Math.floor(plain + 1e-9)
-        ? ` (${F.given(100 * share)} % of the runs is ${F.given(Number(plain.toPrecision(3)))}; ${F.given(100 * one.confidence)} % confidence takes the rest)`
+        ? ` (${F.given(100 * share)} % of the runs is ${F.given(Number(plain.toPrecision(3)))}; to be ${F.given(100 * one.confidence)} % sure, ${one.allowed ? `only ${F.count(one.allowed)}` : "none"} may)`
         : "";
     return `, where ${one.allowed ? `at most ${F.count(one.allowed)}` : "none"} may${why}`;
   }
@@ -127,11 +127,14 @@
     const value = (name, number) => `${F.number(number, 3)} ${F.unit(F.unitOf(name))}`;
     return h(
       "p.unjudged",
-      shown.map((one, at) => [
-        at ? " Nor does one limit " : h("b", "No requirement limits "),
-        `${F.nameOf(one.output)}; it reaches ${value(one.output, one.largest)}${W.sets.length > 1 ? ` in ${one.set.label}` : ""}. `,
-        `${F.nameOf(one.judged)}, ${one.mirror ? "its mirror image" : "the largest of its kind"} with a requirement, reaches ${value(one.judged, one.judged_largest)}.`,
-      ]),
+      h("b", "Without a requirement: "),
+      shown
+        .map(
+          (one) =>
+            `${F.nameOf(one.output)} reaches ${value(one.output, one.largest)}${W.sets.length > 1 ? ` in ${one.set.label}` : ""}; ` +
+            `${one.mirror ? `its mirror image ${F.nameOf(one.judged)}, which has one,` : `the largest of its kind with one, ${F.nameOf(one.judged)},`} reaches ${value(one.judged, one.judged_largest)}.`,
+        )
+        .join(" "),
     );
   };
 })();
