@@ -53,7 +53,7 @@ class ChangeChecks:
         given('{ for: "limit", runs: 500, explained: 0.5, levers: [] }')
         self.assertIn("No dispersed input alone is seen to do it", self.one(".findings .needed").text)
         given('{ for: "limit", runs: 500, explained: 0.9, levers: [far] }')
-        self.assertIn("This change would do, by a first estimate:", self.one(".findings .needed").text)
+        self.assertIn("An estimated change, not yet run:", self.one(".findings .needed").text)
 
     def test_wings_that_do_not_deploy_have_a_finding_too(self):
         """Once for each set: what the runs that did not deploy differ in."""
