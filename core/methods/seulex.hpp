@@ -71,8 +71,8 @@ public:
 
 private:
   // The error of extrapolation has a hump where a step lasts 1 to 10 time constants of a fast mode that has died out. Below
-  // it more rows gain nothing, so that the order stays the lowest and the steps short: a wing took 5,600 steps of 50 to
-  // 100 µs where it takes 8 beyond the hump. After so many steps of the lowest order that grow little, one is tried `leap`
+  // it more rows gain nothing, so that the order stays the lowest and the steps short: thousands of
+  // them where a few do beyond the hump. After so many steps of the lowest order that grow little, one is tried `leap`
   // times as long, with rows enough for what is beyond; if it is refused, the next after twice as many. Heuristic: fewer
   // steps, and refused leaps cost more (seven rows, as much as five steps of the lowest order); a shorter leap ends on the
   // hump.
