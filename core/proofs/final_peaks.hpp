@@ -12,6 +12,7 @@
 #include "core/proofs/modal_bounds.hpp"
 #include "core/proofs/remaining_energy.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -71,6 +72,29 @@ template <class T>
                turn + way + larger(T(0), T(fast * time)), seen.angle);
 }
 
+/// Which attempts of a run also ask for the energy's box, after all cheaper bounds have refused. Heuristic: that box costs
+/// several times as much as the bounds by modes. A wing that rings with friction ends much earlier by it; of a wing that
+/// it never proves one attempt in nine pays, at the price that a run may end up to eight attempts late. The attempts
+/// are the run's own, so results do not depend on what runs beside it, and no output but `peaks_final` depends on them.
+class ThoroughAttempts {
+public:
+  /// Counts an attempt that the cheaper bounds refused. @return whether to ask for the energy's box
+  [[nodiscard]] bool is_due() {
+    if (to_wait_ == 0) return true;
+    --to_wait_;
+    return false;
+  }
+  /// The box proved nothing: more attempts wait than the last time.
+  void note_failure() {
+    constexpr int longest = 8;
+    to_wait_ = next_wait_;
+    next_wait_ = std::min(2 * next_wait_, longest);
+  }
+
+private:
+  int to_wait_ = 0, next_wait_ = 1; ///< attempts
+};
+
 /// The proofs of one run. What depends on the wing alone is made at the first attempt.
 template <class T, class AnySystem> class FinalPeaks {
 public:
@@ -78,6 +102,7 @@ public:
   void reset() {
     is_prepared_ = false;
     modes_.reset();
+    thorough_ = {};
   }
 
   /// Whether the modes of the latched wing can prove nothing: some do not decay, or there is no
@@ -103,8 +128,7 @@ public:
     // asked either. Its bounds ignore damping and are as a rule wider; where they are not, the run ends some attempts later.
     if (linear_loads_are_below(seen, start)) {
       const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
-      is_proven = prove_by_modes(system, x, t, t_end, start, energy, seen) ||
-                  (energy && prove_by_energy(system, x, *energy, seen));
+      is_proven = prove_by_modes(system, x, t, t_end, start, energy, seen);
     }
     if (!is_proven) tune_dampers(system, start);
     return is_proven;
@@ -189,25 +213,38 @@ private:
     return true;
   }
 
-  /// @pre modes_
+  /// By the modes, by the energy alone, and where that is due by both together: the cheapest first. @pre modes_
   [[nodiscard]] bool prove_by_modes(AnySystem& system, const State<T>& x, const T& t,
                                     const T& t_end, const ModalBounds::ModeVector& start,
                                     const std::optional<T>& energy, const SeenPeaks<T>& seen) {
     using std::abs;
     const T momentum = spin(system, x, t);
-    const auto most = modes_->bound(start, energy, abs(momentum));
-    if (!most) return false;
+    const auto proves = [&](const std::optional<HingeBounds>& most) {
+      return most && no_peak_can_rise(system, x, T(t_end - t), momentum, *most, seen);
+    };
+    if (proves(modes_->bound(start, energy, abs(momentum)))) return true;
+    if (!energy) return false;
+    if (prove_by_energy(system, x, *energy, seen)) return true;
+    if (!thorough_.is_due()) return false;
+    if (proves(modes_->bound_in_reach(start, *energy, abs(momentum)))) return true;
+    thorough_.note_failure();
+    return false;
+  }
+
+  /// @param time t_end − t, s @param momentum H @param most bounds on all that follows
+  [[nodiscard]] bool no_peak_can_rise(const AnySystem& system, const State<T>& x, const T& time,
+                                      const T& momentum, const HingeBounds& most,
+                                      const SeenPeaks<T>& seen) const {
     if (seen.base) {
       const int base = BaseExcursion<T>::coordinate;
       const T at_rest = x[base] - T(modes_->turn_of_base(&x[system.layout().angle(1)]));
-      if (!no_base_peak_can_rise(*seen.base, most->base, at_rest, T(model_.rigid * momentum),
-                                 T(t_end - t)))
+      if (!no_base_peak_can_rise(*seen.base, most.base, at_rest, T(model_.rigid * momentum), time))
         return false;
     }
-    return no_load_can_rise(seen, model_.size(), most->moment, most->force, 1) &&
+    return no_load_can_rise(seen, model_.size(), most.moment, most.force, 1) &&
            no_overtravel_can_rise(
                seen, system.wing(), [&](int i) { return model_.angles(i - 1); },
-               [&](int i) { return most->way(i - 1); });
+               [&](int i) { return most.way(i - 1); });
   }
 
   [[nodiscard]] bool prove_by_energy(const AnySystem& system, const State<T>& x, const T& energy,
@@ -240,6 +277,7 @@ private:
   EnergyBounds<T> bounds_;
   RestModel model_;
   std::optional<ModalBounds> modes_; ///< none: not all modes decay
+  ThoroughAttempts thorough_;
   bool is_prepared_ = false;
 };
 

@@ -137,6 +137,7 @@ bool ModalBounds::find_modes() {
   keep_rounding(product(rows_.leftCols(n), W.bottomRows(n)) - product(drive_, moments) -
                 found.blocks());
   keep_columns(W, moments);
+  columns_ = W;
   return true;
 }
 
@@ -166,10 +167,6 @@ void ModalBounds::keep_columns(const Matrix& vectors, const Matrix& moments) {
   load_of_ << sizes_of_columns(moments),
       sizes_of_columns(product(y, turns).eval()) * quick.asDiagonal(),
       sizes_of_columns(product(x, turns).eval()) * quick.asDiagonal(), base_way, turn_.topRows(1);
-  const Matrix shaken = product(product(model_->turns, inverse_).eval(), moments);
-  loads_.resize(3L * n + 2, 2L * n);
-  loads_ << moments, product(y, shaken), product(x, shaken),
-      product(model_->turns.topRows(1), ways), turns.topRows(1);
 }
 
 /// What moves the modes.
@@ -206,28 +203,21 @@ void ModalBounds::keep_push(const Matrix& by_turns) {
   }
 }
 
-/// The roots of (7) and (10).
+/// The root of (7).
 void ModalBounds::keep_cap(const double* least, const double* rest) {
   is_capped_ = least != nullptr;
   if (!is_capped_) return;
   const int n = size();
-  const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(rest, n) - model_->angles;
   soft_ = Eigen::Map<const Eigen::VectorXd>(least, n).cwiseInverse().cwiseSqrt();
-  apart_ = apart.cwiseAbs();
-  turns_ = {0, BodyVector::Zero(n + 1), BodyVector::Zero(n + 1)};
-  for (int i = 0; i < n; ++i) {
-    const int p = model_->parents[i];
-    turns_.softness(i + 1) = turns_.softness(p) + 1 / least[i];
-    turns_.apart(i + 1) = turns_.apart(p) + apart_(i);
+  apart_ = Eigen::Map<const Eigen::VectorXd>(rest, n) - model_->angles;
+  offset_ = sizes_of_rows(product(rows_.leftCols(n), apart_));
+  const auto quick = rows_.rightCols(n);
+  Eigen::VectorXd squares(2L * n);
+  for (int j = 0; j < 2 * n; ++j) {
+    squares(j) = std::abs(quick.row(j).dot(drive_.row(j)));
+    for (int i = 0; i < n; ++i) squares(j) += rows_(j, i) * rows_(j, i) / least[i];
   }
-  const Matrix slow = rows_.leftCols(n);
-  const Eigen::VectorXd off = product(slow, apart);
-  offset_ = sizes_of_rows(off);
-  const Matrix scaled = slow * soft_.asDiagonal();
-  const Matrix gram =
-      product(scaled, scaled.transpose()) + product(drive_, rows_.rightCols(n).transpose());
-  by_energy_ = sizes_of_rows(gram.diagonal().cwiseAbs().cwiseSqrt());
-  keep_loads(gram, off);
+  by_energy_ = sizes_of_rows(squares.cwiseSqrt());
 }
 
 // ---- the bounds from a state on
@@ -265,16 +255,29 @@ double ModalBounds::linear_force(int i, const ModeVector& modes) const {
                  sum_of_row(load_of_, 2 * size() + i, modes));
 }
 
-/// Widens a box until it holds its image. Heuristic: too wide a margin gives poor bounds, too small
-/// a one takes more passes to hold what grows; where no box is found in these passes, that of the energy must do, or the
-/// run goes on and tries again later.
 std::optional<HingeBounds> ModalBounds::bound(const ModeVector& start,
                                               const std::optional<double>& energy,
                                               double spin) const {
+  return find_bounds(start, energy, spin, nullptr);
+}
+
+std::optional<HingeBounds> ModalBounds::bound_in_reach(const ModeVector& start, double energy,
+                                                       double spin) {
+  if (!is_capped_) return std::nullopt;
+  if (slowest_.empty()) keep_reach();
+  const std::optional<Reach> reached = reach(energy, start, spin);
+  if (!reached) return std::nullopt;
+  return find_bounds(start, energy, spin, &*reached);
+}
+
+/// Widens a box until it holds its image. Heuristic: too wide a margin gives poor bounds, too small
+/// a one takes more passes to hold what grows; where no box is found in these passes, that of the energy must do, or the
+/// run goes on and tries again later.
+/// @param inside what the energy alone tells; null: not known
+std::optional<HingeBounds> ModalBounds::find_bounds(const ModeVector& start,
+                                                    const std::optional<double>& energy,
+                                                    double spin, const Reach* inside) const {
   constexpr int passes = 12;
-  std::optional<Reach> reached;
-  if (is_capped_ && energy) reached = reach(*energy, start, spin);
-  const Reach* inside = reached ? &*reached : nullptr;
   Box box{wider * (start + swung_), {}, model_->spin + wider * model_->rigid * spin};
   box.accelerations = product(swing_, box.modes);
   for (int pass = 0; pass <= passes; ++pass) {

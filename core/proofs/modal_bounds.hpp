@@ -96,7 +96,7 @@ struct HingeBounds {
   BaseBounds base;
 };
 
-/// The matrices of (5) to (9), made once for a latched wing, and the bounds that follow from a state.
+/// The matrices of (5) to (10), made once for a latched wing, and the bounds that follow from a state.
 ///
 /// Vectors have room for the largest model in place: a proof attempt allocates nothing.
 class ModalBounds {
@@ -124,12 +124,17 @@ public:
   [[nodiscard]] double linear_moment(int i, const ModeVector& modes) const;
   [[nodiscard]] double linear_force(int i, const ModeVector& modes) const;
 
-  /// Bounds from that start on. Cost O(n²) a pass.
-  /// @param energy that is never exceeded, J, where there is one
+  /// Bounds from that start on by (5) and (6). Cost O(n²) a pass.
+  /// @param energy that is never exceeded, J, where there is one: it caps modes by (7) once there is a box
   /// @param spin |H| of a free base about the common centre of mass, kg·m²/s, else 0
   /// @return none where no box was found
   [[nodiscard]] std::optional<HingeBounds>
   bound(const ModeVector& start, const std::optional<double>& energy, double spin) const;
+
+  /// Bounds inside the box that the energy alone gives, with (10): closer, and several times as costly.
+  /// What only they need is made at the first call.
+  [[nodiscard]] std::optional<HingeBounds> bound_in_reach(const ModeVector& start, double energy,
+                                                          double spin);
 
 private:
   using Matrix = Eigen::MatrixXd;
@@ -188,7 +193,13 @@ private:
   void keep_rows();
   void keep_push(const Matrix& by_turns);
   void keep_cap(const double* least, const double* rest);
+  void keep_reach();
+  [[nodiscard]] Matrix make_loads() const;
   void keep_loads(const Matrix& gram, const Eigen::VectorXd& apart);
+
+  [[nodiscard]] std::optional<HingeBounds> find_bounds(const ModeVector& start,
+                                                       const std::optional<double>& energy,
+                                                       double spin, const Reach* reach) const;
 
   [[nodiscard]] Image map(const Box& box, const ModeVector& start, double spin,
                           const Reach* reach) const;
@@ -216,17 +227,20 @@ private:
   Matrix swing_by_turns_, swing_by_hinges_; ///< of (6)
   Matrix lever_;                            ///< |Y_ik|
   Matrix force_by_turns_, force_by_hinges_; ///< of (8)
-  /// The linear functions of (8), by rows: moments, x and y of forces, way and rate of the base. By columns: those of W;
-  /// m_j of the modes.
-  Matrix loads_, load_of_;
-  bool is_capped_ = false;        ///< κ is known
+  /// m_j of the linear functions of (8), by rows: moments, x and y of forces, way and rate of the base.
+  Matrix load_of_;
+  ModeVector swung_; ///< the largest |w'| of (9)
+
+  bool is_capped_ = false;        ///< κ is known; then
   ModeVector by_energy_, offset_; ///< of (7): the root, and what the two rests differ by
-  std::vector<int> slowest_;      ///< the modes, the slowest first
+  HingeVector soft_, apart_;      ///< 1/√κ; from the model's rest to the energy's, rad
+  Matrix columns_;                ///< W
+
+  // made at the first call of bound_in_reach
+  std::vector<int> slowest_; ///< the modes, the slowest first; empty: not made yet
   Matrix energy_loads_,
-      offset_loads_; ///< of (10), by rows as loads_, by columns s − 1: the root, and what the two rests differ by
-  HingeVector soft_, apart_;       ///< 1/√κ; how far the two rests are apart, rad
+      offset_loads_; ///< of (10), by rows as load_of_, by columns s − 1: the root, and what the two rests differ by
   RestModel::EnergyOfTurns turns_; ///< of no energy
-  ModeVector swung_;               ///< the largest |w'| of (9)
 };
 
 } // namespace wingspread

@@ -7,20 +7,57 @@
 
 namespace wingspread {
 
+namespace {
+
+/// As in modal_bounds.cpp.
+template <class A, class B> auto product(const A& a, const B& b) { return a.lazyProduct(b); }
+
+} // namespace
+
+/// The linear functions of (8), by rows as load_of_, by the columns of W.
+auto ModalBounds::make_loads() const -> Matrix {
+  const int n = size();
+  const RestModel& m = *model_;
+  const auto ways = columns_.topRows(n), rates = columns_.bottomRows(n);
+  const Matrix moments = product(m.stiffness, ways) + product(m.damping, rates);
+  const Matrix shaken = product(product(m.turns, inverse_).eval(), moments);
+  Matrix loads(3L * n + 2, 2L * n);
+  loads << moments, product(m.lever_y, shaken), product(m.lever_x, shaken),
+      product(m.turns.topRows(1), ways), product(m.turns.topRows(1), rates);
+  return loads;
+}
+
+/// What only `bound_in_reach` needs.
+void ModalBounds::keep_reach() {
+  const int n = size();
+  turns_ = {0, BodyVector::Zero(n + 1), BodyVector::Zero(n + 1)};
+  for (int i = 0; i < n; ++i) {
+    const int p = model_->parents[i];
+    turns_.softness(i + 1) = turns_.softness(p) + soft_(i) * soft_(i);
+    turns_.apart(i + 1) = turns_.apart(p) + std::abs(apart_(i));
+  }
+  const Matrix slow = rows_.leftCols(n);
+  const Matrix scaled = slow * soft_.asDiagonal();
+  const Matrix gram =
+      product(scaled, scaled.transpose()) + product(drive_, rows_.rightCols(n).transpose());
+  keep_loads(gram, product(slow, apart_));
+}
+
 /// (10) for s = 1, 2, … @param gram P diag(κ, M_0)⁻¹ Pᵀ @param apart P_u times the difference of the two rests
 void ModalBounds::keep_loads(const Matrix& gram, const Eigen::VectorXd& apart) {
   slowest_.resize(modes());
   std::iota(slowest_.begin(), slowest_.end(), 0);
   std::ranges::stable_sort(slowest_, {}, [this](int m) { return -modes_[m].value.real(); });
-  energy_loads_.resize(loads_.rows(), modes()), offset_loads_.resize(loads_.rows(), modes());
-  for (int row = 0; row < loads_.rows(); ++row) {
+  const Matrix loads = make_loads();
+  energy_loads_.resize(loads.rows(), modes()), offset_loads_.resize(loads.rows(), modes());
+  for (int row = 0; row < loads.rows(); ++row) {
     ModeVector taken =
         ModeVector::Zero(gram.rows()); // what the modes so far contribute to each product
     double square = 0, shift = 0, parts = 0;
     for (int s = 0; s < modes(); ++s) {
       const Mode& mode = modes_[slowest_[s]];
       for (int j = mode.column; j <= mode.column + (mode.is_pair ? 1 : 0); ++j) {
-        const double load = loads_(row, j);
+        const double load = loads(row, j);
         square += load * (2 * taken(j) + load * gram(j, j));
         parts += std::abs(load) * std::sqrt(std::abs(gram(j, j)));
         shift += load * apart(j);
@@ -61,7 +98,7 @@ auto ModalBounds::contraction(const Reach& reach) const -> std::optional<Contrac
   for (int pass = 0; pass < passes; ++pass) {
     BodyVector moments = turned(x) - pushes;
     if (model_->rigid == 0) moments(0) = 0; // the base is not moved by it
-    const BodyVector next = swing_by_turns_.lazyProduct(moments);
+    const BodyVector next = product(swing_by_turns_, moments);
     const double mu = (next.array() / x.array()).maxCoeff();
     if (mu < best.mu) best = {mu, x};
     if (!(mu > 1e-3)) break;
@@ -93,13 +130,13 @@ auto ModalBounds::reach(double energy, const ModeVector& start, double spin) con
   Reach reach;
   const double whole = std::max(energy, 0.0);
   reach.turns = turns_, reach.turns.size = std::sqrt(2 * whole);
-  reach.way = reach.turns.size * soft_ + apart_;
+  reach.way = reach.turns.size * soft_ + apart_.cwiseAbs();
   for (int round = 0; round < rounds; ++round) {
     double left = whole;
     const std::optional<double> whirl = leave_turning(left, reach, spin);
     if (!whirl) break;
     reach.turns.size = std::sqrt(2 * left);
-    reach.way = reach.way.cwiseMin(reach.turns.size * soft_ + apart_).eval();
+    reach.way = reach.way.cwiseMin(reach.turns.size * soft_ + apart_.cwiseAbs()).eval();
     const std::optional<Contraction> found = contraction(reach);
     if (!found) break;
     reach.size = reach.turns.size / std::sqrt(1 - found->mu);
