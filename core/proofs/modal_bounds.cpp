@@ -211,13 +211,24 @@ void ModalBounds::keep_cap(const double* least, const double* rest) {
   soft_ = Eigen::Map<const Eigen::VectorXd>(least, n).cwiseInverse().cwiseSqrt();
   apart_ = Eigen::Map<const Eigen::VectorXd>(rest, n) - model_->angles;
   offset_ = sizes_of_rows(product(rows_.leftCols(n), apart_));
-  const auto quick = rows_.rightCols(n);
-  Eigen::VectorXd squares(2L * n);
-  for (int j = 0; j < 2 * n; ++j) {
-    squares(j) = std::abs(quick.row(j).dot(drive_.row(j)));
-    for (int i = 0; i < n; ++i) squares(j) += rows_(j, i) * rows_(j, i) / least[i];
-  }
-  by_energy_ = sizes_of_rows(squares.cwiseSqrt());
+  by_energy_.resize(modes());
+  for (int m = 0; m < modes(); ++m) by_energy_(m) = largest_by_energy(modes_[m], least);
+}
+
+/// Of a real mode the root of (7), of a pair σ_j: |w_j| is the length of ½(q, q') z, and the largest such length at a given
+/// energy is the root of the larger eigenvalue of those two rows' products.
+double ModalBounds::largest_by_energy(const Mode& mode, const double* least) const {
+  const int n = size();
+  const auto product_of = [&](int j, int k) { // of rows of P
+    double sum = rows_.row(j).tail(n).dot(drive_.row(k));
+    for (int i = 0; i < n; ++i) sum += rows_(j, i) * rows_(k, i) / least[i];
+    return sum;
+  };
+  const int j = mode.column, k = j + 1;
+  const double own = product_of(j, j);
+  if (!mode.is_pair) return std::sqrt(own);
+  const double other = product_of(k, k);
+  return std::sqrt((own + other + size_of(own - other, 2 * product_of(j, k))) / 8);
 }
 
 // ---- the bounds from a state on

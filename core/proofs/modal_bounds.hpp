@@ -193,6 +193,7 @@ private:
   void keep_rows();
   void keep_push(const Matrix& by_turns);
   void keep_cap(const double* least, const double* rest);
+  [[nodiscard]] double largest_by_energy(const Mode& mode, const double* least) const;
   void keep_reach();
   [[nodiscard]] Matrix make_loads() const;
   void keep_loads(const Matrix& gram, const Eigen::VectorXd& apart);
