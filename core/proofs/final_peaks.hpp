@@ -12,7 +12,6 @@
 #include "core/proofs/modal_bounds.hpp"
 #include "core/proofs/remaining_energy.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -72,27 +71,38 @@ template <class T>
                turn + way + larger(T(0), T(fast * time)), seen.angle);
 }
 
-/// Which attempts of a run also ask for the energy's box, after all cheaper bounds have refused. Heuristic: that box costs
-/// several times as much as the bounds by modes. A wing that rings with friction ends much earlier by it; of a wing that
-/// it never proves one attempt in nine pays, at the price that a run may end up to eight attempts late. The attempts
-/// are the run's own, so results do not depend on what runs beside it, and no output but `peaks_final` depends on them.
-class ThoroughAttempts {
+/// By how much the loads that may still come exceed those seen: the largest ratio, 1 or less where none does.
+template <class T>
+[[nodiscard]] T excess_of_loads(const SeenPeaks<T>& seen, const HingeBounds& bounds) {
+  T excess(0);
+  for (int i = 0; i < static_cast<int>(bounds.moment.size()); ++i) {
+    if (seen.moments)
+      excess = larger(excess, T(T(bounds.moment(i)) / (*seen.moments)[i + 1].value));
+    if (seen.forces) excess = larger(excess, T(T(bounds.force(i)) / (*seen.forces)[i + 1].value));
+  }
+  return excess;
+}
+
+/// Which attempts of a run also ask for the energy's box, after all cheaper bounds have refused: that box costs several times
+/// as much as the bounds by modes. Heuristic: the first is the third that they refuse, for a wing that they soon prove; and
+/// bounds that exceed the peaks r times wait until the energy has fallen as much, for loads shrink no faster than it does
+/// (by its root where they are linear). A run may so end some attempts late, and no output but `peaks_final` depends on it.
+template <class T> class ThoroughAttempts {
 public:
   /// Counts an attempt that the cheaper bounds refused. @return whether to ask for the energy's box
-  [[nodiscard]] bool is_due() {
-    if (to_wait_ == 0) return true;
-    --to_wait_;
-    return false;
+  [[nodiscard]] bool is_due(const T& energy) {
+    constexpr int before_first = 2;
+    return refusals_++ >= before_first && (!below_ || energy <= *below_);
   }
-  /// The box proved nothing: more attempts wait than the last time.
-  void note_failure() {
-    constexpr int longest = 8;
-    to_wait_ = next_wait_;
-    next_wait_ = std::min(2 * next_wait_, longest);
+  /// The box proved nothing. @param excess of its bounds over the peaks; none: there was no box
+  void note_failure(const T& energy, const std::optional<T>& excess) {
+    constexpr double least = 4.0 / 3, without_box = 2; // heuristic
+    below_ = energy / (excess ? larger(*excess, T(least)) : T(without_box));
   }
 
 private:
-  int to_wait_ = 0, next_wait_ = 1; ///< attempts
+  int refusals_ = 0;
+  std::optional<T> below_; ///< J; none: not asked yet
 };
 
 /// The proofs of one run. What depends on the wing alone is made at the first attempt.
@@ -225,9 +235,11 @@ private:
     if (proves(modes_->bound(start, energy, abs(momentum)))) return true;
     if (!energy) return false;
     if (prove_by_energy(system, x, *energy, seen)) return true;
-    if (!thorough_.is_due()) return false;
-    if (proves(modes_->bound_in_reach(start, *energy, abs(momentum)))) return true;
-    thorough_.note_failure();
+    if (!thorough_.is_due(*energy)) return false;
+    const auto closest = modes_->bound_in_reach(start, *energy, abs(momentum));
+    if (proves(closest)) return true;
+    thorough_.note_failure(*energy,
+                           closest ? std::optional(excess_of_loads(seen, *closest)) : std::nullopt);
     return false;
   }
 
@@ -277,7 +289,7 @@ private:
   EnergyBounds<T> bounds_;
   RestModel model_;
   std::optional<ModalBounds> modes_; ///< none: not all modes decay
-  ThoroughAttempts thorough_;
+  ThoroughAttempts<T> thorough_;
   bool is_prepared_ = false;
 };
 

@@ -215,8 +215,7 @@ void ModalBounds::keep_cap(const double* least, const double* rest) {
   for (int m = 0; m < modes(); ++m) by_energy_(m) = largest_by_energy(modes_[m], least);
 }
 
-/// Of a real mode the root of (7), of a pair σ_j: |w_j| is the length of ½(q, q') z, and the largest such length at a given
-/// energy is the root of the larger eigenvalue of those two rows' products.
+/// The second root of (7). Of a pair, Re P_j and −Im P_j are half of two rows of P.
 double ModalBounds::largest_by_energy(const Mode& mode, const double* least) const {
   const int n = size();
   const auto product_of = [&](int j, int k) { // of rows of P

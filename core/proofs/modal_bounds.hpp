@@ -38,6 +38,9 @@
 ///
 ///     |w_j| ≤ √(2E/(1 − μ)) √(P_j diag(κ, M_0)⁻¹ P_jᴴ)                                          (7)
 ///
+/// P_j of one of a pair of modes is complex, and no real state makes |w_j| as large as that: in its place stands the root of
+/// the larger eigenvalue of the 2×2 matrix of the same products of Re P_j and Im P_j.
+///
 /// So it does for every linear function l z of the state, with l in place of P_j, and for the part of it that the slowest
 /// modes make. The steady loss of friction is what such modes feel: as a moment of either sign, which (5) takes it for, it
 /// could swing them to many times their size. With m_j = |l w_j|, and l_s z the part of the slowest s modes,
@@ -233,7 +236,7 @@ private:
   ModeVector swung_; ///< the largest |w'| of (9)
 
   bool is_capped_ = false;        ///< κ is known; then
-  ModeVector by_energy_, offset_; ///< of (7): the root, and what the two rests differ by
+  ModeVector by_energy_, offset_; ///< of (7): the second root, and what the two rests differ by
   HingeVector soft_, apart_;      ///< 1/√κ; from the model's rest to the energy's, rad
   Matrix columns_;                ///< W
 

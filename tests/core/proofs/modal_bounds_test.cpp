@@ -258,6 +258,27 @@ TEST_CASE("friction swings a wing that is hardly damped no further than its ener
   }
 }
 
+TEST_CASE("the energy caps the mode of one hinge where a motion without loss takes it") {
+  Scene scene = oracle::seed_scene();
+  scene.bodies.resize(1), scene.hinges.resize(1);
+  Hinge& hinge = scene.hinges[0];
+  hinge.spring = {}, hinge.harness = {};
+  hinge.friction.coulomb = 1, hinge.friction.regularization_rate = 0.02;
+  hinge.latch->damping = 1e-5 * hinge.latch->stiffness;
+  Latched<BaseMotion::fixed> wing(scene);
+  REQUIRE(wing.has_model);
+  State<double> x = wing.rest();
+  x[wing.at.angle(1)] += 0.01;
+  const auto energy = wing.remaining.energy(wing.system, x, 0., 0.);
+  REQUIRE(energy);
+  const auto bounds = wing.bound(x, 0, energy, 0);
+  REQUIRE(bounds);
+  const double swing =
+      0.01 * hinge.latch->stiffness; // friction alone could swing it to hundreds of times that
+  CHECK(bounds->moment(0) >= swing);
+  CHECK(bounds->moment(0) < 1.1 * (swing + hinge.friction.coulomb));
+}
+
 TEST_CASE("no motion breaks the bounds by modes: real hinges and loops") {
   Sought all;
   oracle::RealFeatures features;
