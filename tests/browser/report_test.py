@@ -28,7 +28,9 @@ try:
     from own_checks import OwnChecks
     from pose_checks import PoseChecks
     from rowless_checks import RowlessChecks, rowless
+    from run_checks import RunChecks
     from sequence_checks import SequenceChecks
+    from sequence_page_checks import SequencePageChecks
 except ImportError as missing:
     raise SystemExit(f"left out: {missing}")
 
@@ -72,7 +74,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
+class Quick(RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")
