@@ -23,9 +23,11 @@ try:
     from change_checks import ChangeChecks
     from finding_checks import FindingChecks
     from fit_checks import FitChecks, made_fit
+    from fit_page_checks import FitPageChecks
     from mark_checks import MarkChecks
     from number_checks import NumberChecks, Numbers
     from own_checks import OwnChecks
+    from part_checks import PartChecks
     from pose_checks import PoseChecks
     from rowless_checks import RowlessChecks, rowless
     from run_checks import RunChecks
@@ -74,7 +76,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
+class Quick(PartChecks, FitPageChecks, RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")
