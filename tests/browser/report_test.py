@@ -24,6 +24,7 @@ try:
     from finding_checks import FindingChecks
     from fit_checks import FitChecks, made_fit
     from fit_page_checks import FitPageChecks
+    from judgement_checks import JudgementChecks
     from mark_checks import MarkChecks
     from number_checks import NumberChecks, Numbers
     from own_checks import OwnChecks
@@ -78,7 +79,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(ShapeChecks, WordChecks, PartChecks, FitPageChecks, RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
+class Quick(JudgementChecks, ShapeChecks, WordChecks, PartChecks, FitPageChecks, RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")
