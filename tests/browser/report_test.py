@@ -21,6 +21,7 @@ try:
     from selenium.webdriver.common.keys import Keys
     import pages
     from change_checks import ChangeChecks
+    from data_checks import DataChecks
     from finding_checks import FindingChecks
     from fit_checks import FitChecks, made_fit
     from fit_page_checks import FitPageChecks
@@ -312,7 +313,7 @@ class Quick(JudgementChecks, ShapeChecks, WordChecks, PartChecks, FitPageChecks,
         self.one(".play").click()
 
 
-class Own(OwnChecks, SequenceChecks, FitChecks, RowlessChecks, Numbers, Page):
+class Own(DataChecks, OwnChecks, SequenceChecks, FitChecks, RowlessChecks, Numbers, Page):
     """The program's own pages: of the seed campaign, of a wing of which some stall, of three cases, of a satellite."""
 
     @classmethod
