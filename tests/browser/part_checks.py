@@ -108,11 +108,9 @@ class PartChecks:
 
     def click(self, element):
         self.driver.execute_script("arguments[0].click()", element)
-        pages.settle(self.driver)
 
     def put(self, selector, value, event="change"):
         self.run_script("const one = document.querySelector(arguments[0]); one.value = arguments[1]; one.dispatchEvent(new Event(arguments[2]))", selector, value, event)
-        pages.settle(self.driver)
 
     def test_buttons_and_lists_do_what_they_say(self):
         self.open(pages.made_up("cases"))
@@ -208,6 +206,7 @@ class PartChecks:
         speed = self.driver.execute_async_script("""const done = arguments[0], P = window.wingspread.player; P.speed = 0.25; P.seek(0.5); P.play(true); let first = null;
             const look = now => { if (first === null) first = [now, P.time]; if (now - first[0] < 400) return requestAnimationFrame(look); P.play(false); done((P.time - first[1]) / (now - first[0]) * 1000); }; setTimeout(() => requestAnimationFrame(look), 100)""")
         self.assertAlmostEqual(speed / 0.25, 1, delta=0.3)
+        pages.settle(self.driver)
         x = self.scale("history", "x")
         left, width = self.run_script("const box = document.querySelector('figure.history svg').getBoundingClientRect(); return [box.left, box.width / document.querySelector('figure.history svg').viewBox.baseVal.width]")
         for kind, buttons, want, at in (("pointerdown", 1, 4.9, 4.9), ("pointermove", 1, 4.7, 4.7), ("pointermove", 0, 4.8, 4.7)):
