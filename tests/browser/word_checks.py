@@ -189,3 +189,34 @@ class WordChecks:
         self.assertEqual(seen[5][0], before)
         self.run_script("W.set().modes = null; W.modes()")
         self.assertFalse(self.one("#modes").is_displayed())
+
+    def test_outputs_that_differ_in_what_they_have(self):
+        """One that no run has, one without some quantile, one that never varies, one that a case lacks; and what the glossary says of them."""
+        self.open(pages.made_up("cases"))
+        self.run_script("""const [none, fewer, constant] = W.sets[0].outputs; W.names = [none, fewer, constant].map(one => one.name); W.choose('set', 0);
+            Object.assign(none, { count: 0, missing: 2000, mean: null, std: null, min: null, max: null, nominal: null, quantiles: [], histogram: null, curve: null, convergence: null });
+            fewer.quantiles = fewer.quantiles.slice(0, 1); Object.assign(constant, { min: 5, max: 5, mean: 5, std: 0, nominal: 5, count: 1999 }); W.outputs()""")
+        rows = self.table("Outputs of cold")
+        self.assertEqual(rows[0][2:], ["0", "in no run", *["–"] * 6])
+        self.assertEqual((rows[1][7] != "–", rows[1][8:]), (True, ["–", "–"]))
+        self.assertEqual(rows[2][3:6], ["constant", "286.5", "286.5"] if rows[2][1].startswith("deg") else ["constant", "5.000", "5.000"])
+        names = self.run_script("return W.names")
+        self.assertEqual(self.run_script("return [...document.querySelectorAll('.outputs tbody tr.zero')].map(row => row.querySelector('button').dataset.output)"), names[:1])
+        self.run_script("W.choose('output', W.names[0])")
+        self.assertIn("No run of cold has a value.", self.one(".output").text)
+        self.assertEqual([row[0] for row in self.table(f"{self.run_script('return W.format.nameOf(W.names[0])')} by case")], ["cold", "ambient", "hot"])
+        self.assertEqual(self.run_script("return [...document.querySelectorAll('.pick')].filter(one => one.getAttribute('aria-pressed') === 'true').map(one => one.dataset.output)"), names[:1])
+        self.run_script("W.sets[0].outputs = W.sets[0].outputs.slice(1); W.outputs(); W.choose('output', W.names[0])")
+        self.assertIn("is not among the outputs of cold.", self.one(".output").text)
+        words = self.run_script("return W.names.slice(1).map(name => { W.choose('output', name); return document.querySelector('.output .note')?.textContent ?? ''; })")
+        glossary = self.run_script("return W.data.glossary")
+        self.assertEqual(words, [glossary.get("HINGE." + name.split(".")[1], {"text": ""})["text"] for name in names[1:]])
+        self.run_script("""Object.assign(W.data.glossary, { 'BODY.peak_bending_moment': { unit: 'N m', text: 'of a body' }, 'mode_K.frequency': { unit: 'Hz', text: 'of a mode' }, deployment_time: { unit: 's', text: 'of the wing' } });
+            const like = W.sets[0].outputs[0]; W.sets[0].outputs.push({ ...like, name: 'p.peak_bending_moment', hinge: 'p', limits: [] }, { ...like, name: 'mode_2.frequency', hinge: 'mode_2', limits: [] }); W.outputs()""")
+        told = self.run_script("return ['p.peak_bending_moment', 'mode_2.frequency', 'deployment_time'].map(name => { W.choose('output', name); return document.querySelector('.output .note').textContent; })")
+        self.assertEqual(told, ["of a body", "of a mode", "of the wing"])
+        self.put('input[type="search"]', "LATCH  root", "input")
+        shown = self.run_script("return [[...document.querySelectorAll('.outputs tbody tr')].filter(row => !row.hidden).map(row => row.querySelector('button').dataset.output), document.querySelector('.controls [role=status]').textContent]")
+        wanted = [name for name in self.run_script("return W.set().outputs.map(one => one.name)") if "latch" in name and "root" in name]
+        self.assertEqual(shown, [wanted, f"{len(wanted)} of {self.run_script('return W.set().outputs.length')}"])
+        self.assertTrue(wanted)
