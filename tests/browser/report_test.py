@@ -36,6 +36,7 @@ try:
     from sequence_checks import SequenceChecks
     from sequence_page_checks import SequencePageChecks
     from shape_checks import ShapeChecks
+    from study_page_checks import StudyPageChecks
     from word_checks import WordChecks
 except ImportError as missing:
     raise SystemExit(f"left out: {missing}")
@@ -80,7 +81,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(JudgementChecks, ShapeChecks, WordChecks, PartChecks, FitPageChecks, RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
+class Quick(StudyPageChecks, JudgementChecks, ShapeChecks, WordChecks, PartChecks, FitPageChecks, RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")
