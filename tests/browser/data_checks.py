@@ -4,6 +4,7 @@ import bisect
 import collections
 import csv
 import itertools
+import json
 import math
 import statistics
 
@@ -51,6 +52,30 @@ class DataChecks:
                 self.set_pairs(one, values, rows)
             for comparison in data["comparisons"]:
                 self.set_differences(comparison, data["sets"], tables)
+
+    def test_where_hinges_of_stalled_runs_stopped(self):
+        """Of a campaign that records final angles; nothing of another."""
+        campaign = json.loads((pages.ROOT / "studies/campaigns/stall.json").read_text("utf-8"))
+        campaign["scene"] = str((pages.ROOT / "studies/campaigns" / campaign["scene"]).resolve())
+        campaign["outputs"] = [*campaign.get("outputs", []), "latch_time", "final_angle"]
+        campaign["outputs"] = list(dict.fromkeys(campaign["outputs"]))
+        path = pages.SCRATCH / "stopped.json"
+        path.write_text(json.dumps(campaign), "utf-8")
+        self.open(pages.reported("stopped", pages.made_of(path, 300, "stopped")))
+        rows = list(csv.DictReader((pages.SCRATCH / "stopped" / "runs.csv").read_text("utf-8").splitlines()))
+        found = {one["hinge"]: one for one in self.run_script("return W.set().stalled_at")}
+        wanted = {hinge: [float(row[f"{hinge}.final_angle"]) for row in rows if row["status"] == "stalled" and not row[f"{hinge}.latch_time"]] for hinge in ("root", "mid", "tip")}
+        self.assertTrue(any(wanted.values()))
+        self.assertEqual({hinge: one["count"] for hinge, one in found.items()}, {hinge: len(values) for hinge, values in wanted.items() if values})
+        for hinge, one in found.items():
+            self.close(one["least"], min(wanted[hinge]), hinge)
+            self.close(one["largest"], max(wanted[hinge]), hinge)
+            self.assertTrue(statistics.median_low(wanted[hinge]) - 1e-6 <= one["median"] <= statistics.median_high(wanted[hinge]) + 1e-6, hinge)
+        for row, (hinge, one) in zip(self.table("Where stalled hinges stopped: angle from the latched one, deg"), found.items(), strict=True):
+            self.assertEqual(row[0], hinge)
+            self.check(row[2], math.degrees(one["median"]), about=hinge)
+        self.open(pages.real("stall", 300))
+        self.assertIsNone(self.run_script("return W.set().stalled_at ?? null"))
 
     def set_counts(self, one, rows):
         count = collections.Counter(row["status"] for row in rows)
