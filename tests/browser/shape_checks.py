@@ -140,3 +140,19 @@ class ShapeChecks:
         factor = min(200 / 4.32, 50 / 2.32)
         for got, want in zip(scale, (factor, 2.32 * factor, 100 - 2.16 * factor, 100 + 2.16 * factor, 7, 7 + 2.32 * factor)):
             self.assertAlmostEqual(got, want)
+
+    def test_numbers_of_an_axis_do_not_overlap(self):
+        """Nor do those of the small pictures of requirements; on a telephone and on a wide screen."""
+        for width in (360, 1280):
+            self.open(pages.made_up("plain"), width)
+            crowded = self.run_script("""const boxes = (one, s) => [...one.querySelectorAll(s)].filter(text => text.textContent).map(text => text.getBoundingClientRect()), found = [];
+                const overlap = (list, low, high) => [...list].sort((a, b) => a[low] - b[low]).some((box, at, all) => at && box[low] < all[at - 1][high] - 0.5);
+                for (const axis of document.querySelectorAll('.axis')) if (axis.getBoundingClientRect().width && overlap(boxes(axis, '.tick text'), ...(axis.classList.contains('x') ? ['left', 'right'] : ['top', 'bottom'])))
+                    found.push([axis.closest('figure').className, axis.getAttribute('class'), axis.textContent]);
+                for (const svg of document.querySelectorAll('svg.bullet')) if (overlap(boxes(svg, 'text'), 'left', 'right')) found.push(['bullet', svg.textContent]);
+                return found""")
+            self.assertEqual(crowded, [], width)
+        crowded = self.run_script("""return [[0.1, 0.1001], [12345, 12399], [-1234567, 99], [0.5, 1e6]].map(([limit, value]) => { const svg = W.bullet({ limit, observed_value: value, guaranteed_value: value, upper: true }, { factor: 1, unit: 'N·m' });
+            document.querySelector('main').prepend(svg); const all = [...svg.querySelectorAll('text')].map(text => text.getBoundingClientRect()).sort((a, b) => a.left - b.left); return [all.length, all.some((box, at) => at && box.left < all[at - 1].right)]; })""")
+        self.assertEqual([overlaps for _, overlaps in crowded], [False] * 4, crowded)
+        self.assertTrue(any(count > 1 for count, _ in crowded), crowded)
