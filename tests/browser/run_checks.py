@@ -20,7 +20,7 @@ FAKE = """const [made, done] = arguments, buffer = new ArrayBuffer(1 << 22), sai
     const put = (at, values) => (new Float64Array(buffer, at, values.length).set(values), at), read = (at, count) => [...new Float64Array(buffer, at, count)];
     let run = null, filled = 0, now = null;
     const exports = { memory: { buffer }, _initialize: () => said.push("initialize"), input: count => (filled = count, 8), open: () => said.push(["open", ...read(8, filled)]),
-        draws: () => put(4096, made.draws), draw_count: () => made.draws.length, draw: at => { run = at; said.push(["draw", at]); }, median: () => { run = "nominal"; said.push("median"); },
+        draws: () => put(4096, made.draws), draw_count: () => made.draws.length, draw: at => { if (at === 666) throw new Error("no such run"); run = at; said.push(["draw", at]); }, median: () => { run = "nominal"; said.push("median"); },
         run: count => { const changes = read(8, 2 * count); said.push(["run", ...changes]); now = made[count ? `${run} changed` : run] ?? made.other; },
         result: () => put(8192, now.result), result_count: () => now.result.length, samples: () => put(1 << 20, now.samples), sample_count: () => now.samples.length,
         reason: () => (new Uint8Array(buffer, 65536, 99).set(new TextEncoder().encode(now.reason)), 65536), reason_count: () => now.reason.length };
@@ -194,6 +194,14 @@ class RunChecks:
         self.motion("nominal", "nominal wing", "computed in this page", None, None)
         self.assertEqual([words(part)[0] for part in ("spring", "damper")], ["× 1.00", "× 1.00"])
         self.assertEqual(self.run_script("return W.set().motions.length"), motions + 1)  # the one before made room
+
+    def test_a_run_that_the_kernel_cannot_make_says_so(self):
+        self.opened()
+        self.driver.execute_script("arguments[0].value = 666", self.one(".any-run input[type=number]"))
+        self.driver.execute_script("arguments[0].click()", self.one(".show-run"))
+        self.wait(lambda: self.one(".any-run [aria-live]").text)
+        self.assertEqual(self.one(".any-run [aria-live] p.nothing").text, "The run could not be computed: no such run.")
+        self.assertIn("no such run", " ".join(line["message"] for line in self.driver.get_log("browser")))  # and is written to the console
 
     def motion(self, run, label, why, number, replay):
         """The outcome is the page's last motion, and is shown."""
