@@ -167,15 +167,16 @@ private:
     if (!any(may)) return;
     if (!held_is_bounded_) held_.over_step(system, step);
     held_is_bounded_ = true;
-    held_.narrow(system, step, i);
     const P first = abs(held_before), last = abs(system.work().holding[i]);
+    const P close = negligible(moments_[i], held_, i);
+    if (any(may && wants_samples(first, last, Bulge<P>{held_.rise(i)}, moments_[i].value, close)))
+      held_.narrow(system, step, i);
     begin_to_raise();
     PeakOf<P> peak = moments_[i];
     peak.raise(first, step.t);
     peak.raise(last, step.t + step.h);
     assign_where(may, raised_moments_[i], peak);
-    add_locked({i, false, first, last, Bulge<P>{held_.rise(i)}, moments_[i].value,
-                negligible(moments_[i], held_, i), may});
+    add_locked({i, false, first, last, Bulge<P>{held_.rise(i)}, moments_[i].value, close, may});
   }
 
   /// As PeakSearch::doubtful_hold.
@@ -186,16 +187,19 @@ private:
       if (!any(held)) continue;
       if (!held_is_bounded_) held_.over_step(system, step);
       held_is_bounded_ = true;
-      held_.narrow(system, step, i);
       const P first = abs(held_before[i] - system.sliding_moment(step.x, i));
       const P last = abs(system.work().holding[i] - system.sliding_moment(step.x1, i));
+      const P close = negligible(holds_[i], held_, i);
+      const Bulge<P> widest{held_.most_friction(i)};
+      if (any(held && wants_samples(first, last, widest, holds_[i].value, close)))
+        held_.narrow(system, step, i);
       begin_to_raise();
       PeakOf<P> peak = holds_[i];
       peak.raise(first, step.t);
       peak.raise(last, step.t + step.h);
       assign_where(held, raised_holds_[i], peak);
-      add_locked({i, true, first, last, Bulge<P>{held_.most_friction(i)}, holds_[i].value,
-                  negligible(holds_[i], held_, i), held});
+      add_locked(
+          {i, true, first, last, Bulge<P>{held_.most_friction(i)}, holds_[i].value, close, held});
     }
   }
 

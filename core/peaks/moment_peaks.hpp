@@ -332,6 +332,17 @@ template <class T, class Load>
   return found.s;
 }
 
+/// Narrows the bound on a locked hinge's load where the wide one does not tell that no sample is needed.
+/// @param rise of the wide one; others as of raise_locked_load
+template <class T, class AnySystem>
+void narrow_if_needed(HeldLoadBound<T>& bound, const AnySystem& system, const Step<T>& step, int i,
+                      const HeldMoments<T>& ends, const Bulge<T>& rise, const PeakOf<T>& peak,
+                      const T& close) {
+  using std::abs;
+  if (wants_samples(T(abs(ends.first)), T(abs(ends.last)), rise, peak.value, close))
+    bound.narrow(system, step, i);
+}
+
 /// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. A value inside takes an evaluation,
 /// so a step is dismissed first by held_moment_may_rise, then by the load's curvature, over the whole step and between
 /// three samples. The maximum inside is that of a
@@ -344,9 +355,9 @@ raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step,
                   const HeldMoments<T>& ends, HeldLoadBound<T>& bound, Load&& load) {
   if (!held_moment_may_rise(peak, system, step, i)) return std::nullopt;
   bound.over_step(system, step);
-  bound.narrow(system, step, i);
-  return raise_locked_load(peak, step, ends, Bulge<T>{bound.rise(i)}, negligible(peak, bound, i),
-                           true, load);
+  const T close = negligible(peak, bound, i);
+  narrow_if_needed(bound, system, step, i, ends, Bulge<T>{bound.rise(i)}, peak, close);
+  return raise_locked_load(peak, step, ends, Bulge<T>{bound.rise(i)}, close, true, load);
 }
 
 } // namespace wingspread

@@ -71,6 +71,40 @@ template <class T>
                turn + way + larger(T(0), T(fast * time)), seen.angle);
 }
 
+/// By how much the loads that may still come exceed those seen: the largest ratio, 1 or less where none does.
+template <class T>
+[[nodiscard]] T excess_of_loads(const SeenPeaks<T>& seen, const HingeBounds& bounds) {
+  T excess(0);
+  for (int i = 0; i < static_cast<int>(bounds.moment.size()); ++i) {
+    if (seen.moments)
+      excess = larger(excess, T(T(bounds.moment(i)) / (*seen.moments)[i + 1].value));
+    if (seen.forces) excess = larger(excess, T(T(bounds.force(i)) / (*seen.forces)[i + 1].value));
+  }
+  return excess;
+}
+
+/// Which attempts of a run also ask for the energy's box, after all cheaper bounds have refused: that box costs several times
+/// as much as the bounds by modes. Heuristic: the first is the third that they refuse, for a wing that they soon prove; and
+/// bounds that exceed the peaks r times wait until the energy has fallen as much, for loads shrink no faster than it does
+/// (by its root where they are linear). A run may so end some attempts late, and no output but `peaks_final` depends on it.
+template <class T> class ThoroughAttempts {
+public:
+  /// Counts an attempt that the cheaper bounds refused. @return whether to ask for the energy's box
+  [[nodiscard]] bool is_due(const T& energy) {
+    constexpr int before_first = 2;
+    return refusals_++ >= before_first && (!below_ || energy <= *below_);
+  }
+  /// The box proved nothing. @param excess of its bounds over the peaks; none: there was no box
+  void note_failure(const T& energy, const std::optional<T>& excess) {
+    constexpr double least = 4.0 / 3, without_box = 2; // heuristic
+    below_ = energy / (excess ? larger(*excess, T(least)) : T(without_box));
+  }
+
+private:
+  int refusals_ = 0;
+  std::optional<T> below_; ///< J; none: not asked yet
+};
+
 /// The proofs of one run. What depends on the wing alone is made at the first attempt.
 template <class T, class AnySystem> class FinalPeaks {
 public:
@@ -78,6 +112,7 @@ public:
   void reset() {
     is_prepared_ = false;
     modes_.reset();
+    thorough_ = {};
   }
 
   /// Whether the modes of the latched wing can prove nothing: some do not decay, or there is no
@@ -103,8 +138,7 @@ public:
     // asked either. Its bounds ignore damping and are as a rule wider; where they are not, the run ends some attempts later.
     if (linear_loads_are_below(seen, start)) {
       const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
-      is_proven = prove_by_modes(system, x, t, t_end, start, energy, seen) ||
-                  (energy && prove_by_energy(system, x, *energy, seen));
+      is_proven = prove_by_modes(system, x, t, t_end, start, energy, seen);
     }
     if (!is_proven) tune_dampers(system, start);
     return is_proven;
@@ -189,25 +223,40 @@ private:
     return true;
   }
 
-  /// @pre modes_
+  /// By the modes, by the energy alone, and where that is due by both together: the cheapest first. @pre modes_
   [[nodiscard]] bool prove_by_modes(AnySystem& system, const State<T>& x, const T& t,
                                     const T& t_end, const ModalBounds::ModeVector& start,
                                     const std::optional<T>& energy, const SeenPeaks<T>& seen) {
     using std::abs;
     const T momentum = spin(system, x, t);
-    const auto most = modes_->bound(start, energy, abs(momentum));
-    if (!most) return false;
+    const auto proves = [&](const std::optional<HingeBounds>& most) {
+      return most && no_peak_can_rise(system, x, T(t_end - t), momentum, *most, seen);
+    };
+    if (proves(modes_->bound(start, energy, abs(momentum)))) return true;
+    if (!energy) return false;
+    if (prove_by_energy(system, x, *energy, seen)) return true;
+    if (!thorough_.is_due(*energy)) return false;
+    const auto closest = modes_->bound_in_reach(start, *energy, abs(momentum));
+    if (proves(closest)) return true;
+    thorough_.note_failure(*energy,
+                           closest ? std::optional(excess_of_loads(seen, *closest)) : std::nullopt);
+    return false;
+  }
+
+  /// @param time t_end − t, s @param momentum H @param most bounds on all that follows
+  [[nodiscard]] bool no_peak_can_rise(const AnySystem& system, const State<T>& x, const T& time,
+                                      const T& momentum, const HingeBounds& most,
+                                      const SeenPeaks<T>& seen) const {
     if (seen.base) {
       const int base = BaseExcursion<T>::coordinate;
       const T at_rest = x[base] - T(modes_->turn_of_base(&x[system.layout().angle(1)]));
-      if (!no_base_peak_can_rise(*seen.base, most->base, at_rest, T(model_.rigid * momentum),
-                                 T(t_end - t)))
+      if (!no_base_peak_can_rise(*seen.base, most.base, at_rest, T(model_.rigid * momentum), time))
         return false;
     }
-    return no_load_can_rise(seen, model_.size(), most->moment, most->force, 1) &&
+    return no_load_can_rise(seen, model_.size(), most.moment, most.force, 1) &&
            no_overtravel_can_rise(
                seen, system.wing(), [&](int i) { return model_.angles(i - 1); },
-               [&](int i) { return most->way(i - 1); });
+               [&](int i) { return most.way(i - 1); });
   }
 
   [[nodiscard]] bool prove_by_energy(const AnySystem& system, const State<T>& x, const T& energy,
@@ -240,6 +289,7 @@ private:
   EnergyBounds<T> bounds_;
   RestModel model_;
   std::optional<ModalBounds> modes_; ///< none: not all modes decay
+  ThoroughAttempts<T> thorough_;
   bool is_prepared_ = false;
 };
 

@@ -48,6 +48,11 @@ Eigen::MatrixXd inverse_of(Eigen::MatrixXd A) {
   return A;
 }
 
+/// The lengths of vectors of these components.
+Eigen::MatrixXd lengths(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) {
+  return (x.array().square() + y.array().square()).sqrt();
+}
+
 double size_of(double real, double imaginary) {
   return std::sqrt(real * real + imaginary * imaginary);
 }
@@ -132,6 +137,7 @@ bool ModalBounds::find_modes() {
   keep_rounding(product(rows_.leftCols(n), W.bottomRows(n)) - product(drive_, moments) -
                 found.blocks());
   keep_columns(W, moments);
+  columns_ = W;
   return true;
 }
 
@@ -153,13 +159,14 @@ void ModalBounds::keep_columns(const Matrix& vectors, const Matrix& moments) {
   way_ = sizes_of_columns(ways), rate_of_ = sizes_of_columns(rates);
   const Matrix turns = product(model_->turns, rates);
   turn_ = sizes_of_columns(turns);
-  base_way_ = sizes_of_columns(product(model_->turns.topRows(1), ways).eval());
+  const Matrix base_way = sizes_of_columns(product(model_->turns.topRows(1), ways).eval());
   swing_ = turn_ * quick.asDiagonal();
-  moment_of_ = sizes_of_columns(moments);
   const Matrix &x = model_->lever_x, &y = model_->lever_y;
-  force_x_ = sizes_of_columns(product(y, turns).eval()) * quick.asDiagonal();
-  force_y_ = sizes_of_columns(product(x, turns).eval()) * quick.asDiagonal();
-  lever_ = (x.array().square() + y.array().square()).sqrt();
+  lever_ = lengths(x, y);
+  load_of_.resize(3L * n + 2, modes());
+  load_of_ << sizes_of_columns(moments),
+      sizes_of_columns(product(y, turns).eval()) * quick.asDiagonal(),
+      sizes_of_columns(product(x, turns).eval()) * quick.asDiagonal(), base_way, turn_.topRows(1);
 }
 
 /// What moves the modes.
@@ -173,7 +180,11 @@ void ModalBounds::keep_rows() {
   keep_push(by_turns);
   const Matrix answer = product(S, inverse_);
   swing_by_hinges_ = answer.cwiseAbs();
-  swing_by_turns_ = (product(answer, S.transpose()).array() + model_->rigid).abs();
+  const Matrix by_moments = product(answer, S.transpose()).array() + model_->rigid;
+  swing_by_turns_ = by_moments.cwiseAbs();
+  const Matrix &x = model_->lever_x, &y = model_->lever_y;
+  force_by_turns_ = lengths(product(x, by_moments), product(y, by_moments));
+  force_by_hinges_ = lengths(product(x, answer), product(y, answer));
 }
 
 /// (9). @param by_turns p_j M_0⁻¹Sᵀ of the rows
@@ -197,15 +208,26 @@ void ModalBounds::keep_cap(const double* least, const double* rest) {
   is_capped_ = least != nullptr;
   if (!is_capped_) return;
   const int n = size();
-  const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(rest, n) - model_->angles;
-  offset_ = sizes_of_rows(product(rows_.leftCols(n), apart));
-  const auto quick = rows_.rightCols(n);
-  Eigen::VectorXd squares(2L * n);
-  for (int j = 0; j < 2 * n; ++j) {
-    squares(j) = std::abs(quick.row(j).dot(drive_.row(j)));
-    for (int i = 0; i < n; ++i) squares(j) += rows_(j, i) * rows_(j, i) / least[i];
-  }
-  by_energy_ = sizes_of_rows(squares.cwiseSqrt());
+  soft_ = Eigen::Map<const Eigen::VectorXd>(least, n).cwiseInverse().cwiseSqrt();
+  apart_ = Eigen::Map<const Eigen::VectorXd>(rest, n) - model_->angles;
+  offset_ = sizes_of_rows(product(rows_.leftCols(n), apart_));
+  by_energy_.resize(modes());
+  for (int m = 0; m < modes(); ++m) by_energy_(m) = largest_by_energy(modes_[m], least);
+}
+
+/// The second root of (7). Of a pair, Re P_j and −Im P_j are half of two rows of P.
+double ModalBounds::largest_by_energy(const Mode& mode, const double* least) const {
+  const int n = size();
+  const auto product_of = [&](int j, int k) { // of rows of P
+    double sum = rows_.row(j).tail(n).dot(drive_.row(k));
+    for (int i = 0; i < n; ++i) sum += rows_(j, i) * rows_(k, i) / least[i];
+    return sum;
+  };
+  const int j = mode.column, k = j + 1;
+  const double own = product_of(j, j);
+  if (!mode.is_pair) return std::sqrt(own);
+  const double other = product_of(k, k);
+  return std::sqrt((own + other + size_of(own - other, 2 * product_of(j, k))) / 8);
 }
 
 // ---- the bounds from a state on
@@ -235,29 +257,52 @@ double ModalBounds::turn_of_base(const double* angles) const {
 }
 
 double ModalBounds::linear_moment(int i, const ModeVector& modes) const {
-  return sum_of_row(moment_of_, i, modes);
+  return sum_of_row(load_of_, i, modes);
 }
 
 double ModalBounds::linear_force(int i, const ModeVector& modes) const {
-  return size_of(sum_of_row(force_x_, i, modes), sum_of_row(force_y_, i, modes));
+  return size_of(sum_of_row(load_of_, size() + i, modes),
+                 sum_of_row(load_of_, 2 * size() + i, modes));
 }
 
-/// Widens a box until it holds its image. Heuristic: too wide a margin gives poor bounds, too small
-/// a one takes more passes to hold what grows; where no box is found in these passes, the run goes
-/// on and tries again later.
 std::optional<HingeBounds> ModalBounds::bound(const ModeVector& start,
                                               const std::optional<double>& energy,
                                               double spin) const {
+  return find_bounds(start, energy, spin, nullptr);
+}
+
+std::optional<HingeBounds> ModalBounds::bound_in_reach(const ModeVector& start, double energy,
+                                                       double spin) {
+  if (!is_capped_) return std::nullopt;
+  if (slowest_.empty()) keep_reach();
+  const std::optional<Reach> reached = reach(energy, start, spin);
+  if (!reached) return std::nullopt;
+  return find_bounds(start, energy, spin, &*reached);
+}
+
+/// Widens a box until it holds its image. Heuristic: too wide a margin gives poor bounds, too small
+/// a one takes more passes to hold what grows; where no box is found in these passes, that of the energy must do, or the
+/// run goes on and tries again later.
+/// @param inside what the energy alone tells; null: not known
+std::optional<HingeBounds> ModalBounds::find_bounds(const ModeVector& start,
+                                                    const std::optional<double>& energy,
+                                                    double spin, const Reach* inside) const {
   constexpr int passes = 12;
   Box box{wider * (start + swung_), {}, model_->spin + wider * model_->rigid * spin};
   box.accelerations = product(swing_, box.modes);
-  for (int pass = 0; pass < passes; ++pass) {
-    Image image = map(box, start, spin);
-    if (is_capped_ && energy) cap_modes(*energy, box, image);
+  for (int pass = 0; pass <= passes; ++pass) {
+    const bool is_last = pass == passes;
+    if (is_last && !inside) return std::nullopt;
+    if (is_last) box = inside->box;
+    Image image = map(box, start, spin, inside);
+    if (inside)
+      image.box.shrink_to(inside->box);
+    else if (is_capped_ && energy)
+      cap_modes(*energy, box, image);
     if (!image.box.is_finite()) return std::nullopt;
-    if (box.holds(image.box)) {
+    if (is_last || box.holds(image.box)) {
       if (!(image.way.array() < model_->room.array()).all()) return std::nullopt;
-      return bounds_inside(box, image);
+      return bounds_inside(box, image, inside);
     }
     box.widen_to(image.box);
   }
@@ -276,16 +321,29 @@ void ModalBounds::Box::widen_to(const Box& other) {
   accelerations = accelerations.cwiseMax(wider * other.accelerations).eval();
 }
 
-/// The right sides of (4), (5) and (6) over a box.
-auto ModalBounds::map(const Box& box, const ModeVector& start, double spin) const -> Image {
+void ModalBounds::Box::shrink_to(const Box& other) {
+  rigid = std::min(rigid, other.rigid);
+  modes = modes.cwiseMin(other.modes).eval();
+  accelerations = accelerations.cwiseMin(other.accelerations).eval();
+}
+
+/// The right sides of (4), (5) and (6) over a box. @param reach null: not known
+auto ModalBounds::map(const Box& box, const ModeVector& start, double spin,
+                      const Reach* reach) const -> Image {
   const RestModel& m = *model_;
   Image image;
   image.way = product(way_, box.modes);
-  const HingeVector rates = product(rate_of_, box.modes);
+  HingeVector rates = product(rate_of_, box.modes);
   image.spin = product(turn_, box.modes);
   image.spin.array() += box.rigid;
+  if (reach) {
+    image.way = image.way.cwiseMin(reach->way).eval();
+    rates = rates.cwiseMin(reach->rate).eval();
+    image.spin = image.spin.cwiseMin(reach->spin).eval();
+  }
   image.remainder = m.bound_remainders(image.way, rates);
-  const RestModel::Turned off = m.bound_turns(image.way, box.accelerations, image.spin);
+  const RestModel::Turned off =
+      m.bound_turns(image.way, box.accelerations, image.spin, reach ? &reach->turns : nullptr);
   image.turned = off.ways, image.moments = off.moments;
   image.drift = m.rigid * off.momentum;
   image.box.rigid = m.spin + m.rigid * spin + image.drift;
@@ -293,9 +351,8 @@ auto ModalBounds::map(const Box& box, const ModeVector& start, double spin) cons
   image.box.modes = start + swung_ + product(rounding_, box.modes) +
                     product(by_turns_, image.moments) + product(by_hinges_, image.remainder);
   if (m.turn_rate != 0) image.moments += m.pushed;
-  image.added =
-      product(swing_by_turns_, image.moments) + product(swing_by_hinges_, image.remainder);
-  image.box.accelerations = image.added + product(swing_, box.modes);
+  image.box.accelerations = product(swing_by_turns_, image.moments) +
+                            product(swing_by_hinges_, image.remainder) + product(swing_, box.modes);
   return image;
 }
 
@@ -311,21 +368,25 @@ void ModalBounds::cap_modes(double energy, const Box& box, Image& image) const {
 }
 
 /// (8), rounded up. @param image of the box, inside it
-HingeBounds ModalBounds::bounds_inside(const Box& box, const Image& image) const {
+HingeBounds ModalBounds::bounds_inside(const Box& box, const Image& image,
+                                       const Reach* reach) const {
   constexpr double rounded_up = 1 + 1e-6; // far more than some hundred operations lose
-  const BodyVector shaken = image.added.array() + image.turned.array() * box.accelerations.array() +
-                            image.spin.array().square();
+  const int n = size();
+  const BodyVector turned =
+      image.turned.array() * box.accelerations.array() + image.spin.array().square();
   HingeBounds bounds;
-  bounds.moment.resize(size()), bounds.force.resize(size());
-  for (int i = 0; i < size(); ++i) {
-    bounds.moment(i) = linear_moment(i, image.box.modes);
-    bounds.force(i) = linear_force(i, image.box.modes);
+  bounds.moment.resize(n), bounds.force.resize(n);
+  for (int i = 0; i < n; ++i) {
+    bounds.moment(i) = largest(i, image, reach);
+    bounds.force(i) = size_of(largest(n + i, image, reach), largest(2 * n + i, image, reach));
   }
   bounds.moment = rounded_up * (bounds.moment + image.remainder + model_->moment.cwiseAbs());
-  bounds.force = rounded_up * (bounds.force + product(lever_, shaken) + model_->weight);
+  bounds.force = rounded_up * (bounds.force + product(force_by_turns_, image.moments) +
+                               product(force_by_hinges_, image.remainder) +
+                               product(lever_, turned) + model_->weight);
   bounds.way = image.way;
-  bounds.base = {rounded_up * sum_of_row(base_way_, 0, image.box.modes),
-                 rounded_up * sum_of_row(turn_, 0, image.box.modes), rounded_up * image.drift};
+  bounds.base = {rounded_up * largest(3 * n, image, reach),
+                 rounded_up * largest(3 * n + 1, image, reach), rounded_up * image.drift};
   return bounds;
 }
 

@@ -38,12 +38,28 @@
 ///
 ///     |w_j| ≤ √(2E/(1 − μ)) √(P_j diag(κ, M_0)⁻¹ P_jᴴ)                                          (7)
 ///
+/// P_j of one of a pair of modes is complex, and no real state makes |w_j| as large as that: in its place stands the root of
+/// the larger eigenvalue of the 2×2 matrix of the same products of Re P_j and Im P_j.
+///
+/// So it does for every linear function l z of the state, with l in place of P_j, and for the part of it that the slowest
+/// modes make. The steady loss of friction is what such modes feel: as a moment of either sign, which (5) takes it for, it
+/// could swing them to many times their size. With m_j = |l w_j|, and l_s z the part of the slowest s modes,
+///
+///     |l z| ≤ min over s of ( Σ m_j B_j over the others + √(2E/(1 − μ)) √(l_s diag(κ, M_0)⁻¹ l_sᵀ) )    (10)
+///
+/// E bounds ways and rates before there is any box, and so the changes of M: where μ < 1 for the furthest ways (7) gives a
+/// box that holds whatever the right sides of (5) are. Every image of such a box is one more (modal_energy.cpp). A free
+/// base that turns keeps H: of E the energy of the whole's turning, at least H²/2I for the largest I, never moves a hinge,
+/// and E' is the rest.
+///
 /// The hinges then see, beside their moments at rest, moments and reactions of at most
 ///
 ///     |M_i| ≤ Σ |K W_u + C W_v|_ij B_j + f_i + |M_i at rest|
-///     |Y_i| ≤ |Σ_j |F_ij| B_j| + Σ_k |Y_ik| (what (6) adds to the modes + |turn_k| a_k + ω_k²) + |a| m (8)
+///     |Y_i| ≤ |Σ_j |F_ij| B_j| + Σ_l |Σ_k Y_ik (S M_0⁻¹Sᵀ + 1 1ᵀ/I)_kl| n_l + Σ_l |Σ_k Y_ik (S M_0⁻¹)_kl| f_l
+///             + Σ_k |Y_ik| (|turn_k| a_k + ω_k²) + |a| m                                        (8)
 ///
-/// F_ij by the accelerations of mode j at rest, component by component; |a| m is the base's push.
+/// F_ij by the accelerations of mode j at rest, component by component; |a| m is the base's push. Each sum over modes is a
+/// linear function of the state, for which (10) may say less.
 ///
 /// On a base that turns by ψ = s t the push on the wing at rest is g = g_c cos ψ + g_s sin ψ in n. g
 /// swings every mode as
@@ -83,7 +99,7 @@ struct HingeBounds {
   BaseBounds base;
 };
 
-/// The matrices of (5) to (9), made once for a latched wing, and the bounds that follow from a state.
+/// The matrices of (5) to (10), made once for a latched wing, and the bounds that follow from a state.
 ///
 /// Vectors have room for the largest model in place: a proof attempt allocates nothing.
 class ModalBounds {
@@ -111,12 +127,17 @@ public:
   [[nodiscard]] double linear_moment(int i, const ModeVector& modes) const;
   [[nodiscard]] double linear_force(int i, const ModeVector& modes) const;
 
-  /// Bounds from that start on. Cost O(n²) a pass.
-  /// @param energy that is never exceeded, J, where there is one
+  /// Bounds from that start on by (5) and (6). Cost O(n²) a pass.
+  /// @param energy that is never exceeded, J, where there is one: it caps modes by (7) once there is a box
   /// @param spin |H| of a free base about the common centre of mass, kg·m²/s, else 0
   /// @return none where no box was found
   [[nodiscard]] std::optional<HingeBounds>
   bound(const ModeVector& start, const std::optional<double>& energy, double spin) const;
+
+  /// Bounds inside the box that the energy alone gives, with (10): closer, and several times as costly.
+  /// What only they need is made at the first call.
+  [[nodiscard]] std::optional<HingeBounds> bound_in_reach(const ModeVector& start, double energy,
+                                                          double spin);
 
 private:
   using Matrix = Eigen::MatrixXd;
@@ -140,6 +161,7 @@ private:
     [[nodiscard]] bool is_finite() const { return modes.allFinite() && accelerations.allFinite(); }
     [[nodiscard]] bool holds(const Box& other) const;
     void widen_to(const Box& other);
+    void shrink_to(const Box& other);
   };
   /// What follows for a motion inside a box.
   struct Image {
@@ -147,8 +169,21 @@ private:
     HingeVector way, remainder; ///< |u|, f
     BodyVector turned, spin;    ///< by how much bodies have turned since rest, rad; |ω|
     BodyVector moments;         ///< n
-    BodyVector added;           ///< what (6) adds to the modes
     double drift;               ///< |r − H/I| by (4)
+  };
+
+  /// What the energy alone tells of all that follows.
+  struct Reach {
+    Box box;
+    HingeVector way, rate; ///< |u|, |u̇|
+    BodyVector spin;       ///< |ω|
+    double size;           ///< √(2E'/(1 − μ))
+    RestModel::EnergyOfTurns turns;
+  };
+  /// A bound μ, and a vector of accelerations by which it was found: (M(rest)⁻¹ |M − M(rest)| x)_k ≤ μ x_k.
+  struct Contraction {
+    double mu;
+    BodyVector x;
   };
 
   explicit ModalBounds(const RestModel& model) : model_(&model) {}
@@ -161,10 +196,26 @@ private:
   void keep_rows();
   void keep_push(const Matrix& by_turns);
   void keep_cap(const double* least, const double* rest);
+  [[nodiscard]] double largest_by_energy(const Mode& mode, const double* least) const;
+  void keep_reach();
+  [[nodiscard]] Matrix make_loads() const;
+  void keep_loads(const Matrix& gram, const Eigen::VectorXd& apart);
 
-  [[nodiscard]] Image map(const Box& box, const ModeVector& start, double spin) const;
+  [[nodiscard]] std::optional<HingeBounds> find_bounds(const ModeVector& start,
+                                                       const std::optional<double>& energy,
+                                                       double spin, const Reach* reach) const;
+
+  [[nodiscard]] Image map(const Box& box, const ModeVector& start, double spin,
+                          const Reach* reach) const;
   void cap_modes(double energy, const Box& box, Image& image) const;
-  [[nodiscard]] HingeBounds bounds_inside(const Box& box, const Image& image) const;
+  [[nodiscard]] std::optional<Contraction> contraction(const Reach& reach) const;
+  [[nodiscard]] std::optional<double> leave_turning(double& energy, const Reach& reach,
+                                                    double spin) const;
+  [[nodiscard]] std::optional<Reach> reach(double energy, const ModeVector& start,
+                                           double spin) const;
+  [[nodiscard]] double largest(int row, const Image& image, const Reach* reach) const;
+  [[nodiscard]] HingeBounds bounds_inside(const Box& box, const Image& image,
+                                          const Reach* reach) const;
 
   template <class Products> [[nodiscard]] auto sizes_of_rows(const Products& products) const;
   template <class Products> [[nodiscard]] Matrix sizes_of_columns(const Products& products) const;
@@ -176,14 +227,24 @@ private:
   Matrix rows_; ///< P of a real W, with columns v of a real mode, v and v' of a pair v ± iv'
   Matrix way_, rate_of_;                    ///< |W_u|, |W_v|, pairs counted twice
   Matrix turn_, swing_;                     ///< |S W_v|, |S W_v Λ|, likewise
-  Matrix base_way_;                         ///< the first row of |S W_u|, likewise
   Matrix rounding_, by_turns_, by_hinges_;  ///< of (5), divided by α
   Matrix swing_by_turns_, swing_by_hinges_; ///< of (6)
-  Matrix moment_of_, force_x_, force_y_;    ///< of (8)
   Matrix lever_;                            ///< |Y_ik|
-  bool is_capped_ = false;                  ///< κ is known
-  ModeVector by_energy_, offset_;           ///< of (7): the root, and what the two rests differ by
-  ModeVector swung_;                        ///< the largest |w'| of (9)
+  Matrix force_by_turns_, force_by_hinges_; ///< of (8)
+  /// m_j of the linear functions of (8), by rows: moments, x and y of forces, way and rate of the base.
+  Matrix load_of_;
+  ModeVector swung_; ///< the largest |w'| of (9)
+
+  bool is_capped_ = false;        ///< κ is known; then
+  ModeVector by_energy_, offset_; ///< of (7): the second root, and what the two rests differ by
+  HingeVector soft_, apart_;      ///< 1/√κ; from the model's rest to the energy's, rad
+  Matrix columns_;                ///< W
+
+  // made at the first call of bound_in_reach
+  std::vector<int> slowest_; ///< the modes, the slowest first; empty: not made yet
+  Matrix energy_loads_,
+      offset_loads_; ///< of (10), by rows as load_of_, by columns s − 1: the root, and what the two rests differ by
+  RestModel::EnergyOfTurns turns_; ///< of no energy
 };
 
 } // namespace wingspread

