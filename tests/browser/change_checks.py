@@ -41,6 +41,16 @@ class ChangeChecks:
             self.assertAlmostEqual(by[0], -one["margin"] * factor, delta=by[1])
             self.assertIn("must fall by" if one["upper"] else "must rise by", item.text)
 
+    def test_bounds_that_lie_close_show_their_distance(self):
+        """As many decimals as one digit of the distance needs, of factors and of means; equal bounds need none more."""
+        self.opened_with("""const close = [lever({ lower: 0.8381, upper: 0.8419 }), lever({ lower: 0.8381, upper: 0.8381 }),
+            lever({ ...warm, lower: -7.52, upper: -7.48 })];
+            W.sets.forEach(set => set.requirements.forEach(one => one.changes = one.verdict === "failed" && one.beyond ?
+            [{ for: "limit", runs: 1234, explained: 0.8567, levers: close }] : []));""")
+        bounds = self.run_script("return [...arguments[0].querySelectorAll('.needed-table tbody tr')].map(row => row.cells[2].textContent)",
+                                 self.one(".findings li"))
+        self.assertEqual(bounds, ["× 0.838 – 0.842", "× 0.84 – 0.84", "12.48 – 12.52"])
+
     def test_without_an_estimate_it_says_why(self):
         """Too few runs; no input that is enough; no run that deploys."""
         given = lambda block, more="": self.opened_with(

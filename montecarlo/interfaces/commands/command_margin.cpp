@@ -192,7 +192,7 @@ void add_margin_options(CLI::App& command, MarginOptions& options) {
   command.add_option("--out", options.out, "The folder for the results: new or empty")->required();
   command
       .add_option("--scale", options.scale, "Scale these parameters, e.g. 'hinges.*.spring.scale'")
-      ->type_name("PATH…");
+      ->type_name("PATH");
   command.add_option("--range", options.range, "Search from this scale to that one, e.g. 0.8 1.5")
       ->expected(2)
       ->type_name("SCALE");
@@ -202,7 +202,7 @@ void add_margin_options(CLI::App& command, MarginOptions& options) {
   add_shard_option(command, options.shard,
                    "Make only part I of N of the runs at the first scales, e.g. 2/5");
   command.add_option("--from", options.from, "Continue from the folders of all shards")
-      ->type_name("DIR…");
+      ->type_name("DIR");
   command.add_flag("--json", options.json, "Print JSON, not text");
   command.footer(
       R"(Scales the parameters that the campaign's "margin" or --scale names, makes the same draws at every

@@ -11,7 +11,7 @@ namespace wingspread {
 namespace {
 
 constexpr std::array<std::string_view, 2> case_names{"nominal", "one_spring_out"};
-constexpr const char* expected_range = "an array of two numbers, 0 < lower < upper";
+constexpr const char* expected_range = "an array of two numbers > 0, the first below the second";
 constexpr const char* expected_widest = "an array of two numbers > 0 that enclose \"range\"";
 /// Default of `widest`: the range widened by three octaves on either side. Heuristic: the study does not find the edges
 /// of a window that lie beyond.
@@ -24,8 +24,9 @@ bool is_point_count(const std::int64_t& number) {
 void read_range(const JsonCursor& at, MarginSpec& margin) {
   std::vector<double> range;
   if (!at.read(range, expected_range)) return;
-  if (range.size() != 2 || !(range[0] > 0 && range[0] < range[1]))
-    return void(at.refuse(expected_range));
+  if (range.size() != 2) return void(at.refuse(expected_range));
+  if (!(range[0] > 0 && range[0] < range[1]))
+    return void(at.refuse(fmt::format("{} and {}", range[0], range[1]), expected_range));
   margin.lower = range[0];
   margin.upper = range[1];
   margin.lowest = margin.lower / widening;
@@ -35,9 +36,9 @@ void read_range(const JsonCursor& at, MarginSpec& margin) {
 void read_widest(const JsonCursor& at, MarginSpec& margin) {
   std::vector<double> widest;
   if (!at.read(widest, expected_widest)) return;
-  if (widest.size() != 2 ||
-      !(widest[0] > 0 && widest[0] <= margin.lower && widest[1] >= margin.upper))
-    return void(at.refuse(expected_widest));
+  if (widest.size() != 2) return void(at.refuse(expected_widest));
+  if (!(widest[0] > 0 && widest[0] <= margin.lower && widest[1] >= margin.upper))
+    return void(at.refuse(fmt::format("{} and {}", widest[0], widest[1]), expected_widest));
   margin.lowest = widest[0];
   margin.highest = widest[1];
 }

@@ -15,7 +15,14 @@
 
   const three = (value) => F.number(value, 3);
   const times = (value) => (Math.abs(value) < 0.1 ? F.number(value, 2) : F.fixed(value, 2)); // a first-order factor
-  const range = (low, high, text) => (W.isNumber(low) && W.isNumber(high) ? `${text(low)} – ${text(high)}` : F.none);
+  // Bounds, with more decimals than the text has where one digit of their distance needs them.
+  function range(low, high, text) {
+    if (!W.isNumber(low) || !W.isNumber(high)) return F.none;
+    const needed = high > low ? F.decimals(10 * (high - low)) : 0;
+    const close = [low, high].some((bound) => (text(bound).split(".")[1] || "").length < needed);
+    const shown = close ? (bound) => F.fixed(bound, needed) : text;
+    return `${shown(low)} – ${shown(high)}`;
+  }
   // A change of an input: a factor, or its mean before and after in its unit.
   function texts(one) {
     const { factor, unit } = F.shown(one.unit),
