@@ -122,6 +122,7 @@ class MarkChecks:
             self.line(self.paths("settling", ".trace", nth)[0], x, inside, zip(rows["runs"], rows[key]), about)
             self.band(self.paths("settling", ".curve-band", nth)[0], x, inside, zip(rows["runs"], rows[low], rows[high]), about)
             words = self.run_script("return document.querySelectorAll('figure.settling svg desc')[arguments[0]].textContent", nth)
+            self.check(words.partition(": ")[0], rows["runs"][-1], about=about)
             self.check(words.partition(": ")[2].replace("/s²", ""), *(rows[one][-1] * factor for one in (key, low, high)), about=about)
 
     def test_causes_lie_on_their_axes(self):

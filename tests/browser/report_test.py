@@ -21,14 +21,23 @@ try:
     from selenium.webdriver.common.keys import Keys
     import pages
     from change_checks import ChangeChecks
+    from data_checks import DataChecks
     from finding_checks import FindingChecks
     from fit_checks import FitChecks, made_fit
+    from fit_page_checks import FitPageChecks
+    from judgement_checks import JudgementChecks
     from mark_checks import MarkChecks
     from number_checks import NumberChecks, Numbers
     from own_checks import OwnChecks
+    from part_checks import PartChecks
     from pose_checks import PoseChecks
     from rowless_checks import RowlessChecks, rowless
+    from run_checks import RunChecks
     from sequence_checks import SequenceChecks
+    from sequence_page_checks import SequencePageChecks
+    from shape_checks import ShapeChecks
+    from study_page_checks import StudyPageChecks
+    from word_checks import WordChecks
 except ImportError as missing:
     raise SystemExit(f"left out: {missing}")
 
@@ -72,7 +81,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
+class Quick(StudyPageChecks, JudgementChecks, ShapeChecks, WordChecks, PartChecks, FitPageChecks, RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")
@@ -305,7 +314,7 @@ class Quick(PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, P
         self.one(".play").click()
 
 
-class Own(OwnChecks, SequenceChecks, FitChecks, RowlessChecks, Numbers, Page):
+class Own(DataChecks, OwnChecks, SequenceChecks, FitChecks, RowlessChecks, Numbers, Page):
     """The program's own pages: of the seed campaign, of a wing of which some stall, of three cases, of a satellite."""
 
     @classmethod

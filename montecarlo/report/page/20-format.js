@@ -70,7 +70,7 @@
   };
 
   // The level of a quantile: "1 %", "99.5 %".
-  F.level = (p) => F.share(p).replace(/\.0 /, " ");
+  F.level = (p) => F.share(p).replace(/\.0+ %$|(\.\d*[1-9])0+ %$/, "$1 %");
   F.quantileName = (p) => (p === 0.5 ? "Median" : `${F.level(p)} quantile`);
 
   // Units: "N m" reads N·m; radians may be shown in degrees.

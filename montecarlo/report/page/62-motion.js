@@ -196,8 +196,9 @@
       value: player.time,
       "aria-label": "Time",
       oninput: (event) => {
+        const wanted = Number(event.target.value); // before the player, which sets it
         player.play(false);
-        player.seek(Number(event.target.value));
+        player.seek(wanted);
       },
       onkeydown: (event) => {
         if (event.key === "ArrowRight" || event.key === "ArrowLeft") {

@@ -10,7 +10,7 @@
     const { unit, factor } = F.shown(one.unit),
       scaled = (values) => values.map((value) => (W.isNumber(value) ? value * factor : value)),
       [measured, fitted, lower, upper] = [one.measured, one.fitted, one.lower, one.upper].map(scaled),
-      residuals = measured.map((value, at) => value - fitted[at]);
+      residuals = measured.map((value, at) => (W.isNumber(value) ? value - fitted[at] : null));
     const note = `Root mean square of the residuals: ${F.number(one.rms * factor, 3)} ${unit}.${
       W.isNumber(one.chi_squared)
         ? ` χ² ${F.number(one.chi_squared, 4)} for ${F.count(one.n)} numbers, p ${F.number(one.p_value, 2)}.`

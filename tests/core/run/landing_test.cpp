@@ -15,13 +15,30 @@ using namespace wingspread::oracle;
 
 namespace {
 
-/// The panel of latching_panel() on a step to its latch, which it passes at 1.14 rad/s.
-struct Arriving {
-  explicit Arriving(const Goal& asked)
-      : goal(asked), wing(make_wing<double>(scene, outward_order(scene))),
+/// A run of a scene, and what lands it.
+struct LandingRun {
+  explicit LandingRun(const Scene& of, const Goal& asked)
+      : scene(of), goal(asked), wing(make_wing<double>(scene, outward_order(scene))),
         system((set_parameters(wing, scene), wing), std::nullopt, work), run(system, how, goal),
         events(system), landing(run, events) {
     events.start();
+  }
+
+  Scene scene;
+  Integration how;
+  Goal goal;
+  Wing<double> wing;
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::fixed> system;
+  using AnySystem = decltype(system);
+  Underway<double, AnySystem> run;
+  Events<double, AnySystem> events;
+  Landing<double, AnySystem> landing;
+};
+
+/// The panel of latching_panel() on a step to its latch, which it passes at 1.14 rad/s.
+struct Arriving : LandingRun {
+  explicit Arriving(const Goal& asked) : LandingRun(latching_panel(), asked) {
     system.want_forces(goal.peak_force);
     run.step.t = 2, run.step.h = 0.01;
     run.step.x = {0.00571, -1.14}, run.step.x1 = state_after(0.01);
@@ -43,17 +60,6 @@ struct Arriving {
     system(run.step.x1, run.step.dxdt1, run.step.t + run.step.h);
     return late;
   }
-
-  Scene scene = latching_panel();
-  Integration how;
-  Goal goal;
-  Wing<double> wing;
-  Workspace<double> work;
-  System<double, Tree, BaseMotion::fixed> system;
-  using AnySystem = decltype(system);
-  Underway<double, AnySystem> run;
-  Events<double, AnySystem> events;
-  Landing<double, AnySystem> landing;
 };
 
 } // namespace
@@ -166,12 +172,8 @@ namespace {
 
 /// Two pairs of discs on a fixed base, each pair with a damped loop that goes slack at |x_a − x_b| = 2 M_p/K = 0.1 rad, on
 /// steps in which the outer disc of each pair moves evenly: the discs are so heavy that the loops hardly turn them.
-struct TwoLoops {
-  TwoLoops()
-      : wing(make_wing<double>(scene, outward_order(scene))),
-        system((set_parameters(wing, scene), wing), std::nullopt, work), run(system, how, goal),
-        events(system), landing(run, events) {
-    events.start();
+struct TwoLoops : LandingRun {
+  TwoLoops() : LandingRun(two_pairs(), latches_only) {
     run.step.t = 1, run.step.h = 0.1;
     run.step.x = at({0, 0}), run.step.dxdt.assign(8, 0);
     system(run.step.x, run.step.dxdt, 1);
@@ -211,17 +213,6 @@ struct TwoLoops {
     }
     return scene;
   }
-
-  Scene scene = two_pairs();
-  Integration how;
-  Goal goal = latches_only;
-  Wing<double> wing;
-  Workspace<double> work;
-  System<double, Tree, BaseMotion::fixed> system;
-  using AnySystem = decltype(system);
-  Underway<double, AnySystem> run;
-  Events<double, AnySystem> events;
-  Landing<double, AnySystem> landing;
 };
 
 } // namespace

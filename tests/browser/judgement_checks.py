@@ -1,0 +1,149 @@
+"""The first screen's sentences on requirements, the comparison of verdicts, influences, studies and inputs, for data of every kind."""
+
+import pages
+from number_checks import DEGREES
+
+BASE = {"name": "", "id": "", "output": "root.peak_moment", "kind": "<=", "limit": 200, "upper": True, "abs": False, "static_margin": False, "group": "", "disproved": False, "runs": 2000, "allowed": 12, "verdict": "passed", "probability": 0.99,
+        "confidence": 0.9, "observed": 0.995, "guaranteed": 0.992, "observed_value": 150, "guaranteed_value": 160, "margin": 40, "source": "", "rationale": "", "broken": 0, "not_deployed": 0, "without_value": 0, "cut": 0, "beyond": 0,
+        "worst": None, "beyond_runs": [], "not_deployed_runs": [], "evidence": "", "changes": []}
+SHARE = {"output": "deployed", "kind": "status", "limit": None, "upper": False, "observed_value": None, "guaranteed_value": None, "margin": None}
+
+
+def stated(text, verdict="passed", **more):
+    return {**BASE, "text": text, "id": text, "verdict": verdict, **more}
+
+
+class JudgementChecks:
+    """For a Page with MarkChecks and FitPageChecks."""
+
+    def told(self, selector, *requirements):
+        """A part of the first screen with these requirements of each set."""
+        return self.run_script("W.sets.forEach((set, at) => { set.requirements = arguments[1][at]; set.outputs.forEach(one => one.limits = []); }); W.outcomes(); return [...document.querySelectorAll(arguments[0])].map(one => one.textContent)", selector, requirements)
+
+    def test_the_headline_counts_and_names_what_decides(self):
+        self.open(pages.made_up("plain"))
+        head = lambda *given: self.told("#verdicts .headline", [stated("ABCDEFG"[at], verdict) for at, verdict in enumerate(given)])[0]
+        for given, text in (([], "This campaign states no requirements. This report has statistics only, no verdicts."), (["passed"], "✓ pass The requirement passes"), (["passed"] * 2, "✓ pass All 2 requirements pass"), (["failed"], "✕ fail The requirement fails"),
+                            (["failed"] * 2, "✕ fail Each of 2 requirements fails"), (["failed", "passed"], "✕ fail 1 of 2 requirements fails: A 1 passes"), (["failed", "failed", "open", "passed", "passed"], "✕ fail 2 of 5 requirements fail: A and B 1 undecided, 2 pass"),
+                            (["failed"] * 4 + ["passed"], "✕ fail 4 of 5 requirements fail 1 passes"), (["open"], "? undecided The requirement is undecided: too few runs"), (["open"] * 3, "? undecided Each of 3 requirements is undecided: too few runs"),
+                            (["open", "passed"], "? undecided 1 of 2 requirements is undecided, for too few runs: A 1 passes"), (["open", "open", "open", "passed"], "? undecided 3 of 4 requirements are undecided, for too few runs: A, B and C 1 passes")):
+            self.assertEqual(head(*given), text)
+        self.assertEqual(self.run_script("return document.querySelector('.headline').className"), "headline open")
+        self.open(pages.made_up("cases"))
+        head = lambda *given: self.told("#verdicts .headline", *([stated("ABC"[at], verdict) for at, verdict in enumerate(verdicts)] for verdicts in given))[0]
+        for given, text in (((["passed"] * 2,) * 3, "✓ pass All 2 requirements pass in every case"), ((["failed", "passed"], ["passed"] * 2, ["passed"] * 2), "✕ fail 1 of 2 requirements fails in cold: A cold: 1 fails, 1 passes; ambient and hot: 2 pass"),
+                            ((["passed", "failed"], ["failed", "passed"], []), "✕ fail Each of 2 requirements fails in at least one case cold and ambient: 1 fails, 1 passes; hot: no requirements"),
+                            ((["open", "passed"], ["passed"] * 2, ["open", "passed"]), "? undecided 1 of 2 requirements is undecided, for too few runs: A cold and hot: 1 undecided, 1 passes; ambient: 2 pass")):
+            self.assertEqual(head(*given), text)
+
+    def test_a_requirement_and_what_breaks_it_in_words(self):
+        self.open(pages.made_up("plain"))
+        runs = lambda *numbers: [{"run": run, "value": 0} for run in numbers]
+        rows = [stated("A", "failed", id="SYS-1", name="moment", group="G", broken=13, not_deployed=5, not_deployed_runs=runs(4, 3, 2, 1), beyond=6, beyond_runs=runs(9, 8, 7), without_value=1234, cut=1, worst={"run": 9, "value": 211}, evidence="said", margin=-12.5, guaranteed_value=212.5),
+                stated("B", "failed", id="", name="rate", output="root.latch_rate", upper=False, kind=">=", limit=-1.5, broken=1, beyond=1, beyond_runs=runs(77), worst={"run": 77, "value": -1.625}, disproved=True, evidence="e", margin=None, guaranteed_value=None, observed_value=-1.55, without_value=0),
+                stated("C", "open", id="", limit=250, broken=2, without_value=2, guaranteed_value=None, margin=None, observed_value=None, evidence="disproved already", disproved=True), stated("D", "passed", id="", limit=300, worst={"run": 5, "value": 171}, abs=True),
+                stated("E", "passed", **{**SHARE, "id": "DEP", "name": "deploys"}), stated("F", "open", **{**SHARE, "id": "", "guaranteed": None, "observed": 0.5, "broken": 1, "not_deployed": 1, "not_deployed_runs": runs(11)})]
+        self.run_script("W.choose('angles', 'deg')")
+        self.told("#verdicts", rows)
+        cells = {row[0][:12].removesuffix("2,000 r"): row for row in self.table("Requirements, the worst first")}
+        texts = {"SYS-1 moment": ["SYS-1 moment: root peak moment ≤ 200 N·m, 99 % at 90 % in group Gsaid", "✕ fail", "150.0 N·m", "212.5 N·m", "−12.5 N·m", None, "13 5 not deployed worst: 4, 3, 2 6 above the limit worst: 9, 8, 7 1,234 without this event 1 with a peak that t_end cut largest 211.0 N·m "],
+                 "rate: root l": ["rate: root latch rate ≥ −1.5 rad/s (−85.94 deg/s), 99 % at 90 %e · disproved", "✕ fail", "−88.81 deg/s", "too few runs", "−2.86 deg/s (observed)", None, "1 below the limit run 77 least −93.11 deg/s "],
+                 "root peak mo": None, "DEP E": ["DEP E2,000 runs can show no more", "✓ pass", "99.50 %", "99.20 %", "+0.200 %-points", None, "none "], "F": ["F", "? undecided", "50.0 %", "too few runs", "–", None, "1 not deployed run 11 "],
+                 "|root peak m": ["|root peak moment| ≤ 300 N·m, 99 % at 90 %", "✓ pass", "150.0 N·m", "160.0 N·m", "+40.0 N·m", None, "none largest 171.0 N·m run 5 "]}
+        self.assertEqual(set(cells), set(texts))
+        for name, wanted in texts.items():
+            if wanted:
+                self.assertEqual([cell.replace("\u00a0", " ") for cell, want in zip(cells[name], wanted) if want is not None], [want for want in wanted if want is not None])
+        self.assertEqual(cells["root peak mo"][:5], ["root peak moment ≤ 250 N·m, 99 % at 90 %disproved already", "? undecided", "99.50 %", "too few runs with a value", "–"])
+        heads = lambda given: (self.told("#verdicts", given), self.run_script("return [...document.querySelector('table.requirements').tHead.rows[0].cells].map(one => one.textContent)"))[1][2:4]
+        self.assertEqual([heads(rows), heads(rows[:3]), heads(rows[4:]), heads([rows[0], {**rows[1], "confidence": 0.5}])],
+                         [["Quantile or share", "One-sided 90 % bound"], ["Quantile", "One-sided 90 % bound"], ["Share", "One-sided 90 % bound"], ["Quantile", "One-sided bound"]])
+        bars = self.run_script("W.set().statuses = [['deployed', 1990], ['stalled', 6], ['failed', 4], ['invalid', 0]].map(([status, count]) => ({ status, count, rate: count / 2000, lower: 0, upper: 1 })); W.outcomes(); return [...document.querySelectorAll('.stack span')].map(one => [one.className, Number(one.style.flexGrow)])")
+        self.assertEqual(bars, [["deployed", 1990], ["stalled", 12], ["failed", 12]])  # the few can be seen
+
+    def test_why_wings_that_do_not_deploy_break_everything(self):
+        self.open(pages.made_up("loads"))
+        failed = lambda text, **more: stated(text, "failed", broken=40, not_deployed=40, **more)
+        cause = lambda *given: self.told("#verdicts p.lead:not(.assumptions):not(.static-shortfall)", *given)
+        words = "40 of 2,000 runs did not deploy, and a run that does not deploy breaks every requirement. No deployed run is beyond a limit."
+        self.assertEqual(cause([failed("A"), failed("B")], []), ["cold: " + words])
+        self.assertEqual(cause([failed("A"), failed("B")], [failed("A"), failed("B"), stated("C")]), ["cold: " + words, "hot: " + words])
+        self.assertEqual(cause([failed("A")], []), [])
+        self.assertEqual(cause([failed("A"), {**failed("B"), "broken": 41}], []), [])
+        self.assertEqual(cause([failed("A"), {**failed("B"), "not_deployed": 0, "broken": 0}], []), [])
+        lever = {"words": "w", "draws": ["root.spring"], "scaled": True, "unit": "", "now": 1, "change": 1.2, "lower": 1.1, "upper": 1.3, "least": 0.9, "most": 1.4, "beyond": False, "of_broken": 0.8, "of_others": 1.1, "command": None}
+        change = [{"for": "deployment", "runs": 900, "explained": 0.5, "levers": [lever]}]
+        items = self.told("#verdicts .stalls > li", [failed("A", changes=change, allowed=20), failed("D", **{**SHARE, "id": "", "name": "D", "changes": change, "allowed": 1, "probability": 0.999}), stated("E", "failed", changes=[])], [])
+        self.assertEqual(len(items), 1)
+        self.assertTrue(items[0].startswith("D: in cold 40 of 2,000 runs (2.0 %) did not deploy, where at most 1 may (0.1 % of the runs is 2; to be 90 % sure, only 1 may). "), items[0])
+        self.assertIn("× 0.80 / × 1.10", items[0])
+        beyond = lambda text, **more: stated(text, "failed", name=text, output="root.peak_moment", beyond=3, broken=3, changes=[], **more)
+        found = self.told("#verdicts .findings:not(.stalls) > li", [beyond(text) for text in "ABCDEF"], [beyond("A", margin=-3)])
+        self.assertEqual([len(found), self.told("#verdicts p.note", [beyond(text) for text in "ABCDEF"], [])[0]], [4, "2 more requirements below."])
+        self.assertEqual(self.told("#verdicts p.note", [beyond(text) for text in "ABCDE"], [])[0], "1 more requirement below.")
+        found = self.told("#verdicts .findings:not(.stalls) > li", [beyond("A", margin=40)], [beyond("A", margin=-3), beyond("B", upper=False, beyond_runs=[{"run": 6, "value": 1}])])
+        self.assertTrue(found[0].startswith("A: in hot 3 of 2,000 runs (0.15 %) have root peak moment above 200 N·m, where at most 12 may"), found[0])
+        self.assertIn("Also fails in cold (+40.0 N·m to the limit). ", found[0])
+        self.assertTrue("have root peak moment below 200 N·m" in found[1] and "The 1 % quantile is 150.0 N·m, its one-sided 90 % bound 160.0 N·m. " in found[1] and "The worst run is 6. " in found[1], found[1])
+        self.assertIn("1 of 2,000 runs (0.050 %) has |root peak moment| above", self.told("#verdicts .findings > li", [stated("A", "failed", beyond=1, broken=1, abs=True)], [])[0])
+
+    def test_verdicts_side_by_side_begin_with_those_that_change(self):
+        self.open(pages.made_up("cases"))
+        self.told("#verdicts", [stated("A"), stated("B", broken=3, beyond=2, not_deployed=1, margin=-7), stated("C", runs=1500, broken=1)], [stated("A"), stated("B", "failed", broken=5, beyond=5, upper=False), stated("D", "open", margin=None, guaranteed_value=None)], [])
+        rows = self.run_script("W.comparison(); return [...document.querySelector('.side-by-side').tBodies[0].rows].map(row => [row.className, ...[...row.cells].map(cell => cell.textContent)])")
+        name = "root peak moment ≤ 200 N·m, 99 % at 90 %"
+        self.assertEqual(rows, [["changed", f"B: {name}", "✓ pass −7.00 N·m1 not deployed, 2 above the limit", "✕ fail +40.0 N·m5 below the limit"], ["changed", f"C: {name}", "✓ pass +40.0 N·m1 of 1,500 runs break it", "not required"],
+                                ["changed", f"D: {name}", "not required", "? undecided +50.0 N·m (observed)0 of 2,000 runs break it"], ["", f"A: {name}", "✓ pass +40.0 N·m0 of 2,000 runs break it", "✓ pass +40.0 N·m0 of 2,000 runs break it"]])
+        self.assertEqual(self.run_script("return [...document.querySelectorAll('#comparison > .content > details')].map(one => one.open)"), [True, True])
+        self.run_script("W.data.comparisons.push(W.data.comparisons[0]); W.data.comparisons.forEach((one, at) => { one.folders = at === 1; one.statuses = []; }); W.comparison()")
+        self.assertEqual(self.run_script("return [[...document.querySelectorAll('#comparison > .content > details')].map(one => one.open), [...document.querySelectorAll('#comparison caption')].some(one => /outcomes/.test(one.textContent))]"), [[False, True, False], False])
+
+    def test_influences_and_dispersions_without_one(self):
+        self.open(pages.made_up("plain"))
+        effect = lambda draw, value, low, high, partial=None: {"output": "root.peak_moment", "draw": draw, "spearman": value, "spearman_lower": low, "spearman_upper": high, "prcc": value if partial is None else partial, "prcc_lower": low, "prcc_upper": high}
+        show = lambda effects, dispersions, **more: (self.run_script("Object.assign(W.set().sensitivity, { effects: arguments[0], idle: [], ...arguments[2] }); W.set().inputs.dispersions = arguments[1]; W.choose('output', 'root.peak_moment'); W.why()", effects, dispersions, more), [one.get_attribute("textContent") for one in self.all("#why p.effects")])[1]
+        given = lambda draw, paths, **more: {"draw": draw, "paths": paths, "law": "", "low": 0, "high": 1, "unit": "", **more}
+        self.assertEqual(show([effect("a", 0.6, 0.5, 0.7), effect("b", -0.4, -0.5, -0.3), effect("c", 0.1, -0.1, 0.2)], [given("a", ["hinges.a.spring"]), given("b", ["x", "y"], apply="by a table")]),
+                         ["root peak moment increases most with a (acts on hinges.a.spring) and decreases most with b (acts on 2 parameters by tables)."])
+        self.assertEqual(show([effect("c", 0.1, -0.1, 0.2), effect("b", -0.4, -0.5, -0.3)], [given("b", ["x", "y"], words="friction")]), ["root peak moment decreases most with friction."])
+        self.assertEqual(show([effect("a", 0.6, -0.5, 0.7)], []), [])
+        self.assertEqual(show([effect("a", 0.3, 0.1, 0.7, -0.5)], [given("a", ["x", "y"])]), ["root peak moment decreases most with a (acts on 2 parameters)."])  # the larger of both coefficients tells
+        note = lambda: self.run_script("return document.querySelector('figure.tornado > .note').textContent")
+        show([effect("a", 0.6, 0.5, 0.7)], [given("a", [])], confidence=0.9)
+        self.assertIn("Lines are 90 % two-sided bounds. Bars", note())
+        show([effect("a", 0.6, 0.5, 0.7)], [given(f"d{k}", []) for k in range(20)], confidence=0.9)
+        self.assertIn("Lines are 90 % two-sided bounds of one coefficient: if none of the 20 dispersions had an effect, about 2.0 of them would still exclude 0.", note())
+        for count in (0, 1, 12, 13):
+            show([effect("a", 0.6, 0.5, 0.7)], [], idle=[f"d{k}" for k in range(count)])
+            folds = self.run_script("return [...document.querySelectorAll('#why details')].filter(one => /without a visible/.test(one.textContent)).map(one => [one.open, one.querySelector('summary').textContent, one.querySelector('.note').textContent.split('. Here')[0]])")
+            self.assertEqual(folds, [[count <= 12, f"{count} dispersion{'s' * (count > 1)} without a visible effect on any output", ", ".join(f"d{k}" for k in range(count))]] if count else [])
+        self.run_script("W.set().sensitivity.held = false; W.why()")
+        pages.settle(self.driver)
+        self.assertIn("PRCC", self.run_script("return [...document.querySelectorAll('figure.tornado .legend text')].map(one => one.textContent)"))
+        for count, text in ((4, None), (5, "One more pair"), (6, "2 more pairs")):
+            folds = self.run_script("const set = W.set(); W.pair = W.pair ?? set.scatters[0]; set.scatters = d3.range(arguments[0]).map(() => W.pair); W.why(); return [document.querySelectorAll('#why .content > .grid.pairs figure.scatter').length, ...[...document.querySelectorAll('#why details.later > summary')].map(one => one.textContent)]", count)
+            self.assertEqual(folds, [4] + ([text] if text else []))
+
+    def test_inputs_of_each_case(self):
+        self.open(pages.made_up("cases"))
+        self.run_script("""W.sets.forEach((set, at) => { set.inputs.scene = [{ path: 'a.b', label: 'stowed', value: 0.5, unit: 'rad', case_value: [0.25, null, 'off'][at] }, { path: 'c', label: 'mass', value: 2, unit: 'kg m^2', case_value: null }];
+            set.inputs.dispersions = [{ draw: 'k', words: 'springs', law: ['normal', 'normal', 'uniform'][at], law_before_case: at === 2 ? 'normal' : null, unit: 'N m', nominal: 3, nominal_unit: 'rad', low: 1, high: 2, apply: 'scale', paths: ['p'] },
+                { draw: 'm', law: 'same', unit: 'rad', nominal: 0.5, nominal_unit: 'rad', low: -0.5, high: 1.25, paths: ['p', 'q'] }].slice(0, at === 1 ? 1 : 2); }); W.choose('set', 2)""")
+        self.assertEqual(self.table("Changes of the nominal scene by case"), [["stowed", "rad", "0.5", "0.25", "as nominal", "off"]])
+        self.assertEqual(self.table("Dispersions whose law differs"), [["springs", "normal", "normal", "uniform"], ["m", "same", "–", "same"]])
+        self.assertEqual(self.heads("Dispersions whose law differs"), ["Dispersion", "cold", "ambient", "hot"])
+        self.assertEqual(self.table("Scene of hot"), [["stowed", "0.5", "rad", "28.6479 deg", "off", "a.b"], ["mass", "2", "kg·m²", "", "–", "c"]])
+        self.assertEqual(self.table("Dispersions of hot"), [["springs k", "uniform (nominal: normal)", "N·m", "3 rad", "1.000 … 2.000", "", "scale: p"], ["m", "same", "rad", "–", "−0.5000 … 1.250", f"{-0.5 * DEGREES:.4f} deg … {1.25 * DEGREES:.4f} deg".replace("-", "−"), "p, q"]])
+        summaries = lambda: self.run_script("return [...document.querySelectorAll('#inputs details')].map(one => [one.open, one.querySelector('summary').textContent])")
+        self.assertEqual(summaries(), [[True, "Scene: 2 parameters"], [True, "Dispersions: 2"]])
+        self.run_script("const set = W.set(); set.inputs.scene = d3.range(81).map(at => ({ path: `p${at}`, label: `p${at}`, value: at, unit: '', case_value: null })); set.inputs.dispersions = d3.range(61).map(at => ({ draw: `d${at}`, law: '', low: 0, high: 1, paths: [] })); W.inputs()")
+        self.assertEqual(summaries(), [[False, "Scene: 81 parameters"], [False, "Dispersions: 61"]])
+        self.run_script("W.sets.forEach(set => { set.inputs.scene.length = 1; set.inputs.scene[0].case_value = null; set.inputs.dispersions = []; }); W.inputs()")
+        text = self.one("#inputs").text
+        self.assertTrue("No case changes the scene; the cases' distributions differ" in text and "The campaign has no dispersions." in text, text)
+        rows = self.run_script("return Object.entries(W.data.glossary)")
+        self.assertEqual(self.table("Meaning, unit and sign of every name"), [[name, one["unit"].replace("rad", "deg").replace(" ", "·"), one["text"]] for name, one in rows])
+        traced = [["SYS-1", "L-1: root peak moment ≤ 215 N·m, 99 % at 90 %", "specification 4.2", "strength of the root fitting"]]
+        self.assertEqual(self.table("Identifier, source and rationale of each requirement")[:1], traced)
+        self.run_script("W.set().inputs.scene = []; W.inputs()")
+        self.assertIn("The folder does not contain its campaign's inputs.", self.one("#inputs").text)
