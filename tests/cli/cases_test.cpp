@@ -139,6 +139,20 @@ TEST_CASE("A case that stopped with its goals met is whole; one that was cut is 
   for (const Json& one : made()) CHECK((one["runs"] == 1000 && !one.contains("partial")));
 }
 
+TEST_CASE("goals of --until make the folder that the same goals in the campaign make", "[cases]") {
+  const Folder folder;
+  Json json = campaign_with_cases(1000);
+  json["motorization"] = {{"springs_per_hinge", 4}};
+  const std::string file = folder.write("c.json", json.dump()), given = folder.path() / "given";
+  (void)run_program(folder, {"run", file, "--out", given, "--until", "deployed 0.5"});
+  json["until"] = parse_json(R"([{ "output": "deployed", "width": 0.5 }])");
+  const std::string own = folder.path() / "own";
+  (void)run_program(folder, {"run", folder.write("u.json", json.dump()), "--out", own});
+  CHECK(all_contents(given) == all_contents(own));
+  CHECK(run_program(folder, {"analyze", given}).error ==
+        run_program(folder, {"analyze", own}).error);
+}
+
 TEST_CASE("A folder of cases is one whole: another campaign, and a second writer, are refused",
           "[cases]") {
   const Cases cases(6);

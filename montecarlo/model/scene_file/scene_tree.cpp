@@ -34,8 +34,8 @@ void check_names_of(const JsonCursor& at, const char* list, const std::vector<Na
     else if (first < i)
       name.refuse(fmt::format("string \"{}\", the name of /{}/{} too", all[i].name, list, first),
                   "a name of its own");
-    else if (std::string_view(list) == "bodies" && all[i].name == base_name)
-      name.refuse("another name: \"base\" is the base's");
+    else if (std::string_view(list) != "synchronisations" && all[i].name == base_name)
+      name.refuse("another name: \"base\" is the base's"); // as are the outputs base.rate …
   }
 }
 

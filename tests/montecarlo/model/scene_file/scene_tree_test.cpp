@@ -66,11 +66,15 @@ TEST_CASE("Bodies have names of their own, and so have hinges", "[scene_tree]") 
   CHECK(problems(test::spoil(test::small_scene(), {"/hinges/0/name", "\"inner\"", ""})).empty());
 }
 
-TEST_CASE("No body is called base", "[scene_tree]") {
+TEST_CASE("No body and no hinge is called base", "[scene_tree]") {
   Json document = tree("a", {"base a"});
   document["bodies"][0]["name"] = document["hinges"][0]["child"] = "base";
   CHECK(problems(document) ==
         "/bodies/0/name: found string \"base\", expected another name: \"base\" is the base's");
+  Json other = tree("a", {"base a"});
+  other["hinges"][0]["name"] = "base"; // base.rate would be two outputs
+  CHECK_THAT(problems(other),
+             Catch::StartsWith("/hinges/0/name: found string \"base\", expected another"));
 }
 
 TEST_CASE("Hinges form a tree in whatever order", "[scene_tree]") {
