@@ -363,9 +363,7 @@ void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from)
 
 void override_stopping(Campaign& campaign, const JsonCursor& at) {
   guarantee_reader(campaign).read(at, &campaign.requirements, campaign.until);
-  // all of it: the hash depends on the keys' order, which must be that of a campaign that was read
-  const Json dispersions = campaign.resolved.at("dispersions");
-  campaign.resolved = write_campaign(campaign, dispersions);
+  campaign.resolved = write_campaign(campaign, Json(campaign.resolved.at("dispersions")));
 }
 
 Json write_analysis(const Campaign& campaign) {

@@ -60,7 +60,8 @@ void read_analysis(const JsonCursor& at, Campaign& campaign);
 /// @pre the numbers ascend and are below the campaign's number of runs
 void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from);
 
-/// Replaces the goals to stop at, also in `resolved`; notes problems.
+/// Replaces the goals to stop at, also in `resolved`, in the place that they have in a campaign that was read: its hash
+/// depends on the order of keys. Notes problems.
 void override_stopping(Campaign& campaign, const JsonCursor& at);
 
 /// Reads an array of requirements from a file of its own, for this campaign.

@@ -33,8 +33,9 @@ void check_release(const Scene& scene, int h, double t_end, InputWarnings& warni
                  "holds of which the first waits for a time, or for a hinge that is free");
   if (release.event == Release::Event::time && release.time + release.delay >= t_end)
     warnings.add(at + "/time",
-                 fmt::format("{:.6g} s with its delay, not before t_end = {:.6g} s",
-                             release.time + release.delay, t_end),
+                 fmt::format("{:.6g} s{}, not before t_end = {:.6g} s",
+                             release.time + release.delay,
+                             release.delay > 0 ? " with its delay" : "", t_end),
                  "a release within the run");
   const Hinge* other = release.after < 0 ? nullptr : &scene.hinges[release.after];
   if (release.event == Release::Event::passed && other &&

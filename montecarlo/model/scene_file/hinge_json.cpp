@@ -189,7 +189,10 @@ void read_joint(JsonObject& object, const JsonCursor& at, Hinge& hinge) {
   joint.required("stiffness", hinge.joint->stiffness, Dimension{"N·m/rad", "> 0"});
   joint.optional("damping", hinge.joint->damping, Dimension{"N·m·s/rad", "≥ 0"});
   joint.refuse_others();
-  object.required("angle", hinge.stowed, Dimension{"rad"});
+  if (const auto angle = object.find("angle"); angle && angle->value().is_object())
+    angle->refuse("one number, rad: an elastic joint rests at one angle");
+  else
+    object.required("angle", hinge.stowed, Dimension{"rad"});
   hinge.latched = hinge.stowed;
   refuse_laws_beside_joint(object);
 }

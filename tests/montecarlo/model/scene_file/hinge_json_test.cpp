@@ -216,6 +216,13 @@ TEST_CASE("An elastic joint has one angle and no other law", "[hinge_json]") {
   CHECK(resolve(scene, "hinges.root.joint.damping").expected == "a hinge that is an elastic joint");
 }
 
+TEST_CASE("Stowed and latched angles of an elastic joint are refused for the joint",
+          "[hinge_json]") {
+  const Json two =
+      test::spoil(jointed_scene(), {"/hinges/1/angle", R"({ "stowed": 1, "latched": 0 })", ""});
+  CHECK_THAT(test::message_of([&] { return read_scene(two); }), Catch::Contains("elastic joint"));
+}
+
 TEST_CASE("What an elastic joint cannot have is refused", "[hinge_json]") {
   const auto [pointer, value, place] = GENERATE(values<test::Spoiled>({
       {"/hinges/1/spring", R"({ "torque_stowed": 1, "torque_latched": 1 })", "/hinges/1/spring"},
