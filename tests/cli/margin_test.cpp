@@ -174,6 +174,28 @@ TEST_CASE("margin refuses a used folder, and what it cannot show, before anythin
   CHECK_THAT(used.error, Catch::Contains("a folder with files in it, expected a new or an empty"));
 }
 
+TEST_CASE("margin names the campaign's file and the options that stand for its margin") {
+  const Place program;
+  Json json = one_panel_margin(50);
+  json.erase("margin");
+  const std::string file = program.file(json);
+  const auto told = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"margin", file, "--out", program.out});
+    const Finished refused = program(options);
+    CHECK((refused.code == 2 && refused.out.empty()));
+    return refused.error;
+  };
+  const std::string path = "hinges.*.spring.scale";
+  CHECK_THAT(told({}), HasFacts({"error: " + file + ": /margin: ", "--scale", "--range A B",
+                                 file + ": /sampling/runs: found 50"}));
+  CHECK_THAT(told({"--scale", path}), HasFacts({"error: --range: ", "two numbers", "--range A B"}));
+  CHECK_THAT(told({"--scale", path, "--range", "0.5", "2"}),
+             HasFacts({"error: " + file + ": /sampling/runs: found 50"}));
+  const std::string shard = program.folder.path();
+  CHECK_THAT(told({"--scale", path, "--range", "0.5", "2", "--from", shard, shard}),
+             HasFacts({"error: " + shard + ": ", "the same folder"}));
+}
+
 TEST_CASE("margin interrupted keeps the scales that were finished", "[parallel]") {
   const Place program;
   Json json = one_panel_margin(1000);

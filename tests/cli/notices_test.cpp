@@ -61,3 +61,21 @@ TEST_CASE("check says where every body is, and how much they weigh") {
         std::string::npos);
   CHECK(out.find("mass of 3 bodies: 30 kg\n") != std::string::npos);
 }
+
+TEST_CASE("check names each case whose nominal wing does not deploy, and how it ends") {
+  const Folder folder;
+  Json campaign = quick_campaign(5);
+  campaign["cases"] = parse_json(R"([ { "name": "as_it_is" },
+    { "name": "weak", "scale": { "hinges.*.spring.scale": 0.01 } } ])");
+  const auto checked = [&](const Json& json) {
+    return run_program(folder, {"check", folder.write("campaign.json", json.dump())});
+  };
+  const Finished weak = checked(campaign);
+  CHECK(weak.code == 0);
+  CHECK_THAT(weak.error, HasFacts({"note: ", "case weak", "does not deploy", "timed out"}));
+  CHECK(weak.error.find("as_it_is") == std::string::npos);
+  campaign.erase("cases");
+  CHECK(checked(campaign).error.empty());
+  campaign["integration"]["t_end"] = 1;
+  CHECK_THAT(checked(campaign).error, HasFacts({"note: ", "does not deploy", "timed out"}));
+}

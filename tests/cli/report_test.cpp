@@ -88,7 +88,7 @@ TEST_CASE("report and analyze read a folder that may only be read, and write els
     const Finished reported = run_as_reader(folder, {"report", path, "--out", page});
     CHECK(reported.error.empty());
     CHECK(reported.code == 0);
-    CHECK(run_as_reader(folder, {"report", path, path, "--out", page}).code == 0);
+    CHECK(run_as_reader(folder, {"report", path, path, "--out", page}).code == 2);
     const Finished analyzed = run_as_reader(folder, {"analyze", path, "--out", again});
     CHECK(analyzed.error.empty());
     CHECK(analyzed.code == 0);
@@ -127,6 +127,27 @@ TEST_CASE("report writes one page, the same bytes on any number of threads", "[r
   CHECK(data["sets"][0]["seed"] == "7");
   CHECK(data["sets"][0]["runs"] == 40);
   CHECK(data["comparisons"].empty());
+}
+
+TEST_CASE("a folder given twice is refused as such, under any of its names", "[report]") {
+  const Done done(quick_campaign(3), {.shard = Shard{1, 2}});
+  const std::string path = done.path, link = done.folder.path() / "link",
+                    whole = done.folder.path() / "whole";
+  std::filesystem::create_directory_symlink(path, link);
+  const auto before = contents(path);
+  for (const std::string& other : {path, link, path + "/."})
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"report", path, other},
+          {"report", path, other, "--out", done.folder.path() / "page.html"},
+          {"merge", path, other, "--out", whole}}) {
+      const Finished refused = done.program(command);
+      CAPTURE(command[0], other);
+      CHECK((refused.code == 2 && refused.out.empty()));
+      CHECK_THAT(refused.error, HasFacts({"error: " + other + ": ", "the same folder", "once"}));
+      CHECK(lines_of(refused.error).size() == 1);
+    }
+  CHECK(contents(path) == before);
+  CHECK_FALSE(std::filesystem::exists(whole));
 }
 
 TEST_CASE("report refuses what is no results folder, with its place", "[report]") {

@@ -186,3 +186,17 @@ TEST_CASE("shards of a design are merged to the folder that one process makes, b
   CHECK(run_program(folder, {"sensitivity", at("part2") + "/design.json", "--samples", "9"}).code ==
         2);
 }
+
+TEST_CASE("sensitivity names the file of a campaign that it cannot use") {
+  const Folder folder;
+  Json json = quick_campaign(5);
+  json["dispersions"][1] = {{"name", "tip_spring"},
+                            {"distribution", {{"type", "normal"}, {"mean", 1}, {"std", 0.05}}},
+                            {"apply", "scale"},
+                            {"to", {"hinges.tip.spring.scale"}}};
+  json["correlations"] = {{{"between", {"root_spring", "tip_spring"}}, {"spearman", 0.5}}};
+  const std::string file = folder.write("campaign.json", json.dump());
+  const auto refused = run_program(folder, {"sensitivity", file, "--samples", "4"});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.error, Catch::StartsWith("error: " + file + ": /correlations: "));
+}

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 using namespace wingspread;
@@ -33,6 +34,14 @@ TEST_CASE("simulate in words") {
   CHECK(code == 0);
   CHECK(error.empty());
   CHECK(out.starts_with("three_panel: deployed, integrated to 7 s by dopri5\n"));
+  const Json energy =
+      parse_json(run_program(folder, {"simulate", three_panel_file(), "--t-end", "7", "--latch",
+                                      "event", "--method", "dopri5", "--json"})
+                     .out)["energy"];
+  std::smatch shown; // at the start, at the end, dissipated
+  REQUIRE(std::regex_search(out, shown, std::regex("Energy: (\\S+) J .*, (\\S+) J .*, (\\S+) J ")));
+  CHECK(std::stod(shown[3]) == Approx(energy["drift_before_first_latch"].get<double>())
+                                   .epsilon(1e-5)); // six digits, as the others
 }
 
 TEST_CASE("simulate takes a campaign's nominal scene and settings") {

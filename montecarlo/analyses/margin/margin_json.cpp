@@ -203,14 +203,15 @@ Json definitions() {
       {"nasa", "T / (FS_f sum T_f + FS_v sum T_v) - 1, static: without accelerations; >= 0 is "
                "enough"},
       {"nasa_one_spring_out",
-       "the same with one of a hinge's equal springs lost and all factors 1"},
+       "the same with one spring lost and all factors 1: one hinge loses one of its equal springs, "
+       "of hinges that loops keep together the one whose loss costs most; null without springs"},
       {"gevs",
        "T / (FS_known sum T_known + FS_variable sum T_variable) - 1; >= 0 is enough; aiaa: the "
        "same with factors of its own"},
       {"drive",
        "\"root+mid\": hinges that loops keep together, judged as one: torques times how far "
        "each turns for the first"},
-      {"null", "margin: nothing resists"}};
+      {"null", "margin: nothing resists, or no spring that could be lost"}};
 }
 
 } // namespace

@@ -20,7 +20,10 @@ namespace {
 
 void refuse_unsuitable(const Campaign& campaign) {
   std::vector<Problem> problems;
-  if (!campaign.margin) problems.push_back({"", "/margin", "nothing", "the parameters to scale"});
+  if (!campaign.margin)
+    problems.push_back({"", "/margin", "nothing",
+                        "the parameters to scale: a \"margin\" here, or the options --scale PATH… "
+                        "--range A B, e.g. --scale 'hinges.*.spring.scale' --range 0.5 2"});
   if (campaign.requirements.empty())
     problems.push_back(
         {"", "/requirements", "none", "at least one: the requirements limit the window"});

@@ -18,6 +18,8 @@ struct RunCost {
   double seconds = 0;
   long evaluations = 0;
   bool at_least = false; ///< gave up
+  Status status = Status::failed;
+  std::string reason;
 };
 
 RunCost cost_of(const Scene& scene, Integration integration, Goal goal) {
@@ -27,7 +29,8 @@ RunCost cost_of(const Scene& scene, Integration integration, Goal goal) {
   const auto start = std::chrono::steady_clock::now();
   const Outcome outcome = Deployment().run(scene, integration, goal);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  return {taken.count(), outcome.work.rhs_evaluations, limited && outcome.status == Status::failed};
+  return {taken.count(), outcome.work.rhs_evaluations, limited && outcome.status == Status::failed,
+          outcome.status, outcome.reason};
 }
 
 /// "3.1 ms", "0.4 s", "40 s", "2 min", "5 h": one or two digits.
@@ -44,24 +47,41 @@ std::string nominal_text(const RunCost& cost) {
                      cost.at_least ? "more than " : "", cost.evaluations, duration(cost.seconds));
 }
 
-} // namespace
-
-std::string describe_cost(const Scene& scene, const Integration& integration) {
-  return nominal_text(cost_of(scene, integration, {}));
+/// A run that was given up is not known to end without deployment.
+void add_not_deployed(const RunCost& cost, const std::string& of_case, NominalRuns& runs) {
+  if (cost.status == Status::deployed || cost.at_least) return;
+  runs.not_deployed.push_back(fmt::format(
+      "the nominal wing{} does not deploy: {}{}", of_case.empty() ? "" : " of case " + of_case,
+      spaced(to_string(cost.status)), cost.reason.empty() ? "" : " (" + cost.reason + ")"));
 }
 
-std::string describe_cost(const Campaign& campaign) {
+} // namespace
+
+NominalRuns try_nominal(const Scene& scene, const Integration& integration) {
+  const RunCost cost = cost_of(scene, integration, {});
+  NominalRuns runs{nominal_text(cost), {}};
+  add_not_deployed(cost, "", runs);
+  return runs;
+}
+
+NominalRuns try_nominal(const Campaign& campaign) {
+  NominalRuns tried;
   const std::vector<Campaign> cases = campaigns_of(campaign);
-  const RunCost cost =
-      cost_of(nominal_scene(cases.front()), campaign.integration, goal_of(campaign.outputs));
+  std::vector<RunCost> costs;
+  for (const Campaign& each : cases) {
+    costs.push_back(cost_of(nominal_scene(each), each.integration, goal_of(each.outputs)));
+    add_not_deployed(costs.back(), each.of_case, tried);
+  }
+  const RunCost& cost = costs.front();
   const long runs = campaign.sampling.runs * std::ssize(cases);
   const int threads = thread_count(0);
   const std::string of_cases =
       cases.size() > 1 ? fmt::format(" in {} cases", cases.size()) : std::string();
-  return fmt::format("{}; {}{}: about {} on {}, less in packs", nominal_text(cost),
-                     counted(runs, "run", "runs"), of_cases,
-                     duration(cost.seconds * static_cast<double>(runs) / threads),
-                     counted(threads, "thread", "threads"));
+  tried.cost = fmt::format("{}; {}{}: about {} on {}, less in packs", nominal_text(cost),
+                           counted(runs, "run", "runs"), of_cases,
+                           duration(cost.seconds * static_cast<double>(runs) / threads),
+                           counted(threads, "thread", "threads"));
+  return tried;
 }
 
 } // namespace wingspread

@@ -5,15 +5,22 @@
 #include "montecarlo/model/campaign/campaign.hpp"
 
 #include <string>
+#include <vector>
 
 namespace wingspread {
 
-/// Runs the scene once and measures it; gives up after 50,000 trial steps. @return "the nominal run takes 1240
-/// evaluations, 3 ms"
-[[nodiscard]] std::string describe_cost(const Scene& scene, const Integration& integration);
+/// What nominal runs take, and how they end.
+struct NominalRuns {
+  std::string cost; ///< "the nominal run takes 1240 evaluations, 3 ms"
+  /// One for each nominal wing that does not deploy: "the nominal wing of case cold does not deploy: stalled (…)".
+  std::vector<std::string> not_deployed;
+};
 
-/// The same for the campaign, its cases and runs, and the time of all of them on this machine's threads: an upper
-/// estimate, because runs in packs are cheaper.
-[[nodiscard]] std::string describe_cost(const Campaign& campaign);
+/// Runs the scene once and measures the run; gives up after 50,000 trial steps.
+[[nodiscard]] NominalRuns try_nominal(const Scene& scene, const Integration& integration);
+
+/// Runs the nominal wing of every case. The cost is that of all runs on this machine's threads, estimated from the first
+/// case: an upper estimate, because runs in packs are cheaper.
+[[nodiscard]] NominalRuns try_nominal(const Campaign& campaign);
 
 } // namespace wingspread

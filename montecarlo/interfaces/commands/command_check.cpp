@@ -45,19 +45,18 @@ std::variant<Scene, Campaign> read_changed(const CheckOptions& options) {
   return read;
 }
 
-std::string cost_line(const std::string& cost) { return "cost: " + cost + '\n'; }
-
-/// Describes the scene or the campaign, the positions and masses of its bodies, and what its runs will cost.
-std::string text_of(const Scene& scene) {
-  return describe(scene) + describe_placement(scene) + cost_line(describe_cost(scene, {}));
-}
+/// Describes the scene or the campaign, and the positions and masses of its bodies.
+std::string text_of(const Scene& scene) { return describe(scene) + describe_placement(scene); }
 std::string text_of(const Campaign& campaign) {
   std::vector<std::pair<std::string, Scene>> wings;
   for (const Campaign& each : campaigns_of(campaign))
     wings.emplace_back(each.of_case, nominal_scene(each));
   return describe(campaign) + describe_placement(campaign.scene) +
-         nominal_margins_text(wings, campaign.motorization) + cost_line(describe_cost(campaign));
+         nominal_margins_text(wings, campaign.motorization);
 }
+
+NominalRuns try_read(const Scene& scene) { return try_nominal(scene, {}); }
+NominalRuns try_read(const Campaign& campaign) { return try_nominal(campaign); }
 
 const Scene& scene_of(const Scene& scene) { return scene; }
 const Scene& scene_of(const Campaign& campaign) { return campaign.scene; }
@@ -80,9 +79,12 @@ int check(const CheckOptions& options) {
   const std::variant<Scene, Campaign> read = read_changed(options);
   const std::vector<InputWarning> warnings = check_file(read, options.file);
   if (options.strict) print_warnings(warnings, true);
-  fmt::print("{}", wrapped_lines(std::visit([](const auto& spec) { return text_of(spec); }, read)));
+  const NominalRuns tried = std::visit([](const auto& spec) { return try_read(spec); }, read);
+  const std::string text = std::visit([](const auto& spec) { return text_of(spec); }, read);
+  fmt::print("{}", wrapped_lines(text + "cost: " + tried.cost + '\n'));
   draw(options.draw, std::visit([](const auto& spec) { return scene_of(spec); }, read));
   print_warnings(warnings, false); // last, where the user sees them
+  for (const std::string& line : tried.not_deployed) fmt::print(stderr, "note: {}\n", line);
   return exit_code::done;
 }
 
@@ -102,8 +104,9 @@ away from their latch, bodies in the same place, laws that change a sign, and th
 campaign it prints the static margins by each standard: of every case, or of the one in --case.
 
 It also prints where each body is, the masses, and what the runs will cost, estimated from one
-nominal run. --draw writes a picture for a browser: bodies, hinge axes, the sense in which each
-spring turns its hinge, and names. Look at the wing before you run it.
+nominal run. A note on standard error names each case whose nominal wing does not deploy, and why.
+--draw writes a picture for a browser: bodies, hinge axes, the sense in which each spring turns its
+hinge, and names. Look at the wing before you run it.
 
 Example:
   wingspread check campaign.json --draw wing.svg

@@ -8,6 +8,7 @@
 #include "montecarlo/foundation/platform/progress.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
+#include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
@@ -147,6 +148,7 @@ int make_margin_shard(const Campaign& campaign, const MarginOptions& options, co
 
 /// @throws MissingRuns when a shard in --from is missing or not finished
 int run_margin_study(const MarginOptions& options) {
+  refuse_repeated(options.from);
   Campaign campaign = read_campaign_file(options.campaign);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   override_margin(campaign, options.scale, options.range);
@@ -184,6 +186,8 @@ int margin(const MarginOptions& options) {
     return run_margin_study(options);
   } catch (const MissingRuns& missing) {
     return print_missing(missing, "");
+  } catch (const SpecError& error) {
+    throw in_file(error, options.campaign);
   }
 }
 
@@ -228,8 +232,8 @@ the joint confidence of all verdicts and both edges.
   mode                joint: all springs together (default); each: one hinge after the other
   widest              how far the range may be widened; default: an eighth and eight times
   points, tolerance   scales of the first grid, default 13; accuracy of an edge, default 0.01
-  cases               ["nominal"], ["nominal", "one_spring_out"]: each hinge loses one of
-  springs_per_hinge   its springs in turn; default 2
+  cases               ["nominal"], ["nominal", "one_spring_out"]: one hinge loses one of its
+  springs_per_hinge   equal springs, each hinge in turn; default 2. Motors keep their torques
   motorization        factors of the static margins, by ECSS, NASA, GEVS and AIAA
 
 The folder gets margin.json, margin.csv (results at every scale), motorization.csv (static margins
@@ -243,9 +247,12 @@ part of the runs at every scale. --from then continues from all shards and gives
 one process. Exit code 0: there is a window and a confirmed recommendation; 1: there is none.
 
 Example:
-  wingspread margin campaign.json --out results/margin
-  wingspread run results/margin/recommended.json --out results/resized
+  wingspread margin campaign.json --scale 'hinges.*.spring.scale' --range 0.5 2 --out results/m1
+  wingspread run results/m1/recommended.json --out results/resized
   wingspread margin campaign.json --scale 'hinges.*.damper.scale' --range 0.8 1.5 --out results/m2
+
+Example, of a campaign with a "margin":
+  wingspread margin campaign.json --out results/margin
   wingspread margin campaign.json --shard 1/2 --out results/part1
   wingspread margin campaign.json --shard 2/2 --out results/part2
   wingspread margin campaign.json --from results/part1 results/part2 --out results/margin)");

@@ -38,6 +38,7 @@ std::string command_of(const ReportOptions& options) {
 }
 
 int report(const ReportOptions& options) {
+  refuse_repeated(options.folders);
   refuse_overwriting(options.out, options.folders);
   std::deque<FolderLock> locks;
   for (const std::filesystem::path& folder : options.folders) {

@@ -4,6 +4,7 @@
 #include "montecarlo/foundation/platform/folder_lock.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
+#include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
@@ -62,6 +63,7 @@ Summary merge_without_rows(const MergeOptions& options) {
 }
 
 int merge(const MergeOptions& options) {
+  refuse_repeated(options.folders);
   const MergeKind kind = options.preview ? MergeKind::preview : MergeKind::whole;
   if (is_shard_folder(options.folders.front()))
     throw SpecError({{options.folders.front().string(), "", "a shard of a margin study",

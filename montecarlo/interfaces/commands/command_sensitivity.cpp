@@ -203,7 +203,13 @@ int run_design(const SensitivityOptions& options) {
 }
 
 int sensitivity(const SensitivityOptions& given) {
-  if (!std::filesystem::is_directory(given.from)) return run_design(given);
+  if (!std::filesystem::is_directory(given.from)) {
+    try {
+      return run_design(given);
+    } catch (const SpecError& error) {
+      throw in_file(error, given.from);
+    }
+  }
   if (is_design_folder(given.from)) return analyze_design_folder(given);
   SensitivityOptions options = given;
   options.from = folder_of_case(given.from, given.of_case);

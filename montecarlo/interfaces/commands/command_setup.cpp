@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace wingspread {
@@ -32,6 +33,13 @@ InstructionSet instruction_set(const std::string& name, int lanes) {
 }
 
 } // namespace
+
+SpecError in_file(const SpecError& error, const std::filesystem::path& file) {
+  std::vector<Problem> problems = error.problems();
+  for (Problem& problem : problems)
+    if (problem.file.empty() && problem.pointer.starts_with('/')) problem.file = file.string();
+  return SpecError(std::move(problems));
+}
 
 void add_machine_options(CLI::App& command, MachineOptions& options) {
   command.add_option("--threads", options.threads, "Number of threads; default: all processors")

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
+#include "montecarlo/foundation/formats/spec_error.hpp"
 #include "montecarlo/interfaces/commands/commands.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -22,6 +24,10 @@ void add_command(CLI::App& app, Action& action, const char* name, const char* de
   add_options(command, *options);
   command.callback([options, run, &action] { action = [options, run] { return run(*options); }; });
 }
+
+/// The same problems, in which the campaign's keys ("/margin") have the campaign's file. Options ("--range") and problems
+/// that name a file stay as they are.
+[[nodiscard]] SpecError in_file(const SpecError& error, const std::filesystem::path& file);
 
 /// How this machine makes the runs. The results do not depend on it.
 struct MachineOptions {

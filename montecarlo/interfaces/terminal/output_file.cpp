@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -67,6 +68,21 @@ std::vector<fs::path> named_files(const fs::path& read) {
 }
 
 } // namespace
+
+void refuse_repeated(const std::vector<fs::path>& folders) {
+  std::vector<Problem> problems;
+  for (auto folder = folders.begin(); folder != folders.end(); ++folder) {
+    const auto first = std::find_if(folders.begin(), folder, [&](const fs::path& other) {
+      return is_same_file(*folder, other);
+    });
+    if (first == folder) continue;
+    problems.push_back(
+        {folder->string(), "",
+         *first == *folder ? "the same folder twice" : "the same folder as " + first->string(),
+         "each folder once"});
+  }
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
 
 void refuse_overwriting(const fs::path& out, const std::vector<fs::path>& read,
                         const char* option) {

@@ -1,4 +1,4 @@
-/// Protects input files from --out.
+/// Checks of the files and folders on the command line: protects input files from --out.
 #pragma once
 
 #include <filesystem>
@@ -15,5 +15,9 @@ namespace wingspread {
 void refuse_overwriting(const std::filesystem::path& out,
                         const std::vector<std::filesystem::path>& read,
                         const char* option = "--out");
+
+/// Refuses a folder that is given twice, under the same name or another (a link, "r" and "./r").
+/// @throws SpecError that names the folder, before any is locked
+void refuse_repeated(const std::vector<std::filesystem::path>& folders);
 
 } // namespace wingspread

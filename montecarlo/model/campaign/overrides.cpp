@@ -87,6 +87,10 @@ void override_margin(Campaign& campaign, const std::vector<std::string>& scale,
                      const std::vector<double>& range) {
   if (scale.empty() && range.empty()) return;
   Json given = campaign.margin ? campaign.resolved.at("margin") : Json::object();
+  if (range.empty() && !given.contains("range"))
+    throw SpecError(
+        {{"", "--range", "nothing",
+          "two numbers, the scales to search from and to: --range A B, e.g. --range 0.5 2"}});
   if (!scale.empty()) given["scale"] = scale;
   if (!range.empty()) {
     given["range"] = range;

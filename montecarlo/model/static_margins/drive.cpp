@@ -125,11 +125,13 @@ std::vector<double> by_leader(const Scene& scene, const HingeDrive& drive,
   return points;
 }
 
-bool has_drive(const Hinge& hinge) {
+bool has_spring(const Hinge& hinge) {
   const HingeTorque& spring = hinge.spring;
-  return hinge.latch || spring.table || spring.torque_stowed != 0 || spring.torque_latched != 0 ||
+  return spring.table || spring.torque_stowed != 0 || spring.torque_latched != 0 ||
          spring.offset != 0;
 }
+
+bool has_drive(const Hinge& hinge) { return hinge.latch || has_spring(hinge); }
 
 /// The hinges coupled to this one by loops, directly or through others, and itself; ascending.
 std::vector<int> connected_with(const Scene& scene, int hinge) {
@@ -196,18 +198,30 @@ std::string name_of(const HingeDrive& drive, const Scene& scene) {
 }
 
 TorqueTerms terms_at(const Scene& scene, const HingeDrive& drive, double x,
-                     const StaticMarginSpec& spec) {
+                     const StaticMarginSpec& spec, double* largest_spring) {
   const int leader = drive.hinges.front();
-  TorqueTerms terms = terms_at(scene.hinges[leader], x, extras_of(spec, leader));
+  TorqueTerms terms;
+  double largest = add_terms(scene.hinges[leader], x, 1, extras_of(spec, leader), terms);
+  if (largest_spring) *largest_spring = largest;
   if (drive.hinges.size() == 1) return terms;
   const std::vector<HingeState> states = states_at(scene, drive, x);
   for (std::size_t member = 1; member < states.size(); ++member) {
     const int index = drive.hinges[member];
     const Hinge& hinge = scene.hinges[index];
     const double share = std::clamp(share_of(hinge, states[member].travel), 0.0, 1.0);
-    add_terms(hinge, share, states[member].gear, extras_of(spec, index), terms);
+    const double spring =
+        add_terms(hinge, share, states[member].gear, extras_of(spec, index), terms);
+    largest = std::max(largest, spring);
   }
+  if (largest_spring) *largest_spring = largest;
   return terms;
+}
+
+Margins margins_at(const Scene& scene, const HingeDrive& drive, double x,
+                   const StaticMarginSpec& spec) {
+  double largest_spring = 0;
+  const TorqueTerms terms = terms_at(scene, drive, x, spec, &largest_spring);
+  return margins_of(terms, largest_spring, spec);
 }
 
 std::vector<double> turning_points(const Scene& scene, const HingeDrive& drive) {
@@ -225,12 +239,18 @@ std::vector<double> places_of_least(const Scene& scene, const HingeDrive& drive)
   return points;
 }
 
+bool applies(MarginKind kind, const Scene& scene, const HingeDrive& drive) {
+  return kind != MarginKind::nasa_one_spring_out ||
+         std::ranges::any_of(drive.hinges,
+                             [&](int hinge) { return has_spring(scene.hinges[hinge]); });
+}
+
 Margins least_margins(const Scene& scene, const HingeDrive& drive, const StaticMarginSpec& spec,
                       Margins* at) {
   Margins least;
   least.fill(std::numeric_limits<double>::infinity());
   for (const double x : places_of_least(scene, drive)) {
-    const Margins margins = margins_of(terms_at(scene, drive, x, spec), spec);
+    const Margins margins = margins_at(scene, drive, x, spec);
     for (std::size_t kind = 0; kind < margins.size(); ++kind)
       if (margins[kind] < least[kind]) {
         least[kind] = margins[kind];

@@ -41,15 +41,23 @@ struct HingeDrive {
 [[nodiscard]] std::string name_of(const HingeDrive& drive, const Scene& scene);
 
 /// The drive's terms at x, referred to the leading hinge.
+/// @param largest_spring if not null, receives the largest part of T from one hinge's spring, N·m
 [[nodiscard]] TorqueTerms terms_at(const Scene& scene, const HingeDrive& drive, double x,
-                                   const StaticMarginSpec& spec);
+                                   const StaticMarginSpec& spec, double* largest_spring = nullptr);
+
+/// The margins at x by each standard, whether or not they apply.
+[[nodiscard]] Margins margins_at(const Scene& scene, const HingeDrive& drive, double x,
+                                 const StaticMarginSpec& spec);
 
 /// The ends of the travel, and where a hinge's spring or harness changes sign or a hinge reaches an end; x, ascending.
 [[nodiscard]] std::vector<double> turning_points(const Scene& scene, const HingeDrive& drive);
 /// All places where a margin can have its minimum (hinge_terms.hpp); x, ascending.
 [[nodiscard]] std::vector<double> places_of_least(const Scene& scene, const HingeDrive& drive);
 
-/// The least margin over the travel by each standard.
+/// Whether the margin exists for the drive: one spring can only be lost where a hinge has a spring.
+[[nodiscard]] bool applies(MarginKind kind, const Scene& scene, const HingeDrive& drive);
+
+/// The least margin over the travel by each standard, whether or not it applies.
 /// @param at if not null, receives the x of each minimum
 [[nodiscard]] Margins least_margins(const Scene& scene, const HingeDrive& drive,
                                     const StaticMarginSpec& spec, Margins* at = nullptr);

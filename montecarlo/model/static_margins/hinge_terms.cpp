@@ -85,8 +85,8 @@ StallTorques stall_torques(const Motor& motor) {
   return {at(slowest), at(fastest)};
 }
 
-void add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& extras,
-               TorqueTerms& terms) {
+double add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& extras,
+                 TorqueTerms& terms) {
   const double size = std::abs(gear);
   const double spring = gear * torque_at(hinge.spring, hinge, x);
   const double motor = hinge.motor ? gear * stall_torques(*hinge.motor).most : 0;
@@ -102,11 +102,12 @@ void add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& ext
   terms.adhesion += size * other.adhesion;
   terms.acceleration += size * other.acceleration;
   terms.delivered += size * other.delivered;
+  return std::max(spring, 0.0);
 }
 
 TorqueTerms terms_at(const Hinge& hinge, double x, const HingeExtras& extras) {
   TorqueTerms terms;
-  add_terms(hinge, x, 1, extras, terms);
+  (void)add_terms(hinge, x, 1, extras, terms);
   return terms;
 }
 

@@ -38,9 +38,10 @@ struct StallTorques {
 [[nodiscard]] TorqueTerms terms_at(const Hinge& hinge, double x, const HingeExtras& extras = {});
 
 /// Adds the hinge's terms, referred to a leading hinge: all torques times `gear`, the turns of this hinge per turn of
-/// the leader. With a negative gear the hinge turns backwards and its spring resists.
-void add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& extras,
-               TorqueTerms& terms);
+/// the leader. With a negative gear the hinge turns backwards and its spring resists. Returns the part of T from the
+/// hinge's spring.
+double add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& extras,
+                 TorqueTerms& terms);
 
 /// Both ends of the travel, and where spring or harness changes sign; x, ascending.
 [[nodiscard]] std::vector<double> turning_points(const Hinge& hinge);

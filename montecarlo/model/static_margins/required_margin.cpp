@@ -21,13 +21,23 @@ bool has_hinge(const HingeDrive& drive, const Scene& scene, const std::string& n
                              [&](int hinge) { return scene.hinges[hinge].name == name; });
 }
 
-void refuse_unknown_hinge(const JsonCursor& at, const Scene& scene, const RequiredMargin& margin) {
+void refuse_unknown_hinge(const JsonObject& object, const Scene& scene,
+                          const RequiredMargin& margin) {
   if (!required_drives(scene, margin).empty()) return;
+  const bool needs_spring = margin.kind == MarginKind::nasa_one_spring_out;
+  if (margin.hinge == every_hinge)
+    return void(object.at()
+                    .member("motorization")
+                    .refuse(needs_spring ? "a wing with a hinge that has a spring"
+                                         : "a wing with a hinge that has a spring or a latch"));
   std::vector<std::string> names;
-  for (const HingeDrive& drive : drives_of(scene))
+  for (const HingeDrive& drive : required_drives(scene, {margin.kind, std::string(every_hinge)}))
     for (const int hinge : drive.hinges) names.push_back(scene.hinges[hinge].name);
-  at.refuse("the name of a hinge with a spring or a latch, or \"*\" for all" +
-            did_you_mean(margin.hinge, names));
+  object.at().member("hinge").refuse(
+      (needs_spring
+           ? "the name of a hinge that a spring drives, its own or through loops, or \"*\" for all"
+           : "the name of a hinge with a spring or a latch, or \"*\" for all") +
+      did_you_mean(margin.hinge, names));
 }
 
 } // namespace
@@ -35,8 +45,8 @@ void refuse_unknown_hinge(const JsonCursor& at, const Scene& scene, const Requir
 void read_required_margin(JsonObject& object, const Scene* scene, RequiredMargin& margin) {
   object.optional_choice("motorization", margin.kind, kind_words);
   const auto at = object.find("hinge");
-  if (!at || !at->read(margin.hinge, expected_hinge)) return;
-  if (scene) refuse_unknown_hinge(*at, *scene, margin);
+  if (at && !at->read(margin.hinge, expected_hinge)) return;
+  if (scene) refuse_unknown_hinge(object, *scene, margin);
 }
 
 std::string_view word_of(const RequiredMargin& margin) {
@@ -50,6 +60,8 @@ std::string name_of(const RequiredMargin& margin) {
 
 std::vector<HingeDrive> required_drives(const Scene& scene, const RequiredMargin& margin) {
   std::vector<HingeDrive> drives = drives_of(scene);
+  std::erase_if(drives,
+                [&](const HingeDrive& drive) { return !applies(margin.kind, scene, drive); });
   if (margin.hinge != every_hinge)
     std::erase_if(drives,
                   [&](const HingeDrive& drive) { return !has_hinge(drive, scene, margin.hinge); });

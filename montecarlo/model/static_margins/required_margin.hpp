@@ -29,7 +29,7 @@ void read_required_margin(JsonObject& object, const Scene* scene, RequiredMargin
 /// "NASA margin of root", "NASA margin of every hinge".
 [[nodiscard]] std::string name_of(const RequiredMargin& margin);
 
-/// The drives that the requirement is about.
+/// The drives that the requirement is about: those that it applies to.
 [[nodiscard]] std::vector<HingeDrive> required_drives(const Scene& scene,
                                                       const RequiredMargin& margin);
 

@@ -45,10 +45,9 @@ double phase_margin(const TorqueTerms& t, const PhaseFactors& f) {
   return margin(t.available, f.known * known(t) + f.variable * variable(t));
 }
 
-Margins margins_of(const TorqueTerms& terms, const StaticMarginSpec& spec) {
+Margins margins_of(const TorqueTerms& terms, double largest_spring, const StaticMarginSpec& spec) {
   TorqueTerms weakened = terms;
-  const double springs = static_cast<double>(spec.springs_per_hinge);
-  weakened.available *= (springs - 1) / springs;
+  weakened.available -= largest_spring / static_cast<double>(spec.springs_per_hinge);
   return {ecss_margin(terms, spec.ecss), nasa_static_margin(terms, spec.nasa),
           nasa_static_margin(weakened, nasa_one_spring_out()), phase_margin(terms, spec.gevs),
           phase_margin(terms, spec.aiaa)};

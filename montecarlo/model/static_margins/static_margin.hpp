@@ -5,7 +5,10 @@
 ///                              + f_TD TD + TL,     margin = a T / T_min − 1 (1)
 ///   NASA:              margin = T / (FS_f ΣT_f + FS_v ΣT_v + FS_a ΣT_a) − 1 (2)
 ///   GEVS, AIAA:        margin = T / (FS_k ΣT_f + FS_v ΣT_v) − 1 (3)
+///   one spring out:    (2) without T_a, with T − T_s / m_s for T and all factors 1 (4)
 ///
+/// with T_s the largest part of T from one hinge's spring, and m_s equal springs per hinge: of all hinges that loops
+/// couple, one loses one spring, namely the hinge whose loss costs most. A motor's torque stays.
 /// with m = 2, a = 0.8 for springs; the static margin of (2) omits T_a. A standard is met by a margin ≥ 0.
 #pragma once
 
@@ -34,7 +37,7 @@ inline constexpr std::string_view aiaa_standard = "AIAA S-114-2005";
 /// (3). Special values as in ecss_margin.
 [[nodiscard]] double phase_margin(const TorqueTerms& terms, const PhaseFactors& factors);
 
-/// The standards' margins; NASA's also with one of the hinge's springs lost.
+/// The standards' margins; NASA's also with one spring lost.
 enum class MarginKind { ecss, nasa, nasa_one_spring_out, gevs, aiaa };
 inline constexpr std::array<std::string_view, 5> margin_kind_names{
     "ecss", "nasa", "nasa_one_spring_out", "gevs", "aiaa"};
@@ -44,7 +47,9 @@ inline constexpr std::array<std::string_view, 5> margin_kind_texts{
 /// By MarginKind.
 using Margins = std::array<double, margin_kind_names.size()>;
 
-/// The margins by all standards.
-[[nodiscard]] Margins margins_of(const TorqueTerms& terms, const StaticMarginSpec& spec);
+/// The margins by all standards. With one spring out also for a drive without springs: see `applies` in drive.hpp.
+/// @param largest_spring T_s of (4), N·m
+[[nodiscard]] Margins margins_of(const TorqueTerms& terms, double largest_spring,
+                                 const StaticMarginSpec& spec);
 
 } // namespace wingspread

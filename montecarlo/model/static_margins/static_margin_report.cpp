@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string>
 
 namespace wingspread {
 namespace {
@@ -31,7 +32,8 @@ std::string case_name(const CaseMargins& at) { return at.of_case.empty() ? "nomi
 Json drive_json(const DriveMargins& drive, std::span<const double> probabilities) {
   Json json{{"hinge", drive.hinge}};
   for (std::size_t kind = 0; kind < margin_kind_names.size(); ++kind) {
-    Json entry{{"nominal", json_number(drive.worst[kind])}, {"angle", drive.worst_angle[kind]}};
+    Json entry{{"nominal", json_number(drive.worst[kind])},
+               {"angle", json_number(drive.worst_angle[kind])}};
     entry["draws"] = spread_json(drive.worst_spread[kind], probabilities);
     entry["draws"]["worst_draw"] = drive.worst_draw[kind];
     json[std::string(margin_kind_names[kind])] = std::move(entry);
@@ -94,9 +96,10 @@ std::string table_lines(const CaseMargins& at) {
           kind == 0 ? fmt::format("  {:<8}{}", at.scale, drive.hinge) : std::string();
       text += fmt::format(
           "{}{:<22}{:>9}{:>9}{:>10}{:>10}{:>8}\n", in_column(name, 26), margin_kind_texts[kind],
-          margin_text(drive.worst[kind]), degrees_text(drive.worst_angle[kind]),
+          margin_text(drive.worst[kind]),
+          std::isnan(drive.worst[kind]) ? "–" : degrees_text(drive.worst_angle[kind]),
           margin_text(spread.quantiles.empty() ? undefined : spread.quantiles.front()),
-          margin_text(spread.least), spread.worst_run);
+          margin_text(spread.least), spread.worst_run < 0 ? "–" : std::to_string(spread.worst_run));
     }
   return text;
 }
@@ -195,6 +198,8 @@ std::string nominal_margins_text(const std::vector<std::pair<std::string, Scene>
       Margins margins;
       margins.fill(undefined);
       if (unphysical(scene).empty()) margins = least_margins(scene, drive, spec);
+      for (std::size_t kind = 0; kind < margins.size(); ++kind)
+        if (!applies(static_cast<MarginKind>(kind), scene, drive)) margins[kind] = undefined;
       const std::string suffix = of_case.empty() ? "" : " (" + of_case + ")";
       lines.emplace_back(name_of(drive, scene) + suffix, margins);
       longest = std::max(longest, lines.back().first.size());
@@ -223,8 +228,9 @@ Json static_margin_curves(const StaticMarginStudy& study, MarginKind kind,
       {"lower_p", probabilities.empty() ? Json(nullptr) : Json(std::ranges::min(probabilities))},
       {"hinges", Json::array()}};
   for (const DriveMargins& drive : study.drives)
-    json["hinges"].push_back(curve_json(drive, index, probabilities));
-  return json;
+    if (!std::isnan(drive.worst[index]))
+      json["hinges"].push_back(curve_json(drive, index, probabilities));
+  return json["hinges"].empty() ? Json(nullptr) : json;
 }
 
 } // namespace wingspread

@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace wingspread {
@@ -16,9 +17,11 @@ constexpr std::size_t most_bytes = std::size_t{1} << 28;
 /// Collects the margins of all draws at one place.
 class SpreadCollector {
 public:
+  /// @param margins NaN where a margin does not apply: not collected
   void add(long run, const Margins& margins) {
     for (std::size_t kind = 0; kind < kinds; ++kind) {
       const double margin = margins[kind];
+      if (std::isnan(margin)) continue;
       values_[kind].push_back(margin);
       MarginSpread& spread = spreads_[kind];
       if (spread.worst_run < 0 || margin < spread.least)
@@ -60,13 +63,20 @@ struct DriveStudy {
     return leader.stowed + (leader.latched - leader.stowed) * x;
   }
 
+  /// The margins, NaN where they do not apply. The nominal wing decides: draws do not change what a hinge has.
+  [[nodiscard]] Margins applicable(Margins margins) const {
+    for (std::size_t kind = 0; kind < kinds; ++kind)
+      if (!applies(static_cast<MarginKind>(kind), nominal, drive)) margins[kind] = undefined;
+    return margins;
+  }
+
   /// The nominal wing's terms and margins; the draws' are added later.
   [[nodiscard]] TravelPoint point(double x) const {
     TravelPoint point;
     point.x = x;
     point.angle = angle_at(x);
     point.nominal = terms_at(nominal, drive, x, spec);
-    point.margins = margins_of(point.nominal, spec);
+    point.margins = applicable(margins_at(nominal, drive, x, spec));
     return point;
   }
 
@@ -83,11 +93,13 @@ struct DriveStudy {
   /// Returns the number of unphysical draws.
   long add_worst(DriveMargins& all) const {
     Margins at{};
-    all.worst = least_margins(nominal, drive, spec, &at);
+    all.worst = applicable(least_margins(nominal, drive, spec, &at));
+    at = applicable(at);
     std::ranges::transform(at, all.worst_angle.begin(), [&](double x) { return angle_at(x); });
     SpreadCollector least;
-    const long invalid = draws.visit(
-        [&](long run, const Scene& drawn) { least.add(run, least_margins(drawn, drive, spec)); });
+    const long invalid = draws.visit([&](long run, const Scene& drawn) {
+      least.add(run, applicable(least_margins(drawn, drive, spec)));
+    });
     all.worst_spread = least.finish(probabilities);
     for (std::size_t kind = 0; kind < kinds; ++kind) {
       const long run = all.worst_spread[kind].worst_run;
@@ -100,7 +112,7 @@ struct DriveStudy {
     std::vector<SpreadCollector> spreads(points.size());
     draws.visit([&](long run, const Scene& drawn) {
       for (std::size_t k = 0; k < points.size(); ++k)
-        spreads[k].add(run, margins_of(terms_at(drawn, drive, points[k].x, spec), spec));
+        spreads[k].add(run, applicable(margins_at(drawn, drive, points[k].x, spec)));
     });
     for (std::size_t k = 0; k < points.size(); ++k)
       points[k].spread = spreads[k].finish(probabilities);

@@ -25,7 +25,7 @@ struct DrawnScenes {
 /// One margin over the draws.
 struct MarginSpread {
   std::vector<double> quantiles; ///< at the campaign's probabilities; NaN without draws
-  double least = 0;              ///< of the worst draw; NaN without draws
+  double least = 0;              ///< of the worst draw; NaN without draws or if it does not apply
   long worst_run = -1;           ///< the run with the least margin; the lowest of several
   double share_short = 0;        ///< share of the draws with a margin < 0
 };
@@ -36,7 +36,7 @@ struct TravelPoint {
   double x = 0;        ///< share of the leading hinge's travel: 0 stowed … 1 latched
   double angle = 0;    ///< of the nominal leading hinge, rad
   TorqueTerms nominal; ///< N·m
-  Margins margins{};   ///< of the nominal wing
+  Margins margins{};   ///< of the nominal wing; NaN where one does not apply
   MarginSpreads spread;
 };
 
@@ -45,8 +45,8 @@ struct DriveMargins {
   std::string hinge; ///< "root", "root+mid"
   /// Evenly spaced places and the nominal turning points; ascending in x.
   std::vector<TravelPoint> travel;
-  Margins worst{};            ///< the nominal wing's least margins over the travel
-  Margins worst_angle{};      ///< where they are: angle of the leading hinge, rad
+  Margins worst{};       ///< the nominal wing's least margins over the travel; NaN: does not apply
+  Margins worst_angle{}; ///< where they are: angle of the leading hinge, rad
   MarginSpreads worst_spread; ///< of each draw's least margin over its own travel, which is exact
   std::array<Json, margin_kind_names.size()>
       worst_draw; ///< the values drawn for worst_spread's runs

@@ -91,7 +91,7 @@
   const STANDARDS = {
     ECSS: ["ECSS-E-ST-33-01C (6 March 2009)", "0.8 T / T_min − 1, T_min = 2 (1.1 I + 1.2 S + 1.5 HM + 3 (FR + HY + HA + HD)) + 1.25 TD + TL"],
     NASA: ["NASA-STD-5017B (6 December 2022)", "T / (1.5 ΣT_fixed + 3 ΣT_variable) − 1"],
-    "NASA, one spring out": ["NASA-STD-5017B (6 December 2022)", "T (m − 1)/m / (ΣT_fixed + ΣT_variable) − 1, m springs per hinge"],
+    "NASA, one spring out": ["NASA-STD-5017B (6 December 2022)", "(T − T_s/m) / (ΣT_fixed + ΣT_variable) − 1, m springs per hinge, T_s the largest spring torque of one hinge"],
     GEVS: ["GEVS, GSFC-STD-7000A (22 April 2013)", "T / (1.5 ΣT_fixed + 3 ΣT_variable) − 1"],
     AIAA: ["AIAA S-114-2005", "T / (1.5 ΣT_fixed + 3 ΣT_variable) − 1"],
   };

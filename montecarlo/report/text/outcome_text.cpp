@@ -122,7 +122,7 @@ std::string effort(const Scene& scene, const Outcome& outcome) {
                          ? "dissipated or exchanged with the base"
                          : "dissipated";
   return fmt::format(
-      "\nEnergy: {:.6g} J at the start, {:.6g} J at the end, {:.2g} J {} before the first latch.\n"
+      "\nEnergy: {:.6g} J at the start, {:.6g} J at the end, {:.6g} J {} before the first latch.\n"
       "Work: {} steps, {} rejected, {} evaluations.\n",
       initial, final, drift, lost, steps, rejected, evaluations);
 }

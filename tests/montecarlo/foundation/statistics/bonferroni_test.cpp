@@ -18,4 +18,7 @@ TEST_CASE("statements that hold each by itself hold together with what their ris
   CHECK(joint_confidence(std::vector<double>{0.9}) == Approx(0.9).epsilon(1e-14));
   CHECK(joint_confidence(std::vector<double>{0.9, 0.95, 0.99}) == Approx(0.84).epsilon(1e-14));
   CHECK(joint_confidence(std::vector<double>{0.4, 0.5}) == 0);
+  for (const std::size_t count : {10, 20, 100}) // risks that add up to 1, in numbers just below it
+    CHECK(joint_confidence(std::vector<double>(count, 1 - 1.0 / static_cast<double>(count))) == 0);
+  CHECK(joint_confidence(std::vector<double>(1, 1e-9)) == Approx(1e-9).epsilon(1e-6));
 }

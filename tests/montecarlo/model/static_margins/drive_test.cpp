@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 using namespace wingspread;
 
@@ -168,4 +169,65 @@ TEST_CASE("each hinge of a loop is looked at where its own torques turn", "[moto
   const std::vector<double> points = turning_points(scene, drives_of(scene).front());
   CHECK(std::ranges::any_of(points, [](double x) { return std::abs(x - 0.5) < 1e-12; }));
   CHECK((points.front() == 0 && points.back() == 1));
+}
+
+namespace {
+
+/// Four hinges of 1 N·m with friction 0.1 N·m, in a chain of loops with the ratios 2, 1 and 1: gears 1, 2, 2 and 2.
+Scene chain_of_four() {
+  Scene scene;
+  for (int k = 0; k < 4; ++k)
+    scene.hinges.push_back(hinge_of(std::array{"a", "b", "c", "d"}[k], k, k == 0 ? 1 : 2, 1, 0.1));
+  scene.synchronisations = {loop_of(0, 1, 2), loop_of(1, 2, 1), loop_of(2, 3, 1)};
+  return scene;
+}
+
+double one_spring_out(const Scene& scene) {
+  return least_margins(scene, drives_of(scene).at(0), default_static_margins(scene))[2];
+}
+
+} // namespace
+
+// T = 1 + 2 + 2 + 2 = 7 N·m against 0.7 N·m. One of two springs of a takes 0.5 N·m, one of b, c or d takes 1 N·m.
+TEST_CASE("one spring out of a loop: the one spring whose loss costs most", "[motorization]") {
+  Scene scene = chain_of_four();
+  CHECK(one_spring_out(scene) == Approx(6 / 0.7 - 1).epsilon(1e-13));
+  scene.hinges[0].spring = {6, 6}; // T = 12, of which a's spring takes 3
+  CHECK(one_spring_out(scene) == Approx(9 / 0.7 - 1).epsilon(1e-13));
+  StaticMarginSpec spec = default_static_margins(scene);
+  spec.springs_per_hinge = 3;
+  CHECK(least_margins(scene, drives_of(scene).at(0), spec)[2] ==
+        Approx(10 / 0.7 - 1).epsilon(1e-13));
+}
+
+// The same number another way: scale each hinge's spring in turn and take the least margin without a loss.
+TEST_CASE("one spring out is the least over all wings with one spring less", "[motorization]") {
+  Scene scene = chain_of_four();
+  scene.hinges[0].spring = {3, 0.5};
+  scene.hinges[1].spring = {0.2, 1.4};
+  scene.hinges[2].spring = {0.6, -0.3}; // pulls back on the last third
+  scene.hinges[3].motor = Motor{.rate = 1, .gain = 10, .torque_limit = 0.4};
+  StaticMarginSpec spec = default_static_margins(scene);
+  spec.nasa = nasa_one_spring_out();
+  double least = std::numeric_limits<double>::infinity();
+  for (int lost = 0; lost < 4; ++lost) {
+    Scene weaker = scene;
+    weaker.hinges[lost].spring.scale = 0.5;
+    least = std::min(least, least_margins(weaker, drives_of(weaker).at(0), spec)[1]);
+  }
+  CHECK(one_spring_out(scene) == Approx(least).epsilon(1e-12));
+}
+
+TEST_CASE("one spring out leaves motors whole, and does not apply without a spring",
+          "[motorization]") {
+  Scene scene;
+  scene.hinges = {hinge_of("root", 0, 1, 2, 0.5)};
+  scene.hinges[0].motor = Motor{.rate = 1, .gain = 10, .torque_limit = 3};
+  CHECK(one_spring_out(scene) == Approx((3 + 1) / 0.5 - 1).epsilon(1e-13));
+  scene.hinges[0].latch = Latch{.stiffness = 1e4, .damping = 100};
+  const HingeDrive drive = drives_of(scene).at(0);
+  CHECK(applies(MarginKind::nasa_one_spring_out, scene, drive));
+  scene.hinges[0].spring = {};
+  CHECK_FALSE(applies(MarginKind::nasa_one_spring_out, scene, drive));
+  CHECK(applies(MarginKind::nasa, scene, drive));
 }

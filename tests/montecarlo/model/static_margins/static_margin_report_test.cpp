@@ -3,6 +3,7 @@
 #include "tests/montecarlo/margin_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <sstream>
@@ -88,4 +89,52 @@ TEST_CASE("curves for the page: the nominal margins, and the draws' quantile at 
   CHECK(curve["lower"].get<double>() ==
         Approx(drive.worst_spread[nasa].quantiles[1]).epsilon(1e-4));
   CHECK(static_margin_curves({}, MarginKind::nasa, {}).is_null());
+}
+
+TEST_CASE("a hinge that only a motor drives has no margin with one spring out", "[motorization]") {
+  Json json = one_panel_margin(20);
+  Json& hinge = json["scene"]["hinges"][0];
+  hinge["spring"] = {{"torque_stowed", 0}, {"torque_latched", 0}};
+  hinge["motor"] = {{"rate", 0.1}, {"gain", 100}, {"torque_limit", 5}};
+  json.erase("margin");
+  json.erase("dispersions");
+  json["requirements"] = {{{"motorization", "NASA"}, {"probability", 0.9}, {"confidence", 0.9}}};
+  const Campaign campaign = campaign_of(json);
+  StaticMarginReport report{
+      campaign.motorization, campaign.scene, campaign.statistics.quantiles, {}};
+  report.cases.push_back({1, "", study_static_margins(campaign)});
+  const Json found = static_margins_json(report)["at"][0]["least_over_travel"][0];
+  CHECK(found["nasa"]["nominal"].get<double>() > 0);
+  const Json& lost = found["nasa_one_spring_out"];
+  CHECK((lost["nominal"].is_null() && lost["angle"].is_null() && lost["draws"]["least"].is_null()));
+  CHECK(lost["draws"]["share_below_0"].is_null());
+  const StaticMarginStudy& study = report.cases[0].study;
+  CHECK(static_margin_curves(study, MarginKind::nasa_one_spring_out, {0.5}).is_null());
+  const auto cells_of = [](const std::string& text) {
+    std::vector<std::string> cells;
+    std::istringstream in(text.substr(text.rfind("root")));
+    for (std::string cell; in >> cell;) cells.push_back(cell);
+    return cells;
+  };
+  const auto cells = cells_of(nominal_margins_text({{"", campaign.scene}}, campaign.motorization));
+  REQUIRE(cells.size() == 6); // the hinge and five margins
+  CHECK((cells[2].starts_with('+') && cells[3] == "–" && cells[4].starts_with('+')));
+  const std::string table = static_margins_text(report);
+  const std::string line = table.substr(table.find("NASA, one spring out"));
+  CHECK(std::ranges::count(line.substr(0, line.find('\n')), '\xE2') == 5); // five dashes
+  json["requirements"][0]["motorization"] = "NASA_one_spring_out";
+  CHECK_THROWS_WITH(campaign_of(json),
+                    Catch::Contains("/requirements/0/motorization: ") && Catch::Contains("spring"));
+}
+
+// check prints nominal_margins_text, margin and the report show the study, run judges least_margin.
+TEST_CASE("check, run and the study agree on one spring out", "[motorization]") {
+  const Campaign campaign = campaign_of(one_panel_margin(20));
+  const RequiredMargin required{MarginKind::nasa_one_spring_out, "*"};
+  const Scene nominal = nominal_scene(campaign);
+  const double judged = least_margin(nominal, required_drives(nominal, required), required.kind,
+                                     campaign.motorization);
+  CHECK(study_static_margins(campaign).drives.at(0).worst[2] == judged);
+  CHECK_THAT(nominal_margins_text({{"", nominal}}, campaign.motorization),
+             Catch::Contains(fmt::format("{:+.3f}", judged)));
 }
