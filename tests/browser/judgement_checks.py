@@ -36,6 +36,23 @@ class JudgementChecks:
                             ((["open", "passed"], ["passed"] * 2, ["open", "passed"]), "? undecided 1 of 2 requirements is undecided, for too few runs: A cold and hot: 1 undecided, 1 passes; ambient: 2 pass")):
             self.assertEqual(head(*given), text)
 
+    def test_a_campaign_that_lacks_runs_has_no_final_verdict(self):
+        self.open(pages.made_up("cases"))
+        passing = [[stated("A"), stated("B")]] * 3
+        seen = lambda change: [self.run_script(f"{change}; W.subtitle(); return document.querySelector('#subtitle .facts').textContent"), *(" | ".join(self.told(part, *passing)) for part in
+                               ("#verdicts .headline", "#verdicts .requirements .badge, #verdicts .matrix .badge", "#verdicts .matrix thead", "#verdicts .warnings li"))]
+        facts, head, badges, *_ = seen("")
+        self.assertNotIn("incomplete", facts + head)
+        self.assertNotIn("so far", badges)
+        for change, lacks, late in (("Object.assign(W.sets[0], { runs: 62, planned: 4500 })", "62 of 4,500 runs of case cold", False), ("W.data.unmade = [{ label: 'late', planned: 4500 }]", "62 of 4,500 runs of case cold, none of late", True),
+                                    ("Object.assign(W.sets[1], { runs: 0, planned: 4500 })", "62 of 4,500 runs of case cold, none of ambient and late", True), ("W.sets.forEach(set => Object.assign(set, { runs: 4500, planned: 4500 }))", "no run of case late", True)):
+            facts, head, badges, columns, warnings = seen(change)
+            self.assertIn(f"incomplete: {lacks}", facts)
+            self.assertTrue(head.startswith(f"? incomplete {lacks}"), head)
+            self.assertEqual(set(badges.split(" | ")), {"✓ pass so far"})
+            self.assertEqual(("late" in columns, "late holds none of 4,500 planned runs" in warnings, "3 of 4 cases" in facts), (late,) * 3)
+        self.assertEqual(self.run_script("return document.querySelectorAll('#verdicts .badge.passed').length"), 0)
+
     def test_a_requirement_and_what_breaks_it_in_words(self):
         self.open(pages.made_up("plain"))
         runs = lambda *numbers: [{"run": run, "value": 0} for run in numbers]

@@ -164,7 +164,7 @@ class Numbers:
         """How many requirements fail somewhere, and how each set stands."""
         failed = {self.words(one) for each in sets for one in each["requirements"] if one["verdict"] == "failed"}
         text = self.one(".headline").text
-        if failed:
+        if failed and not self.run_script("return W.incomplete()"):
             self.assertIn(f"Each of {len(texts)} requirements fails" if len(failed) == len(texts) > 1 else f"{len(failed)} of {len(texts)} requirements fail", text)
         for each in sets:
             count = {word: sum(one["verdict"] == word for one in each["requirements"]) for word in ("failed", "open", "passed")}

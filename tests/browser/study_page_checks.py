@@ -33,6 +33,11 @@ class StudyPageChecks:
             self.check(title.rpartition(" at ")[2], margin["scales"][at], about=title)
         rare = lambda **more: self.run_script("Object.assign(W.set().rare, arguments[0]); W.why(); return [[...document.querySelectorAll('#why p')].find(one => one.textContent.startsWith('P(')).textContent.split(').')[1], document.querySelectorAll('figure.rare').length, [...document.querySelectorAll('#why caption')].some(one => one.textContent === 'Most likely run of the event')]", more)
         self.assertEqual(rare(reached=True), ["", 1, True])
+        told = lambda **more: self.run_script("const own = W.set().rare; W.set().rare = { ...own, ...arguments[0] }; W.why(); const text = [...document.querySelectorAll('#why p b')].map(one => one.parentNode.textContent).find(one => /bounds/.test(one)); W.set().rare = own; return text", more)
+        beyond = {"output": "root.peak_moment", "above": True, "limit": 15, "unit": "N·m"}
+        for part in ("root peak moment > 15 N·m, case hot: ", "(90 % bounds "):
+            self.assertIn(part, told(beyond=beyond, case="hot", confidence=0.9))
+        self.assertIn("root latch rate < 5 deg/s: ", told(beyond={"output": "root.latch_rate", "above": False, "limit": 0.08726646259971647, "unit": "rad/s"}))
         words, *_ = rare(reached=False)
         self.assertIn("The event was not reached", words)
         levels = [{"threshold": None, "probability": 1}, {"threshold": 1, "probability": 0.5}, {"threshold": 2, "probability": 0}]

@@ -211,6 +211,32 @@ TEST_CASE("report says when runs are missing", "[report]") {
   CHECK(set["planned"] == 10);
 }
 
+TEST_CASE("report says which cases of an interrupted campaign lack runs", "[report][cases]") {
+  const Folder folder;
+  Json json = quick_campaign(40);
+  json["cases"] = parse_json(
+      R"([ { "name": "as_it_is" }, { "name": "weak", "scale": { "hinges.*.spring.scale": 0.9 } } ])");
+  json["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.5, "confidence": 0.9 }])");
+  const std::string file = folder.write("c.json", json.dump()), path = folder.path() / "r";
+  const auto page = [&] { return page_data(path + "/report.html"); };
+  REQUIRE(run_program(folder, {"run", file, "--out", path}).code == 0);
+  CHECK(run_program(folder, {"report", path}).error.empty());
+  CHECK(page()["unmade"].empty());
+  std::filesystem::remove_all(path + "/weak"); // it was not begun
+  std::filesystem::remove(path + "/cases.json");
+  const Finished none = run_program(folder, {"report", path});
+  CHECK(none.code == 0);
+  CHECK_THAT(none.error, HasFacts({"warning: ", "no run of case weak"}));
+  CHECK(page()["unmade"] == parse_json(R"([{ "label": "weak", "planned": 40 }])"));
+  std::filesystem::resize_file(path + "/as_it_is/runs.csv", 3000); // as a crash leaves it
+  const Finished some = run_program(folder, {"report", path});
+  const long runs = page()["sets"][0]["runs"];
+  CHECK((runs > 0 && runs < 40));
+  CHECK_THAT(some.error, HasFacts({"warning: ", std::to_string(runs) + " of 40 runs",
+                                   "as_it_is, none of weak"}));
+}
+
 TEST_CASE("report makes no run again of another tool's rows", "[report]") {
   const Done done(full_campaign(10));
   Json campaign = parse_json_file(done.path / campaign_file);

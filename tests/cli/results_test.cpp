@@ -134,6 +134,22 @@ TEST_CASE("a campaign that stopped is complete, whatever it is judged by afterwa
   CHECK(after["requirements"][0]["name"] == "L-1");
 }
 
+TEST_CASE("analyze shows the histograms of every case") {
+  const Folder folder;
+  Json json = quick_campaign(20);
+  json["cases"] = parse_json(
+      R"([ { "name": "as_it_is" }, { "name": "weak", "scale": { "hinges.*.spring.scale": 0.9 } } ])");
+  const std::string file = folder.write("c.json", json.dump()), out = folder.path() / "r";
+  REQUIRE(run_program(folder, {"run", file, "--out", out}).code == 0);
+  const std::string all = run_program(folder, {"analyze", out, "--histograms"}).out;
+  for (const char* name : {"/as_it_is", "/weak"}) {
+    const std::string own = run_program(folder, {"analyze", out + name, "--histograms"}).out;
+    CHECK_THAT(own, Catch::Contains("█"));
+    CHECK_THAT(all, Catch::Contains(own));
+  }
+  CHECK_THAT(run_program(folder, {"analyze", out, "--table"}).out, !Catch::Contains("█"));
+}
+
 TEST_CASE("analyze counts what stalled with its reason, and takes it for no failure") {
   const DoneCampaign done(quick_campaign(6));
   const StoredCampaign stored = read_stored_campaign(done.path);

@@ -72,6 +72,26 @@ TEST_CASE("the table and the histograms, when asked for") {
   CHECK(other.out.find("root.latch_time, s") == std::string::npos);
 }
 
+TEST_CASE("the table of cases says of each whether its stopping goals were reached") {
+  Json json = quick_campaign(1010);
+  json["cases"] = parse_json(
+      R"([ { "name": "as_it_is" }, { "name": "weak", "scale": { "hinges.*.spring.scale": 0.9 } } ])");
+  const RunSetting setting(json);
+  const std::vector<std::string> goals{"--until", "deployed 0.5", "--until",
+                                       "root.latch_time@0.5 0.000001"};
+  const auto shown = [&](const std::string& to, std::vector<std::string> more) {
+    more.insert(more.end(), goals.begin(), goals.end());
+    return setting.run(setting.out + to, more).out;
+  };
+  for (const char* table : {"--table", "--all"})
+    CHECK_THAT(shown(table, {table}),
+               HasFacts({"STOPPING GOAL", "deployed", "as_it_is", "yes", "weak", "yes",
+                         "root.latch_time", "as_it_is", " s ", "no", "weak", " s ", "no"}));
+  const std::string one = shown("one", {"--table", "--case", "weak"});
+  CHECK_THAT(one, HasFacts({"STOPPING GOAL", "deployed", "weak", "yes", "weak", "no"}));
+  CHECK_THAT(one, !Catch::Contains("as_it_is"));
+}
+
 TEST_CASE("the number of runs and the seed can be given") {
   const RunSetting setting(quick_campaign(20));
   CHECK(setting.run(setting.out, {"--runs", "5", "--seed", "99"}).code == 0);

@@ -86,6 +86,9 @@ TEST_CASE("rare says how likely, by which levels, and whether counting would hav
   CHECK_THAT(none.error, HasFacts({"--isa scalar --lanes 8", "processor", "scalar (1)"}));
   const Json found = parse_json(one.out);
   CHECK(found["event"] == "root.latch_time > 6");
+  CHECK(found["beyond"] ==
+        parse_json(R"({ "output": "root.latch_time", "above": true, "limit": 6, "unit": "s" })"));
+  CHECK(found["case"].is_null());
   CHECK(found["repeats"].size() == 2);
   CHECK(found["lower"] <= found["probability"]);
   CHECK(found["probability"] <= found["upper"]);
@@ -96,7 +99,7 @@ TEST_CASE("rare says how likely, by which levels, and whether counting would hav
   const auto text = run_program(folder, {"rare", file, "--output", "root.latch_time", "--above",
                                          "5", "--samples", "100", "--repeats", "2"});
   CHECK(text.code == 0);
-  CHECK(text.out.find("P(root.latch_time > 5) = ") != std::string::npos);
+  CHECK(text.out.find("P(root.latch_time > 5 s) = ") != std::string::npos);
   CHECK(text.out.find("Plain sampling would have been enough") != std::string::npos);
 
   const std::string kept = folder.path() / "rare";
@@ -108,6 +111,28 @@ TEST_CASE("rare says how likely, by which levels, and whether counting would hav
   CHECK(run_program(folder, {"report", kept}).code == 0);
   CHECK(read_text(folder.path() / "rare" / "report.html").value().find("root.latch_time > 6") !=
         std::string::npos);
+}
+
+TEST_CASE("rare names the case, the unit and the confidence, and so does its page", "[cases]") {
+  const Folder folder;
+  Json json = quick_campaign(10);
+  json["cases"] = parse_json(
+      R"([ { "name": "as_it_is" }, { "name": "weak", "scale": { "hinges.*.spring.scale": 0.9 } } ])");
+  const std::string kept = folder.path() / "rare";
+  const auto [code, out, error] =
+      run_program(folder, {"rare", file_with(folder, json), "--case", "weak", "--output",
+                           "root.peak_moment", "--above", "1", "--samples", "100", "--repeats", "2",
+                           "--confidence", "0.9", "--out", kept});
+  CHECK(code == 0);
+  CHECK_THAT(out, HasFacts({" · weak · ", "root.peak_moment > 1 N·m", "90 % bounds"}));
+  const Json found = parse_json_file(kept + "/rare.json");
+  CHECK(found["case"] == "weak");
+  CHECK(found["beyond"]["unit"] == "N·m");
+  CHECK(run_program(folder, {"report", kept}).error.empty());
+  const Json rare = page_data(kept + "/report.html")["sets"][0]["rare"];
+  CHECK(rare["case"] == "weak");
+  CHECK(rare["confidence"] == 0.9);
+  CHECK(rare["beyond"] == found["beyond"]);
 }
 
 TEST_CASE("rare refuses half an event, and an odd number of samples") {

@@ -2,6 +2,7 @@
 
 #include "montecarlo/engine/runs/results.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +13,26 @@
 
 namespace wingspread {
 namespace {
+
+/// The unit of the event's output; empty for "not deployed".
+std::string unit_of(const RareEvent& event) {
+  return event.output.empty() ? "" : parse_output_name(event.output).unit;
+}
+
+/// "root.peak_moment > 400 N·m".
+std::string with_unit(const RareEvent& event) {
+  const std::string unit = unit_of(event);
+  return describe(event) + (unit.empty() ? "" : ' ' + unit);
+}
+
+/// The event as data, for those that show it in another unit. Without an output the event is "not deployed".
+Json event_json(const RareEvent& event) {
+  if (event.output.empty()) return nullptr;
+  return {{"output", event.output},
+          {"above", event.above},
+          {"limit", json_number(event.limit)},
+          {"unit", unit_of(event)}};
+}
 
 Json estimate_json(const SubsetEstimate& estimate, const RareEvent& event) {
   Json levels = Json::array();
@@ -120,6 +141,8 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
     repeats.push_back(estimate_json(estimate, options.event));
   return {{stamp_key, about},
           {"event", describe(options.event)},
+          {"beyond", event_json(options.event)},
+          {"case", campaign.of_case.empty() ? Json(nullptr) : Json(campaign.of_case)},
           {"probability", all.probability},
           {"reached", all.reached},
           {"method", all.plain ? "plain_sampling" : "subset_simulation"},
@@ -161,9 +184,10 @@ std::string rare_text(const RareResult& result, const RareOptions& options,
                       const Campaign& campaign) {
   const RareEstimate& all = result.estimate;
   std::string text =
-      fmt::format("{} · subset simulation, {} repeats of {} a level · seed {}\n\n",
-                  campaign.scene.name, options.repeats, options.samples, campaign.sampling.seed);
-  text += result_text(result, options.confidence, describe(options.event));
+      fmt::format("{}{} · subset simulation, {} repeats of {} a level · seed {}\n\n",
+                  campaign.scene.name, campaign.of_case.empty() ? "" : " · " + campaign.of_case,
+                  options.repeats, options.samples, campaign.sampling.seed);
+  text += result_text(result, options.confidence, with_unit(options.event));
   if (all.reached && all.bias > 0)
     text += fmt::format("Bias: such estimates are too large by about {} on average\n",
                         percent(all.bias, 1));

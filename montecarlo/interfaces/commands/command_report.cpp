@@ -50,6 +50,8 @@ int report(const ReportOptions& options) {
   const std::filesystem::path out =
       options.out.empty() ? options.folders.front() / report_file : options.out;
   const PageSources sources = read_page_sources(options.folders, options.threads);
+  if (const std::string text = incomplete_text(sources); !text.empty())
+    fmt::print(stderr, "warning: incomplete: {}; the verdicts are not final\n", text);
   write_file(out,
              html_page(page_json(sources, options.header, command_of(options), options.threads)));
   fmt::print("{}\n", out.string());

@@ -40,6 +40,9 @@ struct AnalyzeOptions {
 /// Shows and judges all cases. @return the worst exit status
 int show_all_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
                    const Display& display) {
+  if (display.histograms)
+    for (const CaseSummary& each : cases)
+      show_table(read_stored_campaign(whole.folder / each.name), each.summary, display);
   show_cases(whole, cases, display);
   return judge_cases(whole, cases);
 }

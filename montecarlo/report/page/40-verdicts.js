@@ -7,15 +7,17 @@
   const WORDS = { passed: ["pass", "✓"], failed: ["fail", "✕"], open: ["undecided", "?"] };
   const verdictOf = (word) => ({ pass: "passed", fail: "failed", undecided: "open" })[word] || word;
 
-  W.badge = function (verdict, small) {
+  W.badge = function (verdict, small, suffix = "") {
     const [word, sign] = WORDS[verdictOf(verdict)] || [verdict, "?"];
     return h(
       "span",
-      { class: `badge ${verdictOf(verdict)}`, title: word },
+      { class: `badge ${suffix && verdictOf(verdict) === "passed" ? "open" : verdictOf(verdict)}`, title: word },
       h("span", { "aria-hidden": "true" }, sign + " "),
-      h("span", { class: small ? "unseen" : null }, word),
+      h("span", { class: small && !suffix ? "unseen" : null }, word + suffix),
     );
   };
+  // The badge of a requirement: "pass so far" while planned runs are missing.
+  W.verdictBadge = (verdict, small) => W.badge(verdict, small, W.incomplete() ? " so far" : "");
 
   // The guaranteed value's distance to the limit, positive where the limit is kept; of too few runs the observed value's.
   function marginOf(one) {
@@ -61,7 +63,19 @@
     });
     return [...groups].map(([text, labels]) => `${listed(labels)}: ${text}`).join("; ");
   }
+  // In place of the headline of a campaign that lacks runs.
+  function unfinished(rows) {
+    return h(
+      "p.headline.open.incomplete",
+      h("span.badge.open", "? incomplete"),
+      ` ${W.incomplete()}`,
+      rows.length
+        ? [h("small", " The campaign has no final verdict. Of the runs so far:"), h("small", ` ${bySet(rows)}`)]
+        : h("small", " This campaign states no requirements. The statistics are of the runs so far."),
+    );
+  }
   function headline(rows) {
+    if (W.incomplete()) return unfinished(rows);
     if (!rows.length)
       return h(
         "p.headline",
@@ -240,7 +254,7 @@
           h("span.evidence", one.evidence, one.disproved && !/disproved/.test(one.evidence) ? " · disproved" : null),
           isAtMost(one) ? h("span.evidence", `${F.runs(set.runs)} can show no more`) : null,
         ),
-        W.badge(one.verdict),
+        W.verdictBadge(one.verdict),
         several && h("span.nowrap", set.label),
         observed(one, set),
         guaranteed(one, set),
@@ -262,7 +276,8 @@
   }
   // One cell per requirement and case.
   function matrix(rows) {
-    const texts = [...new Set(rows.map((row) => keyOf(row.requirement)))];
+    const texts = [...new Set(rows.map((row) => keyOf(row.requirement)))],
+      unmade = W.data.unmade || [];
     const words = (text) => {
       const row = rows.find((one) => keyOf(one.requirement) === text);
       return wordsOf(row.requirement, row.set);
@@ -273,12 +288,12 @@
       const one = row.requirement,
         margin = marginText(one, row.set),
         known = margin !== F.none && (W.isNumber(one.margin) || !W.isNumber(one.limit) || !one.not_deployed);
-      return h("span.cell", W.badge(one.verdict, true), " ", known ? margin : one.not_deployed ? `${F.count(one.not_deployed)} not deployed` : F.none);
+      return h("span.cell", W.verdictBadge(one.verdict, true), " ", known ? margin : one.not_deployed ? `${F.count(one.not_deployed)} not deployed` : F.none);
     };
     return W.table(
       "Verdict and distance to the limit by case",
-      ["Requirement", ...W.sets.map((set) => number(set.label))],
-      texts.map((text) => [words(text), ...W.sets.map((set, at) => cell(text, at))]),
+      ["Requirement", ...[...W.sets, ...unmade].map((set) => number(set.label))],
+      texts.map((text) => [words(text), ...W.sets.map((set, at) => cell(text, at)), ...unmade.map(() => "no runs")]),
       { class: "matrix", showCaption: true, stacks: true },
     );
   }
@@ -300,7 +315,7 @@
         : null;
     return [
       headline(rows),
-      several ? [matrix(rows), thinBecauseOfRuns(rows)] : null,
+      several || (W.data.unmade || []).length ? [matrix(rows), thinBecauseOfRuns(rows)] : null,
       W.unjudged(),
       W.staticShortfall(),
       W.findings(rows),

@@ -175,8 +175,9 @@
     const kind = (text) => text.replace(/\d[\d.]*(e[-+]?\d+)?/g, "#");
     const texts = [...new Map(all.map((one) => [kind(one.text), one.text]).reverse()).values()].reverse();
     const partial = W.sets
-      .filter((set) => set.partial || (set.runs < set.planned && !set.stopped))
-      .map((set) => `${set.label} holds ${F.count(set.runs)} of ${F.count(set.planned)} planned runs.`);
+      .filter(W.isPartial)
+      .map((set) => `${set.label} holds ${F.count(set.runs)} of ${F.count(set.planned)} planned runs.`)
+      .concat((W.data.unmade || []).map((one) => `${one.label} holds none of ${F.count(one.planned)} planned runs.`));
     const items = [
       ...partial.map((text) => h("li", text)),
       ...texts.map(function (text) {

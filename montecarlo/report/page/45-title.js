@@ -24,6 +24,8 @@
       folders = distinct((set) => (set.case ? set.label.split(" · ").slice(0, -1).join(" · ") : set.label)).filter(Boolean);
     if (cases.length && folders.length > 1 && W.sets.length === cases.length * folders.length)
       return `${folders.length} folders (${folders.join(", ")}) of ${cases.length} cases (${cases.join(", ")})`;
+    const unmade = (W.data.unmade || []).length;
+    if (unmade) return `${W.sets.length} of ${W.sets.length + unmade} cases: ${W.sets.map((set) => set.label).join(", ")}`;
     return `${W.sets.length} ${cases.length ? "cases" : "folders"}: ${W.sets.map((set) => set.label).join(", ")}`;
   }
   // "requirements at 90 % confidence, two-sided bounds at 95 %": both, where they differ.
@@ -33,11 +35,27 @@
     if (!asked.length || (asked.length === 1 && asked[0] === own)) return `bounds at ${own}`;
     return `requirements at ${W.verdicts.listed(asked)} confidence, two-sided bounds at ${own}`;
   }
+  // The cases that lack runs, in words: "62 of 500 runs of case cold, none of hot"; null where every planned run is there.
+  W.isPartial = (set) => Boolean(set.partial) || (set.runs < set.planned && !set.stopped);
+  W.incomplete = function () {
+    const unmade = W.data.unmade || [],
+      partial = W.sets.filter(W.isPartial),
+      some = partial.filter((set) => set.runs > 0),
+      none = [...partial.filter((set) => !set.runs), ...unmade].map((one) => one.label),
+      several = W.sets.length + unmade.length > 1,
+      kind = unmade.length || W.sets.some((set) => set.case) ? "case " : "";
+    const parts = some.map(
+      (set, at) => `${F.count(set.runs)} of ${F.count(set.planned)}${at ? "" : " runs"}${several ? ` of ${at ? "" : kind}${set.label}` : ""}`,
+    );
+    if (none.length) parts.push(some.length ? `none of ${W.verdicts.listed(none)}` : `no run of ${kind}${W.verdicts.listed(none)}`);
+    return parts.length ? parts.join(", ") : null;
+  };
   W.subtitle = function () {
     const set = W.set(),
       one = (read) => [...new Set(W.sets.map(read))];
     const facts = [
-      W.sets.length > 1 ? extent() : null,
+      W.incomplete() ? h("b", `incomplete: ${W.incomplete()}`) : null,
+      W.sets.length > 1 || (W.data.unmade || []).length ? extent() : null,
       W.onlyStudies
         ? null
         : one((each) => each.runs).length === 1

@@ -248,7 +248,13 @@
   }
 
   function rareEvent(rare) {
-    const drawn = (rare.levels || []).filter((one) => W.isNumber(one.threshold) && one.probability > 0),
+    const beyond = rare.beyond,
+      { factor, unit } = F.shown(beyond ? beyond.unit : ""),
+      event = beyond ? `${F.nameOf(beyond.output)} ${beyond.above ? ">" : "<"} ${F.written(beyond.limit, beyond.unit)}` : rare.text,
+      bounds = W.isNumber(rare.confidence) ? `${F.given(100 * rare.confidence)} % bounds` : "bounds";
+    const drawn = (rare.levels || [])
+        .filter((one) => W.isNumber(one.threshold) && one.probability > 0)
+        .map((one) => ({ ...one, threshold: one.threshold * factor })),
       likeliest = rare.likeliest && rare.likeliest.draws;
     const figure =
       drawn.length < 2
@@ -259,7 +265,7 @@
             description: () =>
               drawn.map((one) => `beyond ${F.number(one.threshold, 4)}: ${F.number(one.probability, 2)}`).join("; "),
             table: () => ({
-              columns: ["threshold", "probability"],
+              columns: [unit ? `threshold ${unit}` : "threshold", "probability"],
               rows: drawn.map((one) => [one.threshold, one.probability]),
             }),
             draw: function (svg, width) {
@@ -271,7 +277,7 @@
               const y = d3.scaleLog([d3.min(drawn, (one) => one.probability) / 2, 1], [box.bottom, box.top]),
                 decades = d3.range(0, Math.ceil(-Math.log10(y.domain()[0]))).map((k) => 10 ** -k);
               M.axes(svg, box, x, y, {
-                xText: "threshold",
+                xText: unit ? `threshold (${unit})` : "threshold",
                 yText: "probability of exceeding it",
                 yValues: decades,
                 yFormat: (value) => `10${F.superscript(Math.round(Math.log10(value)))}`,
@@ -290,8 +296,8 @@
     return [
       h(
         "p",
-        h("b", `${rare.text}: ${F.number(rare.probability, 3)}`),
-        ` (bounds ${F.number(rare.lower, 3)} … ${F.number(rare.upper, 3)}).${reached}`,
+        h("b", `${event}${rare.case ? `, case ${rare.case}` : ""}: ${F.number(rare.probability, 3)}`),
+        ` (${bounds} ${F.number(rare.lower, 3)} … ${F.number(rare.upper, 3)}).${reached}`,
       ),
       figure,
       likeliest && likeliest.length

@@ -154,7 +154,7 @@
       ].filter(Boolean);
       return h(
         "span.double",
-        W.badge(one.verdict),
+        W.verdictBadge(one.verdict),
         ` ${V.marginText(one, set)}`,
         h("small", causes.length ? causes.join(", ") : `${F.count(one.broken)} of ${F.runs(one.runs)} break it`),
       );

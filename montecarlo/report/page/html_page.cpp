@@ -14,6 +14,7 @@
 #include "montecarlo/results/results_folder/version.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -53,6 +54,10 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
     if (made.size() < whole.campaign.cases.size())
       for (const CaseSpec& each : made) sources.runs.back()->made_cases.push_back(each.name);
   }
+  for (const CaseSpec& spec : whole.campaign.cases)
+    if (std::ranges::find(made, spec.name, &CaseSpec::name) == made.end())
+      sources.unmade.push_back(
+          {several ? name + " · " + spec.name : spec.name, whole.runs().size()});
 }
 
 /// Replaces equal labels by the paths of their sets.
@@ -102,6 +107,26 @@ PageSources read_page_sources(std::span<const std::filesystem::path> folders, in
   return sources;
 }
 
+std::string incomplete_text(const PageSources& sources) {
+  std::vector<std::string> parts, none;
+  const bool several = sources.runs.size() + sources.unmade.size() > 1;
+  for (const auto& source : sources.runs) {
+    const long planned = source->stored.runs().size(), made = source->summary.runs;
+    if (source->summary.stopped || made >= planned) continue;
+    const char* kind = source->stored.campaign.of_case.empty() ? "" : "case ";
+    if (made == 0 && several)
+      none.push_back(source->label);
+    else
+      parts.push_back(fmt::format("{} of {}{}{}", made, planned, parts.empty() ? " runs" : "",
+                                  several ? fmt::format(" of {}{}", kind, source->label) : ""));
+  }
+  for (const UnmadeCase& each : sources.unmade) none.push_back(each.label);
+  if (!none.empty())
+    parts.push_back(
+        fmt::format("{}{}", parts.empty() ? "no run of case " : "none of ", fmt::join(none, ", ")));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 namespace {
 
 /// The words on the first page: those given, then those of the first campaign that has them.
@@ -127,7 +152,10 @@ Json page_json(const PageSources& sources, const ReportHeader& header, const std
             {"glossary", glossary_json()},
             {"sets", Json::array()},
             {"comparisons", comparisons_json(sources, pairs)},
+            {"unmade", Json::array()},
             {"unpaired", pairs.missing}};
+  for (const UnmadeCase& each : sources.unmade)
+    json["unmade"].push_back({{"label", each.label}, {"planned", each.planned}});
   std::vector<Json> margins(sources.runs.size());
   for_each_task(threads, margins.size(), [&](std::size_t i) {
     margins[i] = static_margins_json(sources.runs[i]->stored.campaign);

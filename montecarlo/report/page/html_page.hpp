@@ -10,9 +10,16 @@
 
 namespace wingspread {
 
+/// A case of a campaign without a results folder, e.g. of an interrupted run.
+struct UnmadeCase {
+  std::string label;
+  long planned; ///< its number of runs
+};
+
 struct PageSources {
   std::vector<std::unique_ptr<PageSource>> runs; ///< sets of runs
   std::vector<Json> studies; ///< sets without runs (study_set.hpp), after `runs`
+  std::vector<UnmadeCase> unmade;
 };
 
 /// Reads results folders (one set each, or one per case) and folders of `margin`, `sensitivity CAMPAIGN` and `rare`.
@@ -20,6 +27,9 @@ struct PageSources {
 /// @throws SpecError for any other folder, for a broken one, and for more than 12 sets
 [[nodiscard]] PageSources read_page_sources(std::span<const std::filesystem::path> folders,
                                             int threads);
+
+/// The sets and cases that lack runs: "62 of 500 runs of case cold, none of hot"; empty if every planned run is there.
+[[nodiscard]] std::string incomplete_text(const PageSources& sources);
 
 /// The data of the page (DATA.md).
 /// @param header  the words on the first page; they replace those of the campaigns

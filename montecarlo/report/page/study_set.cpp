@@ -241,6 +241,9 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   }
   const Json& repeats = study.at("repeats");
   set["rare"] = {{"text", study.at("event")},
+                 {"beyond", study.value("beyond", Json(nullptr))},
+                 {"case", study.value("case", Json(nullptr))},
+                 {"confidence", study.value("confidence", Json(nullptr))},
                  {"probability", study["probability"]},
                  {"lower", study["lower"]},
                  {"upper", study["upper"]},

@@ -290,7 +290,7 @@ std::string compact_cases_table(const std::vector<CaseSummary>& cases, std::stri
     text += compact_outcomes(block) + compact_outputs(cases, block) + compact_requirements(block);
   }
   if (const std::string quiet = quiet_outputs(cases); !quiet.empty()) text += '\n' + quiet;
-  text += worst_accuracy(cases) + warning_lines(warnings(cases));
+  text += stopping_lines(cases) + worst_accuracy(cases) + warning_lines(warnings(cases));
   for (const CaseSummary& each : cases)
     if (each.partial) text += fmt::format("\n{} lacks runs of the campaign\n", each.name);
   return text + "\nFILES  " +

@@ -5,6 +5,7 @@
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/model/campaign/campaign.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
+#include "montecarlo/results/summary/table.hpp"
 #include "montecarlo/results/summary/warnings.hpp"
 
 #include <fmt/format.h>
@@ -181,6 +182,25 @@ Json cases_json(const std::vector<CaseSummary>& cases, const Json& about) {
   return json;
 }
 
+std::string stopping_lines(const std::vector<CaseSummary>& cases) {
+  const std::size_t goals = cases.front().summary.until.size();
+  if (goals == 0) return "";
+  constexpr int goal_width = 45;
+  std::string text = fmt::format("\n{}{:>13}{:>20}{:>20}\n",
+                                 in_column("STOPPING GOAL, interval width", goal_width), "case",
+                                 "found", "reached");
+  for (std::size_t i = 0; i < goals; ++i)
+    for (const CaseSummary& each : cases) {
+      if (i >= each.summary.until.size()) continue;
+      const GoalFound& found = each.summary.until[i];
+      const bool first = &each == &cases.front();
+      text += fmt::format(
+          "{}{}{:>20}{:>20}\n", in_column(first ? "  " + to_string(found.goal) : "", goal_width),
+          right_aligned(each.name, case_width), found_text(found), found.met ? "yes" : "no");
+    }
+  return text;
+}
+
 std::string cases_table(const std::vector<CaseSummary>& cases, std::string_view title,
                         std::string_view folder) {
   constexpr std::size_t most_beside = (table_width - name_width) / case_width;
@@ -189,6 +209,7 @@ std::string cases_table(const std::vector<CaseSummary>& cases, std::string_view 
     const Cases block = Cases(cases).subspan(first, std::min(most_beside, cases.size() - first));
     text += outcome_lines(block) + all_output_lines(block) + requirement_lines(cases, block);
   }
+  text += stopping_lines(cases);
   for (const CaseSummary& each : cases)
     if (each.partial) text += fmt::format("\n{} lacks runs of the campaign\n", each.name);
   return text + warning_lines(warnings(cases)) +

@@ -29,6 +29,9 @@ struct CaseSummary {
 /// @param about the value of "wingspread"
 [[nodiscard]] Json cases_json(const std::vector<CaseSummary>& cases, const Json& about);
 
+/// A line for each stopping goal and case; empty without goals.
+[[nodiscard]] std::string stopping_lines(const std::vector<CaseSummary>& cases);
+
 /// Shares of outcomes, mean and outermost quantiles of every output, and requirements with their worst case.
 /// @param title  first line
 /// @param folder that holds the cases' folders

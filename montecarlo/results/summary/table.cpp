@@ -267,7 +267,8 @@ std::string requirements(const Summary& summary, std::string_view folder) {
   return text;
 }
 
-/// The width as the goal states it: a share of the quantile, or in the output's unit.
+} // namespace
+
 std::string found_text(const GoalFound& found) {
   const WidthGoal* goal = std::get_if<WidthGoal>(&found.goal);
   if (!goal) return found.met ? "decided" : "open";
@@ -275,6 +276,8 @@ std::string found_text(const GoalFound& found) {
   const std::string unit = found.width ? parse_output_name(goal->output).unit : "";
   return in_digits_if_any(found.width) + (unit.empty() ? "" : ' ' + unit);
 }
+
+namespace {
 
 std::string stopping(const Summary& summary) {
   if (summary.until.empty()) return "";

@@ -17,6 +17,10 @@ namespace wingspread {
 [[nodiscard]] std::string summary_table(const Summary& summary, std::string_view title,
                                         std::string_view folder, bool all = false);
 
+/// The width that a stopping goal has found, as the goal states it: "1.2 %", "4.1 N·m"; of a requirement "decided" or
+/// "open".
+[[nodiscard]] std::string found_text(const GoalFound& found);
+
 /// A histogram as horizontal bars whose length is the density. Merges neighbouring bins down to at most 20. Each line
 /// has its bin's lower edge and count.
 /// @param width of the lines in columns, at least 40
