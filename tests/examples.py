@@ -63,7 +63,7 @@ def check_cold_hot(root, program, folder):
 
 def check_rare_event(root, program):
     said = run(root, program, "rare", "studies/examples/rare_event.json", "--output", "root.peak_moment", "--above", "200")
-    near(float(re.search(r"P\(root\.peak_moment > 200\) = ([-+.\de]+)", said).group(1)), 2.86e-4, 0.05)
+    near(float(re.search(r"P\(root\.peak_moment > 200 N·m\) = ([-+.\de]+)", said).group(1)), 2.86e-4, 0.05)
 
 
 def listings(page):
