@@ -4,8 +4,8 @@
     /usr/bin/python3 studies/drivers/strangers_early_end.py --program … --wings 20 --runs 3 --seed 9
 
 Draws the wings of strangers.py. Each run of a campaign ends as soon as none of its peaks is proven to rise any more; its wing as a scene
-(`replay --scene`) is then followed to 60 s by `simulate`. A peak moment or force that is larger there by more than 1e-12 of itself is lost.
-Exits 1 if any is.
+(`replay --scene`) is then followed to 60 s by `simulate`. A peak moment, a peak force or an overtravel that
+is larger there by more than 1e-12 of itself is lost. Exits 1 if any is.
 """
 
 import argparse
@@ -30,6 +30,7 @@ def made(program, *arguments):
 def loss(early, whole):
     """The largest share by which a peak of the whole run exceeds the early one's."""
     pairs = [(early[kind][hinge]["value"], peak["value"]) for kind in ("peak_moment", "peak_force") for hinge, peak in whole[kind].items()]
+    pairs += [(early["overtravel"][hinge], angle) for hinge, angle in whole["overtravel"].items()]
     return max((abs(later) - abs(seen)) / abs(later) for seen, later in pairs if later)
 
 
