@@ -83,10 +83,11 @@ template <class T>
   return excess;
 }
 
-/// Which attempts of a run also ask for the energy's box, after all cheaper bounds have refused: that box costs several times
-/// as much as the bounds by modes. Heuristic: the first is the third that they refuse, for a wing that they soon prove; and
-/// bounds that exceed the peaks r times wait until the energy has fallen as much, for loads shrink no faster than it does
-/// (by its root where they are linear). A run may so end some attempts late, and no output but `peaks_final` depends on it.
+/// Says which attempts also ask for the energy's box, after all cheaper bounds have refused: that box costs several times as
+/// much as they do. Heuristic: the first two refusals do not lead to it, because the cheaper bounds often prove the peaks at
+/// the third attempt. Where its bounds exceed a peak r times, it is asked for again once the energy has fallen to 1/r: loads
+/// fall no faster than the energy, and with its root where they are linear. A run may therefore end some attempts late; of
+/// the outputs only `peaks_final` depends on that.
 template <class T> class ThoroughAttempts {
 public:
   /// Counts an attempt that the cheaper bounds refused. @return whether to ask for the energy's box
