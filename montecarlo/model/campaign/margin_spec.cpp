@@ -83,8 +83,8 @@ void refuse_unusable(const JsonCursor& at, const MarginSpec& margin, const Scene
 } // namespace
 
 std::vector<SceneParameter> spring_torques(const Scene& scene, int hinge) {
-  if (scene.hinges[hinge].spring.table) return of_spring(scene, hinge, {"scale"});
-  return of_spring(scene, hinge, {"torque_stowed", "torque_latched"});
+  if (scene.hinges[hinge].spring.table) return of_spring(scene, hinge, {"scale", "offset"});
+  return of_spring(scene, hinge, {"torque_stowed", "torque_latched", "offset"});
 }
 
 bool sizes_spring(std::span<const SceneParameter> scaled, const Scene& scene, int hinge) {

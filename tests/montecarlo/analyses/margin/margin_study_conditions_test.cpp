@@ -1,4 +1,6 @@
 #include "montecarlo/analyses/margin/margin_study.hpp"
+#include "montecarlo/analyses/margin/scaled_springs.hpp"
+#include "montecarlo/model/static_margins/drive.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -36,9 +38,41 @@ TEST_CASE("cases are those of the hinges whose springs are sized, each in turn",
   CHECK(result.cases[0].name == "nominal");
   CHECK(result.cases[1].name == "root spring out");
   CHECK(result.cases[2].name == "tip spring out");
-  REQUIRE(result.cases[2].weakened.size() == 2); // both torques, though one of them is sized
+  REQUIRE(result.cases[2].weakened.size() ==
+          3); // both torques and the offset, though one of them is sized
   CHECK(path_of(campaign.scene, result.cases[2].weakened[0]) == "hinges.tip.spring.torque_stowed");
   CHECK(result.searches[0].seen.at(1).size() == 3);
+}
+
+// The same line of torque, 2 → 0.2 N·m, of which an offset gives 1 N·m. One of two springs gives half of it, 0.55 N·m on
+// average, and friction of 0.8 N·m stops the wing. With the whole offset the mean would be 1.05 N·m, which deploys.
+TEST_CASE("a lost spring takes its share of the offset, in the runs as in the static margin",
+          "[margin]") {
+  Json json = one_panel_margin(60);
+  json["requirements"].erase(1);
+  json["requirements"][0]["probability"] = 0.9;
+  json["scene"]["hinges"][0]["spring"] = {
+      {"torque_stowed", 1}, {"torque_latched", -0.8}, {"offset", 1}};
+  json["margin"]["range"] = {0.9, 1.1};
+  json["margin"]["points"] = 2;
+  json["margin"]["cases"] = {"nominal", "one_spring_out"};
+  const Campaign campaign = campaign_of(json);
+  const MarginResult result = margin_of(campaign);
+  const auto share_deployed = [&](std::size_t which) {
+    const auto& statuses = result.searches[0].seen.at(1).at(which).statuses;
+    return double(statuses[static_cast<std::size_t>(Status::deployed)]) / 60;
+  };
+  CHECK(share_deployed(0) == 1);
+  CHECK(share_deployed(1) == 0);
+  const MarginCase& lost = result.cases.at(1);
+  const Scene whole = nominal_scene(campaign),
+              weaker = nominal_scene(scaled(campaign, lost.weakened, 0.5));
+  StaticMarginSpec spec = campaign.motorization;
+  spec.nasa = nasa_one_spring_out();
+  const HingeDrive drive = drives_of(whole).at(0);
+  for (const double x : {0.0, 0.3, 0.7, 1.0})
+    CHECK(margins_at(weaker, drive, x, spec)[1] ==
+          Approx(margins_at(whole, drive, x, spec)[2]).epsilon(1e-13));
 }
 
 // The margin of a draw is 0.2 a s/(3 f) − 1 at the scale s: required to be 0 for 97 % of all, that takes s so large that

@@ -174,12 +174,14 @@ TEST_CASE("What does not go with the sized parameters is refused", "[margin]") {
         "spring that can be lost");
 }
 
-TEST_CASE("A spring by a table is scaled as a whole", "[margin]") {
+TEST_CASE("A spring is lost as a whole, its offset too", "[margin]") {
   const Scene scene = read_scene(test::real_scene()); // root's is measured, mid's is linear
   const auto paths = [&](int hinge) { return paths_of(scene, spring_torques(scene, hinge)); };
-  CHECK(paths(0) == std::vector<std::string>{"hinges.root.spring.scale"});
+  CHECK(paths(0) ==
+        std::vector<std::string>{"hinges.root.spring.scale", "hinges.root.spring.offset"});
   CHECK(paths(1) == std::vector<std::string>{"hinges.mid.spring.torque_stowed",
-                                             "hinges.mid.spring.torque_latched"});
+                                             "hinges.mid.spring.torque_latched",
+                                             "hinges.mid.spring.offset"});
   const auto sizes = [&](const char* path, int hinge) {
     const SceneParameter parameter = resolve(scene, path).matches.at(0).parameter;
     return sizes_spring({&parameter, 1}, scene, hinge);
