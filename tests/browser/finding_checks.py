@@ -17,6 +17,15 @@ import print_report  # noqa: E402
 
 
 class FindingChecks:
+    def test_findings_of_a_set_that_lacks_runs_are_so_far(self):
+        self.open(pages.made_up("loads"))
+        texts = lambda: [item.text for item in self.all(".findings:not(.assumed) > li")]
+        self.assertTrue(texts())
+        self.assertFalse([text for text in texts() if "so far" in text])
+        self.run_script("W.sets.forEach(set => Object.assign(set, { planned: 2 * set.runs })); W.outcomes()")
+        self.assertTrue(texts())
+        self.assertEqual([text[:200] for text in texts() if "so far" not in text], [])
+
     def test_each_failed_requirement_has_its_finding(self):
         """Where, how many runs of how many allowed, the observed quantile and the worst run, against the data."""
         self.open(pages.made_up("loads"))

@@ -46,7 +46,7 @@ class JudgementChecks:
         self.assertNotIn("so far", badges)
         for change, lacks, late in (("Object.assign(W.sets[0], { runs: 62, planned: 4500 })", "62 of 4,500 runs of case cold", False), ("W.data.unmade = [{ label: 'late', planned: 4500 }]", "62 of 4,500 runs of case cold, none of late", True),
                                     ("Object.assign(W.sets[1], { runs: 0, planned: 4500 })", "62 of 4,500 runs of case cold, none of ambient and late", True), ("W.sets.forEach(set => Object.assign(set, { runs: 4500, planned: 4500 }))", "no run of case late", True)):
-            facts, head, badges, columns, warnings = seen(change)
+            facts, head, badges, columns, warnings = seen(f"W.data.incomplete = '{lacks}'; {change}")  # the program writes the sentence
             self.assertIn(f"incomplete: {lacks}", facts)
             self.assertTrue(head.startswith(f"? incomplete {lacks}"), head)
             self.assertEqual(set(badges.split(" | ")), {"✓ pass so far"})

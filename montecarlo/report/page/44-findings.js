@@ -12,7 +12,7 @@
       const only = failed.every(({ requirement: one }) => one.not_deployed > 0 && one.not_deployed === one.broken);
       if (failed.length < 2 || !only) return null;
       const count = failed[0].requirement.not_deployed;
-      return `${W.sets.length > 1 ? `${set.label}: ` : ""}${F.count(count)} of ${F.runs(set.runs)} did not deploy, and a run that does not deploy breaks every requirement. No deployed run is beyond a limit.`;
+      return `${W.sets.length > 1 ? `${set.label}: ` : ""}${F.count(count)} of ${F.runs(set.runs)}${W.soFar(set)} did not deploy, and a run that does not deploy breaks every requirement. No deployed run is beyond a limit.`;
     });
     return sentences.filter(Boolean).map((text) => h("p.lead", text));
   }
@@ -27,7 +27,7 @@
       return h(
         "li",
         h("b", W.verdicts.shortOf(one)),
-        `: ${W.sets.length > 1 ? `in ${set.label} ` : ""}${F.count(one.not_deployed)} of ${F.runs(set.runs)} (${F.share(one.not_deployed / Math.max(1, set.runs))}) did not deploy${mayBreak(one, set)}. `,
+        `: ${W.sets.length > 1 ? `in ${set.label} ` : ""}${F.count(one.not_deployed)} of ${F.runs(set.runs)}${W.soFar(set)} (${F.share(one.not_deployed / Math.max(1, set.runs))}) did not deploy${mayBreak(one, set)}. `,
         W.needed(one, set, "deployment"),
       );
     });
@@ -68,7 +68,7 @@
     return h(
       "li",
       h("b", W.verdicts.shortOf(one)),
-      `: ${several ? `in ${set.label} ` : ""}${F.count(one.beyond)} of ${F.runs(set.runs)} (${F.share(one.beyond / Math.max(1, set.runs))}) ${one.beyond === 1 ? "has" : "have"} ${one.abs ? `|${name}|` : name} ${side} ${limit}${mayBreak(one, set)}. `,
+      `: ${several ? `in ${set.label} ` : ""}${F.count(one.beyond)} of ${F.runs(set.runs)}${W.soFar(set)} (${F.share(one.beyond / Math.max(1, set.runs))}) ${one.beyond === 1 ? "has" : "have"} ${one.abs ? `|${name}|` : name} ${side} ${limit}${mayBreak(one, set)}. `,
       quantileText(one, set),
       also.length ? `Also fails in ${W.verdicts.listed(also)}. ` : null,
       runs.length ? [`The worst run is `, h("button.run", { onclick: () => W.selectRun(at, runs[0]) }, String(runs[0])), ". "] : null,
@@ -131,7 +131,7 @@
       shown
         .map(
           (one) =>
-            `${F.nameOf(one.output)} reaches ${value(one.output, one.largest)}${W.sets.length > 1 ? ` in ${one.set.label}` : ""}; ` +
+            `${F.nameOf(one.output)} reaches ${value(one.output, one.largest)}${W.soFar(one.set)}${W.sets.length > 1 ? ` in ${one.set.label}` : ""}; ` +
             `${one.mirror ? `its mirror image ${F.nameOf(one.judged)}, which has one,` : `the largest of its kind with one, ${F.nameOf(one.judged)},`} reaches ${value(one.judged, one.judged_largest)}.`,
         )
         .join(" "),

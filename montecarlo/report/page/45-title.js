@@ -35,21 +35,12 @@
     if (!asked.length || (asked.length === 1 && asked[0] === own)) return `bounds at ${own}`;
     return `requirements at ${W.verdicts.listed(asked)} confidence, two-sided bounds at ${own}`;
   }
-  // The cases that lack runs, in words: "62 of 500 runs of case cold, none of hot"; null where every planned run is there.
+  // Whether planned runs of a set are missing; and all that are missing in words, as the program wrote them: "62 of 500
+  // runs of case cold, none of hot"; null where every planned run is there.
   W.isPartial = (set) => Boolean(set.partial) || (set.runs < set.planned && !set.stopped);
-  W.incomplete = function () {
-    const unmade = W.data.unmade || [],
-      partial = W.sets.filter(W.isPartial),
-      some = partial.filter((set) => set.runs > 0),
-      none = [...partial.filter((set) => !set.runs), ...unmade].map((one) => one.label),
-      several = W.sets.length + unmade.length > 1,
-      kind = unmade.length || W.sets.some((set) => set.case) ? "case " : "";
-    const parts = some.map(
-      (set, at) => `${F.count(set.runs)} of ${F.count(set.planned)}${at ? "" : " runs"}${several ? ` of ${at ? "" : kind}${set.label}` : ""}`,
-    );
-    if (none.length) parts.push(some.length ? `none of ${W.verdicts.listed(none)}` : `no run of ${kind}${W.verdicts.listed(none)}`);
-    return parts.length ? parts.join(", ") : null;
-  };
+  W.incomplete = () => W.data.incomplete || null;
+  // After a count of runs: more may come.
+  W.soFar = (set) => (W.isPartial(set) ? " so far" : "");
   W.subtitle = function () {
     const set = W.set(),
       one = (read) => [...new Set(W.sets.map(read))];

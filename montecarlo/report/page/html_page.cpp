@@ -85,6 +85,19 @@ Json comparisons_json(const PageSources& sources, const Pairs& pairs) {
   return json;
 }
 
+/// "4,500".
+std::string grouped(long number) {
+  return number < 1000 ? fmt::format("{}", number)
+                       : fmt::format("{},{:03}", grouped(number / 1000), number % 1000);
+}
+
+/// "cold, ambient and hot".
+std::string listed(const std::vector<std::string>& names) {
+  const auto last = names.end() - 1;
+  return names.size() == 1 ? *last
+                           : fmt::format("{} and {}", fmt::join(names.begin(), last, ", "), *last);
+}
+
 std::string title_of(const PageSources& sources) {
   return sources.runs.empty() ? sources.studies.front().at("campaign").get<std::string>()
                               : sources.runs.front()->stored.campaign.scene.name;
@@ -110,20 +123,27 @@ PageSources read_page_sources(std::span<const std::filesystem::path> folders, in
 std::string incomplete_text(const PageSources& sources) {
   std::vector<std::string> parts, none;
   const bool several = sources.runs.size() + sources.unmade.size() > 1;
+  const bool has_cases =
+      !sources.unmade.empty() || std::ranges::any_of(sources.runs, [](const auto& source) {
+        return !source->stored.campaign.of_case.empty();
+      });
+  const char* kind = has_cases ? "case " : "";
   for (const auto& source : sources.runs) {
     const long planned = source->stored.runs().size(), made = source->summary.runs;
     if (source->summary.stopped || made >= planned) continue;
-    const char* kind = source->stored.campaign.of_case.empty() ? "" : "case ";
+    const bool first = parts.empty();
     if (made == 0 && several)
       none.push_back(source->label);
     else
-      parts.push_back(fmt::format("{} of {}{}{}", made, planned, parts.empty() ? " runs" : "",
-                                  several ? fmt::format(" of {}{}", kind, source->label) : ""));
+      parts.push_back(
+          fmt::format("{} of {}{}{}", made == 0 ? "none" : grouped(made), grouped(planned),
+                      first ? " runs" : "",
+                      several ? fmt::format(" of {}{}", first ? kind : "", source->label) : ""));
   }
   for (const UnmadeCase& each : sources.unmade) none.push_back(each.label);
   if (!none.empty())
-    parts.push_back(
-        fmt::format("{}{}", parts.empty() ? "no run of case " : "none of ", fmt::join(none, ", ")));
+    parts.push_back(fmt::format("{} of {}{}", parts.empty() ? "no run" : "none",
+                                parts.empty() ? kind : "", listed(none)));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -144,6 +164,7 @@ Json page_json(const PageSources& sources, const ReportHeader& header, const std
                int threads) {
   const PageDetail detail = page_detail(extent_of(sources));
   const Pairs pairs = pairs_of(sources.runs);
+  const std::string incomplete = incomplete_text(sources);
   Json json{{"format", 1},
             {"version", version()},
             {"command", command},
@@ -152,6 +173,7 @@ Json page_json(const PageSources& sources, const ReportHeader& header, const std
             {"glossary", glossary_json()},
             {"sets", Json::array()},
             {"comparisons", comparisons_json(sources, pairs)},
+            {"incomplete", incomplete.empty() ? Json(nullptr) : Json(incomplete)},
             {"unmade", Json::array()},
             {"unpaired", pairs.missing}};
   for (const UnmadeCase& each : sources.unmade)
