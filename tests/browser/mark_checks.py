@@ -191,11 +191,11 @@ class MarkChecks:
         self.near(self.places("rare", "circle.quantile", "cx", "cy"), [(x(a), y(b)) for a, b in points], "rare")
         text = next(one.text for one in self.all("p") if one.text.startswith(rare["text"]))[len(rare["text"]):]
         self.check(text, *(rare[key] for key in ("probability", "lower", "upper")), about=text)
-        likeliest = sorted(rare["likeliest"]["draws"], key=lambda one: -abs(one["sigma"]))
+        likeliest = sorted(rare["likeliest"]["draws"], key=lambda one: -abs(one["z"]))
         for row, one in zip(self.table("Most likely run of the event"), likeliest, strict=True):
             self.assertEqual(row[0], one["name"])
             self.check(row[1], one["value"], about=row[0])
-            self.check(row[2], one["sigma"], about=row[0])
+            self.check(row[2], one["z"], about=row[0])
         x, sobol = self.scale("tornado", "x"), sets[1]["sensitivity"]["effects"]
         name = sobol[0]["output"]
         bars = [(x(0), x(one[key]) - x(0)) for one in sobol if one["output"] == name for key in ("first", "total")]

@@ -12,7 +12,7 @@ TABLES = {  # by kind of page: the heads below each caption
               "Numerical and statistical error of each output": "Output|Unit|Numerical, largest|Numerical, rms|Standard error of the mean",
               "Identifier, source and rationale of each requirement": "Identifier|Requirement|Source|Rationale", "Outputs of mock_wing": OUTPUTS,
               "Quantiles of root peak moment": "Quantile|Value N·m|95 % two-sided bounds", "Statistics of root peak moment": "Statistic|Value",
-              "Hinges at the cursor's time": "Hinge|Angle deg|Rate deg/s|Moment N·m|State", "Least static margins": STATIC, "Most likely run of the event": "Dispersion|Value|Deviation σ",
+              "Hinges at the cursor's time": "Hinge|Angle deg|Rate deg/s|Moment N·m|State", "Least static margins": STATIC, "Most likely run of the event": "Dispersion|Value|Normal coordinate",
               "Scene of mock_wing": "Parameter|Value|Unit|In degrees|Path", "Dispersions of mock_wing": "Dispersion|Law|Nominal parameter|Draw, 1 % … 99 %|Acts on",
               "Integration settings": "Setting|Value", "Meaning, unit and sign of every name": "Name|Unit|Meaning"},
     "cases": {"Verdict and distance to the limit by case": "Requirement|cold|ambient|hot", "Requirements, the worst first": REQUIREMENTS.replace("Verdict|", "Verdict|Case|"),

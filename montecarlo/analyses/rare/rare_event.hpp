@@ -25,7 +25,8 @@ struct RareOptions {
 /// The run of the event whose point is nearest to the origin of the normal space: the most likely one sampled.
 struct LikeliestRun {
   double distance; ///< |z|
-  NormalPoint z;   ///< of each dispersion, before the copula
+  NormalPoint
+      z; ///< normal coordinate of each dispersion, before the copula: independent, though draws are correlated
   std::vector<double> draws;
   Status status;
   std::string reason;

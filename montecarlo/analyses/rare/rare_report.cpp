@@ -85,9 +85,9 @@ std::string likeliest_text(const LikeliestRun& run, const Campaign& campaign) {
   std::ranges::stable_sort(order, std::ranges::greater{},
                            [&](std::size_t i) { return std::abs(run.z[i]); });
   std::string text = fmt::format(
-      "\nMOST LIKELY run of the event, {:.2f} standard deviations from the mean: {}{}{}\n",
+      "\nMOST LIKELY run of the event, at the distance {:.2f} in normal coordinates: {}{}{}\n",
       run.distance, to_string(run.status), run.reason.empty() ? "" : ", ", run.reason);
-  text += fmt::format("  {:<40}{:>14}{:>24}\n", "dispersion", "draw", "standard deviations");
+  text += fmt::format("  {:<40}{:>14}{:>24}\n", "dispersion", "draw", "normal coordinate");
   const std::size_t shown = std::min(order.size(), most_lines);
   for (const std::size_t i : std::span(order).first(shown))
     text += fmt::format("  {:<40}{:>14.6g}{:>+24.2f}\n", campaign.dispersions[i].name, run.draws[i],
@@ -95,7 +95,10 @@ std::string likeliest_text(const LikeliestRun& run, const Campaign& campaign) {
   if (shown < order.size())
     text += fmt::format("  {} others, at most {:.2f}\n", order.size() - shown,
                         std::abs(run.z[order[shown]]));
-  return text;
+  text += "  normal coordinate: 0 at the law's median; of a normal law (draw - mean)/std";
+  if (!campaign.wanted_correlations.empty())
+    text += "; of a\n  correlated draw the part that draws before it, by name, do not explain";
+  return text + '\n';
 }
 
 std::string plain_text(const RareEstimate& estimate) {
@@ -172,7 +175,12 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
             {"bounds", "probability exp(+- q variation), q normal or Student's, the wider; no "
                        "lower one where a repeat did not reach the event; by plain_sampling: "
                        "Clopper-Pearson, two-sided"},
-            {"plain_runs", "runs of plain sampling for the same variation"}}},
+            {"plain_runs", "runs of plain sampling for the same variation"},
+            {"distance", "of the likeliest run: length of the vector of its normal coordinates, "
+                         "of rows drawn together one coordinate"},
+            {"z", "normal coordinate of a draw: standard normal and independent of the others; 0 "
+                  "at the law's median, of a normal law (draw - mean)/std; of a correlated draw "
+                  "the part that draws before it, by name, do not explain"}}},
           {"samples", options.samples},
           {"repeats", repeats},
           {"statuses", by_status},

@@ -301,15 +301,21 @@
       ),
       figure,
       likeliest && likeliest.length
-        ? W.table(
-            "Most likely run of the event",
-            ["Dispersion", number("Value"), number("Deviation", "σ")],
-            likeliest
-              .slice()
-              .sort((a, b) => Math.abs(b.sigma) - Math.abs(a.sigma))
-              .map((one) => [one.name, F.number(one.value, 4), `${one.sigma > 0 ? "+" : ""}${F.fixed(one.sigma, 2)}`]),
-            { showCaption: true },
-          )
+        ? [
+            W.table(
+              "Most likely run of the event",
+              ["Dispersion", number("Value"), number("Normal coordinate")],
+              likeliest
+                .slice()
+                .sort((a, b) => Math.abs(b.z) - Math.abs(a.z))
+                .map((one) => [one.name, F.number(one.value, 4), `${one.z > 0 ? "+" : ""}${F.fixed(one.z, 2)}`]),
+              { showCaption: true },
+            ),
+            h(
+              "p.note",
+              "Normal coordinate: 0 at the law's median, and (value − mean)/std for a normal law. Of a correlated dispersion it is the part that those before it, by name, do not explain.",
+            ),
+          ]
         : null,
     ];
   }

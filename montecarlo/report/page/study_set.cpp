@@ -233,10 +233,9 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   if (const Json& run = study.at("likeliest"); !run.is_null()) {
     std::vector<Json> draws; // largest deviation first
     for (const auto& [name, value] : run["draws"].items())
-      draws.push_back({{"name", name}, {"value", value}, {"sigma", run.at("z").at(name)}});
-    std::ranges::stable_sort(draws, std::ranges::greater{}, [](const Json& draw) {
-      return std::abs(draw["sigma"].get<double>());
-    });
+      draws.push_back({{"name", name}, {"value", value}, {"z", run.at("z").at(name)}});
+    std::ranges::stable_sort(draws, std::ranges::greater{},
+                             [](const Json& draw) { return std::abs(draw["z"].get<double>()); });
     likeliest = {{"distance", run["distance"]}, {"draws", draws}};
   }
   const Json& repeats = study.at("repeats");
