@@ -18,6 +18,17 @@ Scene with_one_damper(Scene scene, int kept) {
   return scene;
 }
 
+/// The time with a damper: that of the nominal deployment, and for one damper of several the time up to which it was
+/// followed alone, which is a lower bound.
+std::string damped_text(const Outcome& nominal, bool is_alone, double followed) {
+  const bool is_known = nominal.status == Status::deployed;
+  const std::string whole =
+      is_known ? fmt::format("a nominal deployment of {:.4g} s", nominal.t_end) : "";
+  if (is_known && is_alone) return whole;
+  return fmt::format("{}{}more than {:.4g} s by this damper alone (a lower bound)", whole,
+                     is_known ? ", " : "a deployment of ", followed);
+}
+
 } // namespace
 
 void check_dampers(const Scene& scene, const Integration& integration, const Outcome& nominal,
@@ -30,6 +41,7 @@ void check_dampers(const Scene& scene, const Integration& integration, const Out
   const Outcome free = deployment_alone(with_one_damper(scene, -1), how);
   if (free.status != Status::deployed) return;
   how.t_end = most_times * free.t_end;
+  const bool is_alone = std::ranges::count_if(scene.hinges, is_damped) == 1;
   for (int h = 0; h < std::ssize(scene.hinges); ++h) {
     const Hinge& hinge = scene.hinges[static_cast<std::size_t>(h)];
     if (!hinge.damper ||
@@ -37,9 +49,8 @@ void check_dampers(const Scene& scene, const Integration& integration, const Out
       continue;
     warnings.add(
         fmt::format("/hinges/{}/damper", h),
-        fmt::format(
-            "a deployment of more than {:.4g} s by this damper alone, {:.4g} s without dampers",
-            how.t_end, free.t_end),
+        fmt::format("{}, {:.4g} s without dampers", damped_text(nominal, is_alone, how.t_end),
+                    free.t_end),
         fmt::format(
             "up to {} times as long (write other units as \"3 N*mm*s/rad\", \"0.1 N*m*s/deg\")",
             most_times));

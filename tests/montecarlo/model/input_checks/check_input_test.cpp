@@ -202,7 +202,7 @@ const std::vector<Mistake> mistakes{
      "/synchronisations/0/ratio", "-180 deg of h1"},
     {"a damper in N·mm·s", flight,
      R"({"/hinges/1/damper": {"law": "viscous", "coefficient": 120}})", "/hinges/1/damper",
-     "a deployment of more than|this damper alone"},
+     "a deployment of more than|this damper alone (a lower bound)"},
     // laws
     {"an increment used as a factor", seed,
      R"({"/dispersions/0/distribution": {"type": "normal", "mean": 0, "std": 0.03}})",
