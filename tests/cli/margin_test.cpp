@@ -83,6 +83,21 @@ TEST_CASE("campaigns at a hair's breadth of the edges, one by one: met within, m
     }
 }
 
+TEST_CASE("check bounds the runs of margin, and their time") {
+  const Place program;
+  Json json = one_panel_margin(300);
+  const Campaign campaign = campaign_of(json);
+  const MarginRuns bounds = margin_runs(campaign);
+  const Finished checked = program({"check", program.file(json)});
+  CHECK_THAT(checked.out, HasFacts({"cost: the nominal run takes ", "cost of margin: at least ",
+                                    std::to_string(bounds.least) + " runs (about ",
+                                    std::to_string(bounds.most) + " (about "}));
+  const long runs = margin_of(campaign).runs;
+  CHECK((bounds.least <= runs && runs <= bounds.most));
+  json.erase("margin");
+  CHECK_THAT(program({"check", program.file(json)}).out, !Catch::Contains("cost of margin"));
+}
+
 TEST_CASE("margin's files have the same bytes for any threads", "[parallel]") {
   const Place program;
   Json json = one_panel_margin(200);

@@ -207,8 +207,7 @@ SearchRange range_of(const MarginSpec& spec) {
 }
 
 /// The cases and searches, before any run.
-MarginResult prepared(const Campaign& campaign) {
-  refuse_unsuitable(campaign);
+MarginResult planned(const Campaign& campaign) {
   MarginResult result;
   result.campaigns = campaigns_of(campaign);
   for (std::size_t k = 0; k < result.campaigns.size(); ++k)
@@ -216,6 +215,12 @@ MarginResult prepared(const Campaign& campaign) {
   result.searches = searches_of(*campaign.margin, campaign.scene);
   result.confirmation_seed = confirmation_seed(campaign.sampling.seed);
   return result;
+}
+
+/// The same of a campaign that is suitable.
+MarginResult prepared(const Campaign& campaign) {
+  refuse_unsuitable(campaign);
+  return planned(campaign);
 }
 
 /// An upper bound of the number of scales of all searches, finished or not, with one confirmation each.
@@ -228,6 +233,15 @@ long most_looks_of(const std::vector<MarginSearch>& searches, const MarginSearch
 }
 
 } // namespace
+
+MarginRuns margin_runs(const Campaign& campaign) {
+  const MarginResult plan = planned(campaign);
+  const SearchRange range = range_of(*campaign.margin);
+  const long at_a_scale =
+      std::ssize(plan.searches) * std::ssize(plan.cases) * campaign.sampling.runs;
+  return {at_a_scale * std::ssize(first_scales(range)),
+          at_a_scale * (most_looks({}, range) + 1)}; // 1: the confirmation
+}
 
 std::uint64_t confirmation_seed(std::uint64_t seed) {
   return RandomStream(seed, 0,

@@ -39,6 +39,14 @@ namespace wingspread {
 /// The seed of the runs that confirm a recommended scale.
 [[nodiscard]] std::uint64_t confirmation_seed(std::uint64_t seed);
 
+/// Bounds of a study's number of runs, over all searches, scales and cases.
+struct MarginRuns {
+  long least; ///< at the scales that are always evaluated
+  long most;  ///< if no cell between them is ruled out: studies usually need far fewer
+};
+/// @pre the campaign has a /margin
+[[nodiscard]] MarginRuns margin_runs(const Campaign& campaign);
+
 /// Finds the window of all springs together, or one window per hinge (MarginSpec::mode).
 /// @param progress called with the progress, one call at a time
 /// @param result   filled scale by scale: after Stopped it has the finished scales

@@ -59,7 +59,7 @@ void add_not_deployed(const RunCost& cost, const std::string& of_case, NominalRu
 
 NominalRuns try_nominal(const Scene& scene, const Integration& integration) {
   const RunCost cost = cost_of(scene, integration, {});
-  NominalRuns runs{nominal_text(cost), {}};
+  NominalRuns runs{nominal_text(cost), {}, cost.seconds};
   add_not_deployed(cost, "", runs);
   return runs;
 }
@@ -77,11 +77,15 @@ NominalRuns try_nominal(const Campaign& campaign) {
   const int threads = thread_count(0);
   const std::string of_cases =
       cases.size() > 1 ? fmt::format(" in {} cases", cases.size()) : std::string();
+  tried.seconds = cost.seconds;
   tried.cost = fmt::format("{}; {}{}: about {} on {}, less in packs", nominal_text(cost),
-                           counted(runs, "run", "runs"), of_cases,
-                           duration(cost.seconds * static_cast<double>(runs) / threads),
+                           counted(runs, "run", "runs"), of_cases, time_of_runs(tried, runs),
                            counted(threads, "thread", "threads"));
   return tried;
+}
+
+std::string time_of_runs(const NominalRuns& nominal, long runs) {
+  return duration(nominal.seconds * static_cast<double>(runs) / thread_count(0));
 }
 
 } // namespace wingspread

@@ -1,3 +1,4 @@
+#include "montecarlo/analyses/margin/margin_study.hpp"
 #include "montecarlo/engine/runs/run_cost.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
@@ -61,6 +62,17 @@ NominalRuns try_read(const Campaign& campaign) { return try_nominal(campaign); }
 const Scene& scene_of(const Scene& scene) { return scene; }
 const Scene& scene_of(const Campaign& campaign) { return campaign.scene; }
 
+/// What `margin` costs: bounds of its runs, each taken as long as the nominal one. Empty without a "margin" to find.
+std::string margin_cost(const Scene& /*scene*/, const NominalRuns& /*tried*/) { return ""; }
+std::string margin_cost(const Campaign& campaign, const NominalRuns& tried) {
+  if (!campaign.margin || campaign.requirements.empty()) return "";
+  const MarginRuns runs = margin_runs(campaign);
+  return fmt::format("cost of margin: at least {} runs (about {}), at most {} (about {}), by the "
+                     "nominal run's time\n",
+                     runs.least, time_of_runs(tried, runs.least), runs.most,
+                     time_of_runs(tried, runs.most));
+}
+
 /// Writes the picture, which may replace an earlier one.
 void draw(const std::filesystem::path& picture, const Scene& scene) {
   if (picture.empty()) return;
@@ -81,7 +93,9 @@ int check(const CheckOptions& options) {
   if (options.strict) print_warnings(warnings, true);
   const NominalRuns tried = std::visit([](const auto& spec) { return try_read(spec); }, read);
   const std::string text = std::visit([](const auto& spec) { return text_of(spec); }, read);
-  fmt::print("{}", wrapped_lines(text + "cost: " + tried.cost + '\n'));
+  const std::string margin =
+      std::visit([&](const auto& spec) { return margin_cost(spec, tried); }, read);
+  fmt::print("{}", wrapped_lines(text + "cost: " + tried.cost + '\n' + margin));
   draw(options.draw, std::visit([](const auto& spec) { return scene_of(spec); }, read));
   print_warnings(warnings, false); // last, where the user sees them
   for (const std::string& line : tried.not_deployed) fmt::print(stderr, "note: {}\n", line);
@@ -103,8 +117,9 @@ standard error name input that can be run but looks wrong: angles in degrees, sp
 away from their latch, bodies in the same place, laws that change a sign, and the like. For a
 campaign it prints the static margins by each standard: of every case, or of the one in --case.
 
-It also prints where each body is, the masses, and what the runs will cost, estimated from one
-nominal run. A note on standard error names each case whose nominal wing does not deploy, and why.
+It also prints where each body is, the masses, and what the runs of `run` and `margin` will cost,
+estimated from one nominal run. A note on standard error names each case whose nominal wing does not
+deploy, and why.
 --draw writes a picture for a browser: bodies, hinge axes, the sense in which each spring turns its
 hinge, and names. Look at the wing before you run it.
 
