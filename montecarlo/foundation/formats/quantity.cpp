@@ -1,6 +1,9 @@
 #include "montecarlo/foundation/formats/quantity.hpp"
 
+#include "montecarlo/foundation/formats/json_reader.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace wingspread {
 namespace {
@@ -64,6 +68,9 @@ constexpr std::array symbols{
     Symbol{"lbf", {pound_force, powers::force}},
     Symbol{"ozf", {pound_force / 16, powers::force}},
     Symbol{"Nm", {1, powers::torque}},
+    Symbol{"J", {1, powers::torque}}, // energy, in the same powers as a torque
+    Symbol{"mJ", {0.001L, powers::torque}},
+    Symbol{"kJ", {1000, powers::torque}},
 };
 constexpr Unit standard_gravity{gravity, powers::acceleration}; // the other "g"
 
@@ -171,26 +178,57 @@ std::optional<Unit> parse_unit(std::string_view text, const Unit& wanted) {
   return std::nullopt;
 }
 
-/// Usual units by SI unit, for messages.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 17> usual_units{{
-    {"m", R"("m", "mm", "cm", "in" or "ft")"},
-    {"kg", R"("kg", "g" or "lb")"},
-    {"s", R"("s", "ms" or "min")"},
-    {"rad", R"("rad", "deg" or "mrad")"},
+/// Usual products of units by SI unit, for messages.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> usual_units{{
     {"rad/s", R"("rad/s", "deg/s" or "rpm")"},
     {"rad/s²", R"("rad/s^2" or "deg/s^2")"},
     {"s/rad", R"("s/rad" or "s/deg")"},
     {"m/s", R"("m/s", "mm/s", "in/s" or "ft/s")"},
     {"m/s²", R"("m/s^2", "g", "in/s^2" or "ft/s^2")"},
     {"kg·m²", R"("kg*m^2", "kg*mm^2", "lb*in^2" or "slug*ft^2")"},
-    {"Hz", R"("Hz", "mHz" or "kHz")"},
     {"N·m²", R"("N*m^2", "N*mm^2" or "lbf*in^2")"},
     {"kg/m³", R"("kg/m^3" or "lb/ft^3")"},
-    {"N", R"("N", "kN" or "lbf")"},
     {"N·m", R"("N*m", "N*mm", "in*lbf", "in*ozf" or "ft*lbf")"},
     {"N·m/rad", R"("N*m/rad", "N*m/deg", "in*lbf/rad" or "in*lbf/deg")"},
     {"N·m·s/rad", R"("N*m*s/rad", "N*m*s/deg", "in*lbf*s/rad" or "N*m/rpm")"},
+    {"J", R"("J", "mJ", "kJ" or "N*m")"},
 }};
+
+/// In a torque's message a joule would mislead, although it has the same powers.
+bool is_energy(std::string_view name) { return name.ends_with('J'); }
+
+using Names = std::vector<std::string_view>;
+
+/// The symbols of one dimension.
+Names symbols_like(const Unit& unit) {
+  Names names;
+  for (const Symbol& symbol : symbols)
+    if (!is_energy(symbol.name) && same_dimension(symbol.unit, unit)) names.push_back(symbol.name);
+  return names;
+}
+
+/// Whether the text of a unit has the symbol: "s" in "N·m·s/rad", and not in "rad/ms".
+bool has_symbol(std::string_view unit, std::string_view symbol) {
+  const auto is_letter = [&](std::size_t at) {
+    return at < unit.size() &&
+           ((unit[at] >= 'a' && unit[at] <= 'z') || (unit[at] >= 'A' && unit[at] <= 'Z'));
+  };
+  for (std::size_t at = unit.find(symbol); at != std::string_view::npos;
+       at = unit.find(symbol, at + 1))
+    if ((at == 0 || !is_letter(at - 1)) && !is_letter(at + symbol.size())) return true;
+  return false;
+}
+
+/// Every symbol that can stand in a unit of the same dimension: those like each symbol of the SI unit.
+Names symbols_within(std::string_view unit, const Unit& wanted) {
+  Names names = symbols_like(wanted);
+  for (const std::string_view si : {"N", "kg", "m", "s", "rad"})
+    if (has_symbol(unit, si)) {
+      const Names like = symbols_like(std::ranges::find(symbols, si, &Symbol::name)->unit);
+      names.insert(names.end(), like.begin(), like.end());
+    }
+  return names;
+}
 
 } // namespace
 
@@ -212,7 +250,15 @@ std::optional<double> in_unit(std::string_view text, std::string_view unit) {
 std::string units_like(std::string_view unit) {
   const auto known =
       std::ranges::find(usual_units, unit, &std::pair<std::string_view, std::string_view>::first);
-  return known != usual_units.end() ? std::string(known->second) : fmt::format("\"{}\"", unit);
+  if (unit == "J") return std::string(known->second);
+  const std::optional<Unit> wanted = UnitParser(unit, {}).parse();
+  if (!wanted) return fmt::format("\"{}\"", unit);
+  if (std::ranges::find(symbols, unit, &Symbol::name) != symbols.end())
+    return quoted_list(symbols_like(*wanted));
+  return fmt::format("{}, or another one made of {}",
+                     known != usual_units.end() ? std::string(known->second)
+                                                : fmt::format("\"{}\"", unit),
+                     fmt::join(symbols_within(unit, *wanted), ", "));
 }
 
 std::string expected_number(const Dimension& dimension) {

@@ -96,12 +96,18 @@ TEST_CASE("What is no number with a unit of the dimension is nothing", "[quantit
 }
 
 TEST_CASE("A message names the units of a dimension", "[quantity]") {
-  CHECK(units_like("kg") == "\"kg\", \"g\" or \"lb\"");
-  CHECK(units_like("N·m·(s/rad)^0.5") == "\"N·m·(s/rad)^0.5\"");
+  CHECK(units_like("kg") == "\"kg\", \"g\", \"lb\", \"lbm\" or \"slug\"");
+  CHECK(units_like("s/rad") == "\"s/rad\" or \"s/deg\", or another one made of s, ms, min, h, rad, "
+                               "mrad, deg, °, rev");
+  CHECK(units_like("J") == "\"J\", \"mJ\", \"kJ\" or \"N*m\"");
+  CHECK(units_like("N·m").ends_with(
+      "\"ft*lbf\", or another one made of Nm, N, mN, kN, lbf, ozf, m, mm, cm, km, in, ft"));
+  CHECK(units_like("N·m·(s/rad)^0.5").starts_with("\"N·m·(s/rad)^0.5\", or another one made of "));
+  CHECK(units_like("no unit") == "\"no unit\"");
   CHECK(expected_number({"rad"}) == "a number, rad");
   CHECK(expected_number({"kg", "> 0"}) == "a number, kg, > 0");
-  CHECK(expected_quantity({"kg", "> 0"}) ==
-        "a number, kg, > 0, or a string of a number and its unit: \"kg\", \"g\" or \"lb\"");
+  CHECK(expected_quantity({"kg", "> 0"}) == "a number, kg, > 0, or a string of a number and its "
+                                            "unit: \"kg\", \"g\", \"lb\", \"lbm\" or \"slug\"");
   CHECK(expected_number({"", "> 0"}) == "a number, > 0");
   CHECK(expected_quantity({""}) == "a number");
   CHECK(expected_numbers({""}) == "an array of numbers");
@@ -110,8 +116,9 @@ TEST_CASE("A message names the units of a dimension", "[quantity]") {
 }
 
 TEST_CASE("Every unit that a message names is one", "[quantity]") {
-  for (const char* unit : {"m", "kg", "s", "rad", "rad/s", "rad/s²", "s/rad", "m/s", "m/s²",
-                           "kg·m²", "Hz", "N·m²", "kg/m³", "N", "N·m", "N·m/rad", "N·m·s/rad"}) {
+  for (const char* unit :
+       {"m", "kg", "s", "rad", "rad/s", "rad/s²", "s/rad", "m/s", "m/s²", "kg·m²", "Hz", "N·m²",
+        "kg/m³", "N", "N·m", "N·m/rad", "N·m·s/rad", "J"}) {
     const std::string list = units_like(unit);
     for (std::size_t quote = list.find('"'); quote != std::string::npos;) {
       const std::size_t end = list.find('"', quote + 1);
@@ -121,4 +128,25 @@ TEST_CASE("Every unit that a message names is one", "[quantity]") {
       quote = list.find('"', end + 1);
     }
   }
+}
+
+// The symbols of the page on quantities, each with an SI unit that it can stand for.
+TEST_CASE("Every symbol is named where it is accepted", "[quantity]") {
+  const auto [symbol, unit] = GENERATE(table<const char*, const char*>({{"km", "m"},
+                                                                        {"lbm", "kg"},
+                                                                        {"slug", "kg"},
+                                                                        {"h", "s"},
+                                                                        {"°", "rad"},
+                                                                        {"rev", "rad"},
+                                                                        {"rpm", "rad/s"},
+                                                                        {"mHz", "Hz"},
+                                                                        {"mN", "N"},
+                                                                        {"ozf", "N·m"},
+                                                                        {"Nm", "N·m"},
+                                                                        {"h", "rad/s"},
+                                                                        {"km", "N·m²"},
+                                                                        {"lbm", "kg·m²"},
+                                                                        {"mJ", "J"}}));
+  CAPTURE(symbol, unit);
+  CHECK(units_like(unit).find(symbol) != std::string::npos);
 }
