@@ -191,6 +191,14 @@ bool JsonCursor::read(std::vector<double>& out, const Dimension& dimension) cons
                             : refuse(expected_numbers(dimension));
 }
 
+void JsonCursor::note_quantity(std::string_view unit, std::string_view condition) const {
+  if (!questions_) return;
+  for (const JsonCursor& each : elements()) each.note_quantity(unit, condition);
+  if (value_->is_array()) return;
+  note(Question::What::quantity,
+       fmt::format("{}, or a string of a number and its unit", expected_number({unit, condition})));
+}
+
 std::optional<std::size_t> JsonCursor::choice(std::span<const std::string_view> words) const {
   note(Question::What::choice, quoted_list(words));
   if (questions_) questions_->back().words.assign(words.begin(), words.end());
@@ -198,7 +206,11 @@ std::optional<std::size_t> JsonCursor::choice(std::span<const std::string_view> 
     const auto found = std::ranges::find(words, value_->get_ref<const std::string&>());
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
   }
-  refuse(quoted_list(words));
+  const std::string meant =
+      value_->is_string()
+          ? did_you_mean(value_->get_ref<const std::string&>(), {words.begin(), words.end()})
+          : "";
+  refuse(quoted_list(words) + meant);
   return std::nullopt;
 }
 

@@ -104,6 +104,11 @@ public:
   /// The index of the value among the words; nothing, with a problem, if it is none of them.
   [[nodiscard]] std::optional<std::size_t> choice(std::span<const std::string_view> words) const;
 
+  /// Records, for the schema, that the value, or each element of an array, is a quantity whose unit other keys decide.
+  /// Call it before reading.
+  /// @param unit "in the output's unit"
+  void note_quantity(std::string_view unit, std::string_view condition = "") const;
+
   /// Records a question about this value.
   void note(Question::What what, std::string_view expected, std::string_view key = "") const {
     if (questions_)

@@ -154,6 +154,7 @@ void read_change(const JsonCursor& value, std::string_view path, Apply apply, co
   CaseChange change{apply, {}, 0};
   const std::string_view unit =
       apply == Apply::scale ? "" : unit_of(found.matches.front().parameter);
+  if (apply != Apply::scale) value.note_quantity("in the parameter's unit");
   if (!value.read(change.value, Dimension{unit})) return;
   for (const ParameterMatch& match : found.matches) {
     change.target = match.parameter;

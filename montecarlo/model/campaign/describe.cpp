@@ -33,12 +33,12 @@ std::string describe_targets(const Scene& scene, std::span<const SceneParameter>
   return fmt::format("{}", fmt::join(targets, ", "));
 }
 
-/// "1.2 to 0.9 over -60 to 70".
+/// "1.2 to 0.9 over -60 to 70 (monotone cubic through 3 points)".
 std::string describe_table(const Curve& table) {
   const auto value_at = [&](std::size_t knot) { return table.pieces()[knot + 1].c[0]; };
   const std::vector<double>& draws = table.knots();
-  return fmt::format("{} to {} over {} to {}", value_at(0), value_at(draws.size() - 1),
-                     draws.front(), draws.back());
+  return fmt::format("{} to {} over {} to {} (monotone cubic through {} points)", value_at(0),
+                     value_at(draws.size() - 1), draws.front(), draws.back(), draws.size());
 }
 
 /// One line, and one more for each entry of a `through`.

@@ -20,8 +20,9 @@ namespace {
 
 constexpr std::array<std::string_view, 6> columns_of_runs{"run",         "status", "peaks_final",
                                                           "latch_order", "reason", "deployed"};
-
 constexpr std::size_t most_dispersions = 10'000;
+constexpr std::string_view expected_drive_table =
+    "a table: an object with at and value; a monotone cubic between points, constant beyond";
 
 /// A dispersion and its place in the document.
 struct Sourced {
@@ -49,10 +50,8 @@ std::vector<JsonCursor> paths_of_each(const JsonCursor& each) {
 /// Adds a parameter to the copy for its body, hinge or synchronisation; makes the copy if there is none.
 void add_match(const ParameterMatch& match, const Dispersion& pattern,
                std::vector<Dispersion>& copies) {
-  const auto has_its_owner = [&](const Dispersion& copy) {
-    return copy.targets.front().index == match.parameter.index;
-  };
-  auto copy = std::ranges::find_if(copies, has_its_owner);
+  const auto owner = [](const Dispersion& each) { return each.targets.front().index; };
+  auto copy = std::ranges::find(copies, match.parameter.index, owner);
   if (copy == copies.end()) {
     copies.push_back(pattern);
     copies.back().name += "." + match.name;
@@ -109,10 +108,11 @@ bool read_knots(JsonObject& table, std::vector<double>& at_draws) {
 
 /// @param resolved the table's JSON; receives the values in SI
 void read_drive_table(const JsonCursor& at, std::string_view unit, Driven& driven, Json& resolved) {
-  JsonObject object(at, "a table: an object with at and value");
+  JsonObject object(at, expected_drive_table);
   std::vector<double> draws, values;
   bool good = read_knots(object, draws);
   const auto value = object.require("value", "an array with a number for each draw");
+  if (value) value->note_quantity("in the parameter's unit, of a scale a factor");
   good = good && value && read_column_beside(*value, draws, "draws", Dimension{unit}, values);
   object.refuse_others();
   if (!good) return;
@@ -130,7 +130,7 @@ Driven read_driven(const JsonCursor& at, const Scene* scene, Json& resolved) {
   object.required_choice("apply", driven.apply, apply_names);
   const bool has_unit = scene && driven.apply != Apply::scale && at.value().is_object();
   const std::string_view unit = has_unit ? common_unit(at.value().value("to", Json()), *scene) : "";
-  if (const auto table = object.require("table", "a table: an object with at and value"))
+  if (const auto table = object.require("table", expected_drive_table))
     read_drive_table(*table, unit, driven, resolved["table"]);
   object.refuse_others();
   return driven;

@@ -52,13 +52,16 @@ bool has_string(const Json& value) {
   return std::ranges::any_of(value, [](const Json& each) { return each.is_string(); });
 }
 
+constexpr std::string_view drawn_unit = "in the unit of the parameter that is drawn";
+
 /// Reads a number, or a string with a unit if the parameter has the draws' unit.
 template <class T>
 void read_parameter(JsonObject& object, std::string_view name, T& value, Range range,
                     std::string_view unit) {
   const auto at = object.find(name);
-  if (at && !unit.empty() && has_string(at->value()) &&
-      std::ranges::find(in_drawn_unit, name) != in_drawn_unit.end())
+  const bool is_drawn = std::ranges::find(in_drawn_unit, name) != in_drawn_unit.end();
+  if (at && is_drawn) at->note_quantity(drawn_unit);
+  if (at && !unit.empty() && has_string(at->value()) && is_drawn)
     at->read(value, Dimension{unit});
   else
     object.required(name, value, expected_of(value, range));

@@ -43,6 +43,7 @@ void refuse_unknown_output(const JsonCursor& at, const std::string& output,
 /// Reads a number in the output's unit, or a string with a unit.
 bool read_limit(const JsonCursor& at, const std::string& output, double& limit) {
   const std::string unit = parse_output_name(output).unit;
+  at.note_quantity("in the output's unit");
   return at.value().is_string() && !unit.empty() ? at.read(limit, Dimension{unit})
                                                  : at.read(limit, "a number, in the output's unit");
 }

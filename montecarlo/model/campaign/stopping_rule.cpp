@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 namespace wingspread {
 namespace {
@@ -35,6 +37,7 @@ void read_width(JsonObject& object, WidthGoal& goal) {
                        "one of them");
   const auto width = object.find("width");
   const std::string unit = parse_output_name(goal.output).unit;
+  if (width) width->note_quantity("in the output's unit", "> 0");
   if (width && width->value().is_string() && !unit.empty())
     object.optional("width", goal.width, Dimension{unit, "> 0"}, is_positive);
   else
@@ -116,6 +119,24 @@ std::optional<std::string_view> split_last(std::string_view& text, char mark) {
   return last;
 }
 
+/// Whether the text is a finite number and then a unit, which nobody has looked at yet: "5N*m".
+bool is_number_with_unit(std::string_view text) {
+  double number = 0;
+  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && std::isfinite(number) && last != text.data() + text.size();
+}
+
+/// Removes the width at the end of a goal's text: "5", "5 N*m" or "5N*m". Nothing if there is none.
+std::optional<Json> take_width(std::string_view& text) {
+  const auto last = split_last(text, ' ');
+  if (!last) return std::nullopt;
+  if (const auto number = parse_csv_number(*last)) return Json(*number);
+  if (is_number_with_unit(*last)) return Json(*last);
+  const auto before = split_last(text, ' ');
+  if (!before || !parse_csv_number(*before)) return std::nullopt;
+  return Json(fmt::format("{} {}", *before, *last));
+}
+
 } // namespace
 
 void read_stopping_rule(const JsonCursor& at, const std::vector<std::string>* outputs,
@@ -139,10 +160,8 @@ std::optional<Json> parse_stopping_goal(std::string_view text) {
     return Json{{"requirement", text.substr(decision_prefix.size())}};
   const bool percent = text.ends_with('%');
   std::string_view name = text.substr(0, text.find_last_not_of("% ") + 1);
-  const auto width = split_last(name, ' ');
-  if (!width) return std::nullopt;
-  const auto number = parse_csv_number(*width);
-  if (!number) return std::nullopt;
+  const auto width = take_width(name);
+  if (!width || (percent && !width->is_number())) return std::nullopt;
   Json goal{{"output", ""}};
   if (name.find('@') != std::string_view::npos) {
     const auto quantile = parse_csv_number(*split_last(name, '@'));
@@ -150,7 +169,7 @@ std::optional<Json> parse_stopping_goal(std::string_view text) {
     goal["quantile"] = *quantile;
   }
   goal["output"] = std::string(name);
-  goal[percent ? "relative_width" : "width"] = percent ? *number / 100 : *number;
+  goal[percent ? "relative_width" : "width"] = percent ? Json(width->get<double>() / 100) : *width;
   return goal;
 }
 

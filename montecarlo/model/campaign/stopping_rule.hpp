@@ -43,8 +43,8 @@ void read_stopping_rule(const JsonCursor& at, const std::vector<std::string>* ou
 
 [[nodiscard]] Json write_stopping_rule(const StoppingRule& rule);
 
-/// Parses "root.peak_moment@0.99 5", "root.peak_moment@0.99 2%", "deployed 0.01" or "requirement deployed" into the
-/// goal's JSON; nothing for other text.
+/// Parses "root.peak_moment@0.99 5", "root.peak_moment@0.99 5 N*m", "root.peak_moment@0.99 2%", "deployed 0.01" or
+/// "requirement deployed" into the goal's JSON; nothing for other text.
 [[nodiscard]] std::optional<Json> parse_stopping_goal(std::string_view text);
 [[nodiscard]] std::string to_string(const StoppingGoal& goal);
 

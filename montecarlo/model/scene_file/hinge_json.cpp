@@ -55,6 +55,7 @@ std::string power_unit(double exponent) { return fmt::format("N·m·(s/rad)^{}",
 void read_power_law(JsonObject& object, Damper& damper) {
   const bool exponent = object.required("exponent", damper.exponent, "a number, > 0");
   const std::string unit = exponent ? power_unit(damper.exponent) : "N·m·(s/rad)^exponent";
+  if (const auto at = object.find("coefficient")) at->note_quantity("N·m·(s/rad)^exponent", "≥ 0");
   object.required("coefficient", damper.coefficient, Dimension{unit, "≥ 0"});
   object.optional("regularization_rate", damper.regularization_rate, Dimension{"rad/s", "> 0"});
 }

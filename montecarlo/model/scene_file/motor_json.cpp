@@ -8,7 +8,9 @@
 namespace wingspread {
 namespace {
 
-constexpr std::string_view expected_motor_table = "a table: an object with time and rate";
+constexpr std::string_view expected_motor_table =
+    "a table: an object with time and rate; a monotone cubic (PCHIP) between its points unless "
+    "\"interpolation\" is \"linear\", constant beyond its ends";
 
 bool read_columns(const JsonCursor& at, Motor& motor) {
   JsonObject object(at, expected_motor_table);

@@ -27,8 +27,12 @@ LoopEnds read_between(JsonObject& object) {
   return ends;
 }
 
+constexpr std::string_view expected_ratio_table =
+    "a table: an object with travel and travel_of_second; a monotone cubic (PCHIP) between its "
+    "points, straight beyond its ends";
+
 void read_ratio_table(const JsonCursor& at, Synchronisation& loop) {
-  JsonObject object(at, "a table: an object with travel and travel_of_second");
+  JsonObject object(at, expected_ratio_table);
   const Dimension dimension{"rad"};
   const auto travel = object.require("travel", expected_column("rad"));
   const auto second = object.require("travel_of_second", expected_column("rad"));
@@ -48,8 +52,7 @@ void read_ratio_table(const JsonCursor& at, Synchronisation& loop) {
 void read_ratio(const JsonCursor& at, Synchronisation& loop) {
   if (!at.value().is_object()) return void(at.read(loop.ratio, expected_ratio));
   JsonObject object(at, expected_ratio);
-  if (const auto table =
-          object.require("table", "a table: an object with travel and travel_of_second"))
+  if (const auto table = object.require("table", expected_ratio_table))
     read_ratio_table(*table, loop);
   object.refuse_others();
 }

@@ -55,7 +55,9 @@ void store(const JsonCursor& at, TorqueTable table, HingeTorque& torque) {
 }
 
 void read_table(const JsonCursor& at, Way way, Interpolation interpolation, HingeTorque& torque) {
-  JsonObject object(at, "a table: an object with angle and torque");
+  JsonObject object(
+      at, "a table: an object with angle and torque; a monotone cubic (PCHIP) between its points "
+          "unless \"interpolation\" is \"linear\", constant beyond its ends");
   std::vector<double> angle, values;
   const bool good =
       read_angles(object, way, angle) && read_torques(object, "torque", angle, values);

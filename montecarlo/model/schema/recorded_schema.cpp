@@ -81,6 +81,14 @@ bool is_required(const Instances& objects, const std::string& key) {
                              [&](const Instance& each) { return each.value->contains(key); });
 }
 
+/// The expectation of the first reader that requires the key; empty if none does.
+std::string required_text(const Instances& objects, const std::string& key) {
+  for (const Instance& object : objects)
+    for (const Question* each : object.questions())
+      if (each->what == What::required_key && each->key == key) return each->expected;
+  return "";
+}
+
 class Builder {
 public:
   /// @param kinds all objects of each kind that occurs in several places
@@ -121,6 +129,8 @@ private:
     Json schema = Json::object();
     if (const std::string expected = description_of(all); !expected.empty())
       schema["description"] = expected;
+    else if (std::string derived = derived_description(parts); !derived.empty())
+      schema["description"] = std::move(derived);
     if (parts.size() == 1)
       schema.update(parts[0]);
     else
@@ -128,6 +138,22 @@ private:
     return schema;
   }
 
+  /// The description of a value of which no reader states an expectation: by its type, and its elements' descriptions.
+  static std::string derived_description(const Json& parts) {
+    if (parts.empty()) return "";
+    const Json& part = parts.front();
+    const std::string type = part.value("type", "");
+    const auto of = [&](const char* key) {
+      return part.contains(key) ? ": " + part[key].value("description", "") : std::string();
+    };
+    if (type == "boolean") return "true or false";
+    if (type == "array") return "an array; each element" + of("items");
+    if (type == "object" && !part.contains("properties"))
+      return "an object" + (part.contains("additionalProperties")
+                                ? "; each value" + of("additionalProperties")
+                                : "");
+    return "";
+  }
   /// The expectation of the first reader that states one.
   static std::string description_of(const Instances& all) {
     for (const Instance& each : all)
@@ -255,9 +281,12 @@ private:
           values = with_key(everywhere, key);
         if (values.empty())
           gaps.push_back(fmt::format("{}/{}: a key that no specimen has", place, key));
-        part["properties"][key] = deciding.contains(key)
-                                      ? words_schema(values)
-                                      : schema_of(values, fmt::format("{}/{}", place, key));
+        Json& property = part["properties"][key];
+        property = deciding.contains(key) ? words_schema(values)
+                                          : schema_of(values, fmt::format("{}/{}", place, key));
+        if (const std::string expected = required_text(everywhere, key);
+            !expected.empty() && description_of(values).empty())
+          property["description"] = expected;
         if (is_required(shape.instances, key)) required.push_back(key);
       }
       if (!required.empty()) part["required"] = std::move(required);

@@ -79,7 +79,7 @@ TEST_CASE("A number with a dimension may be a string with its unit", "[json_read
   CHECK(value == 7);
   CHECK(problems ==
         "found string \"3 m\", expected a number, rad, > 0, or a string of a number and "
-        "its unit: \"rad\", \"deg\" or \"mrad\"");
+        "its unit: \"rad\", \"mrad\", \"deg\", \"°\" or \"rev\"");
   CHECK(read("true", 7., angle).problems == "found true, expected a number, rad, > 0");
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("Arrays name the element that is wrong", "[json_reader]") {
   CHECK(read("[null, \"x\"]", zero, metres).problems ==
         "/0: found null, expected a number, m\n"
         "/1: found string \"x\", expected a number, m, or a string of a number and its unit: "
-        "\"m\", \"mm\", \"cm\", \"in\" or \"ft\"");
+        "\"m\", \"mm\", \"cm\", \"km\", \"in\" or \"ft\"");
   CHECK(read("[1, \"2 mm\"]", std::vector<double>{}, metres).value ==
         std::vector<double>{1, 0.002});
   CHECK(read("7", std::vector<double>{}, metres).problems ==
@@ -126,7 +126,8 @@ TEST_CASE("Words are chosen from a list", "[json_reader]") {
   CHECK_FALSE(JsonCursor(unknown, "", problems).choice(words));
   CHECK_FALSE(JsonCursor(number, "", problems).choice(words));
   CHECK(std::string(SpecError(problems).what()) ==
-        "found string \"fre\", expected \"fixed\", \"prescribed\" or \"free\"\n"
+        "found string \"fre\", expected \"fixed\", \"prescribed\" or \"free\" (did you mean "
+        "\"free\"?)\n"
         "found 3, expected \"fixed\", \"prescribed\" or \"free\"");
 }
 

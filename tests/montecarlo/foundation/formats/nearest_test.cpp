@@ -4,7 +4,8 @@
 
 using namespace wingspread;
 
-TEST_CASE("The edit distance counts insertions, deletions and substitutions", "[nearest]") {
+TEST_CASE("The edit distance counts insertions, deletions, substitutions and swaps of neighbours",
+          "[nearest]") {
   struct Case {
     const char *a, *b;
     std::size_t distance;
@@ -15,6 +16,8 @@ TEST_CASE("The edit distance counts insertions, deletions and substitutions", "[
                              {"mass", "mas", 1},
                              {"", "abc", 3},
                              {"mass", "moss", 1},
+                             {"rnu", "run", 1},
+                             {"ca", "abc", 3}, // 2 if a swapped pair could be torn apart again
                              {"kitten", "sitting", 3}})); // the textbook pair
   CAPTURE(a, b);
   CHECK(edit_distance(a, b) == distance);
@@ -24,6 +27,7 @@ TEST_CASE("The edit distance counts insertions, deletions and substitutions", "[
 TEST_CASE("The nearest word is suggested only when it is near", "[nearest]") {
   const std::vector<std::string> known{"mass", "inertia", "mast"};
   CHECK(nearest("masss", known) == "mass");
+  CHECK(nearest("rnu", {"new", "run"}) == "run");
   CHECK(nearest("innertia", known) == "inertia");
   CHECK(nearest("stiffness", known).empty());
   CHECK(nearest("", known).empty());

@@ -97,7 +97,7 @@ TEST_CASE("A step is read with the method that takes it", "[campaign_settings]")
         "/step: found string \"0 ms\", expected a number, s, > 0"},
        {R"({"method": "runge_kutta4", "step": "1 m"})",
         "/step: found string \"1 m\", expected a number, s, > 0, or a string of a number and its "
-        "unit: \"s\", \"ms\" or \"min\""}}));
+        "unit: \"s\", \"ms\", \"min\" or \"h\""}}));
   CHECK(facts_of(read(json, Integration{}, read_integration).problems) == facts_of(message));
 }
 
@@ -127,10 +127,11 @@ TEST_CASE("Each fault of the integration is told", "[campaign_settings]") {
        {R"({"t_end": "-1 min"})", "/t_end: found string \"-1 min\", expected a number, s, > 0"},
        {R"({"t_end": "2 deg"})", "/t_end: found string \"2 deg\", expected a number, s, > 0, or a "
                                  "string of a number and its "
-                                 "unit: \"s\", \"ms\" or \"min\""},
-       {R"({"latch": {"smoothed": "1 s"}})", "/latch/smoothed: found string \"1 s\", expected a "
-                                             "number, rad, > 0, or a string of a number "
-                                             "and its unit: \"rad\", \"deg\" or \"mrad\""},
+                                 "unit: \"s\", \"ms\", \"min\" or \"h\""},
+       {R"({"latch": {"smoothed": "1 s"}})",
+        "/latch/smoothed: found string \"1 s\", expected a "
+        "number, rad, > 0, or a string of a number "
+        "and its unit: \"rad\", \"mrad\", \"deg\", \"°\" or \"rev\""},
        {R"({"step": 1e-3})",
         "/step: found 0.001, expected no step with the method \"auto\" (only used by a method with "
         "a fixed step: runge_kutta4)"},

@@ -154,7 +154,7 @@ TEST_CASE("Each fault of a case is told", "[cases]") {
        {"/cases/1/distributions", R"({"mass": {"type": "constant", "value": "3 m"}})",
         "/cases/1/distributions/mass/value: found string \"3 m\", expected a number, kg, or a "
         "string "
-        "of a number and its unit: \"kg\", \"g\" or \"lb\""},
+        "of a number and its unit: \"kg\", \"g\", \"lb\", \"lbm\" or \"slug\""},
        {"/case", "\"cold\"",
         "/case: found string \"cold\", expected no case of another campaign beside \"cases\""}}));
   CAPTURE(pointer, value);

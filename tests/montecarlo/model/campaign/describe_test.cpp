@@ -111,7 +111,8 @@ TEST_CASE("Causes, cases and draws that act on one parameter are described", "[d
       text.substr(from, text.find("sampling") - from) ==
       "2 dispersions\n"
       "  temperature: normal (mean 20, std 5)\n"
-      "    scale by 3 to 0.8 over -100 to 60: hinges.root.spring.scale (nominal 1), "
+      "    scale by 3 to 0.8 over -100 to 60 (monotone cubic through 3 points): "
+      "hinges.root.spring.scale (nominal 1), "
       "hinges.mid.spring.scale (nominal 1)\n"
       "  spring.root: normal (mean 1, std 0.05), scale hinges.root.spring.scale (nominal 1)\n"
       "parameters changed by several draws\n"

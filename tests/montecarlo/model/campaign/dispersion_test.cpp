@@ -212,7 +212,7 @@ TEST_CASE("Numbers without a dimension, or with several, have no unit", "[disper
        {R"({"name": "m", "apply": "set", "each": "bodies.*.mass",
             "distribution": {"type": "constant", "value": "2 m"}})",
         "/0/distribution/value: found string \"2 m\", expected a number, kg, or a string of a "
-        "number and its unit: \"kg\", \"g\" or \"lb\""}}));
+        "number and its unit: \"kg\", \"g\", \"lb\", \"lbm\" or \"slug\""}}));
   CHECK(test::facts_of(list_problems({parse_json(json)})) == test::facts_of(message));
 }
 

@@ -39,8 +39,12 @@ TEST_CASE("Widths to stop at are read from words, and written as a campaign has 
     CHECK(to_string(rule_of(text)[0]) == text);
   }
   CHECK(to_string(rule_of("root.latch_time@0.5 2 %")[0]) == "root.latch_time@0.5 2%");
+  for (const char* text : {"root.latch_time@0.5 20 ms", "root.latch_time@0.5 20ms"})
+    CHECK(to_string(rule_of(text)[0]) == "root.latch_time@0.5 0.02");
+  CHECK(parse_stopping_goal("my hinge.latch_rate@0.5 3 deg/s") ==
+        parse_json(R"({ "output": "my hinge.latch_rate", "quantile": 0.5, "width": "3 deg/s" })"));
   for (const char* text : {"", " ", "deployed", "deployed x", "x@half 1", "deployed 1e999", "%",
-                           "requirement", "requirement "})
+                           "x@0.5 1 s %", "requirement", "requirement "})
     CHECK_FALSE(parse_stopping_goal(text));
 }
 
@@ -68,7 +72,7 @@ TEST_CASE("Each fault of a width to stop at is told", "[stopping]") {
        {"/0/width", "\"0 ms\"", "/0/width: found string \"0 ms\", expected a number, s, > 0"},
        {"/0/width", "\"1 deg\"",
         "/0/width: found string \"1 deg\", expected a number, s, > 0, or a string of a number and "
-        "its unit: \"s\", \"ms\" or \"min\""},
+        "its unit: \"s\", \"ms\", \"min\" or \"h\""},
        {"/0/width", "", "/0: found neither width nor relative_width, expected one of them"},
        {"/0/relative_width", "1", "/0: found both width and relative_width, expected one of them"},
        {"/1/widht", "1",

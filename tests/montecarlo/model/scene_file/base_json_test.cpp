@@ -75,7 +75,7 @@ TEST_CASE("Each fault of a base's table is told", "[base_json]") {
         "/base/table/time/2: found 2, expected more than 2, the time before"},
        {"/base/table/time/1", "\"1 m\"",
         "/base/table/time/1: found string \"1 m\", expected a number, s, or a string of a number "
-        "and its unit: \"s\", \"ms\" or \"min\""},
+        "and its unit: \"s\", \"ms\", \"min\" or \"h\""},
        {"/base/table/rate", "[0, 1]",
         "/base/table/rate: found an array of 2, expected as many numbers as there are times: 3"},
        {"/base/table/acceleration", "[[0, 1], [2, 3]]",

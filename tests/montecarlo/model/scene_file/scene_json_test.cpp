@@ -126,7 +126,7 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
        {"/hinges", "{}", "/hinges: found an object, expected an array of at least one hinge"},
        {"/bodies/0/mass", "\"10\"",
         "/bodies/0/mass: found string \"10\", expected a number, kg, > 0, or a string of a number "
-        "and its unit: \"kg\", \"g\" or \"lb\""},
+        "and its unit: \"kg\", \"g\", \"lb\", \"lbm\" or \"slug\""},
        {"/bodies/0/mass", "0", "/bodies/0/mass: found 0, expected > 0"},
        {"/bodies/0/inertia", "", "/bodies/0/inertia: found nothing, expected a number, kg·m², > 0"},
        {"/bodies/0/lenght", "1",

@@ -95,7 +95,7 @@ TEST_CASE("Each fault of a torque is told with place, found and expected", "[tor
         "numbers, rad"},
        {"/hinges/0/harness/table/angle/1", "\"1 m\"",
         "/hinges/0/harness/table/angle/1: found string \"1 m\", expected a number, rad, or a "
-        "string of a number and its unit: \"rad\", \"deg\" or \"mrad\""},
+        "string of a number and its unit: \"rad\", \"mrad\", \"deg\", \"°\" or \"rev\""},
        {"/hinges/0/harness/table/torque", "[1, 2, 3]",
         "/hinges/0/harness/table/torque: found an array of 3, expected as many numbers as there "
         "are angles: 4"},

@@ -252,6 +252,68 @@ TEST_CASE("a reader that has learnt a key which no specimen has leaves a gap, an
   CHECK(size["anyOf"][1] == Json{{"type", "string"}});
 }
 
+namespace {
+
+/// Calls visit(place, property) for every property below a part of a schema.
+template <class Visit>
+void over_properties(const Json& part, const std::string& place, const Visit& visit) {
+  for (const char* key : {"anyOf", "definitions"})
+    if (part.contains(key))
+      for (const Json& each : part[key]) over_properties(each, place, visit);
+  for (const char* key : {"items", "additionalProperties"})
+    if (part.contains(key) && part[key].is_object())
+      over_properties(part[key], place + "/*", visit);
+  if (!part.contains("properties")) return;
+  for (const auto& [key, property] : part["properties"].items()) {
+    visit(place + '/' + key, property);
+    over_properties(property, place + '/' + key, visit);
+  }
+}
+
+bool has_type(const Json& property, const char* type) {
+  return property.contains("anyOf") &&
+         std::ranges::any_of(property["anyOf"],
+                             [&](const Json& part) { return part.value("type", "") == type; });
+}
+
+} // namespace
+
+TEST_CASE("every property of a schema has a description, and a quantity's names its unit") {
+  for (const Json& schema : {scene_schema().schema, campaign_schema().schema}) {
+    long properties = 0, quantities = 0;
+    over_properties(schema, "", [&](const std::string& place, const Json& property) {
+      CAPTURE(place, property.dump());
+      const std::string text = property.value("description", "");
+      CHECK(!text.empty());
+      ++properties;
+      if (!has_type(property, "number") || !has_type(property, "string")) return;
+      CHECK(text.find("unit") != std::string::npos);
+      ++quantities;
+    });
+    CHECK((properties > 80 && quantities > 30));
+  }
+}
+
+TEST_CASE("where other keys decide the unit, the description says so") {
+  const auto text_at = [](const Json& schema, const char* end) {
+    std::string text;
+    over_properties(schema, "", [&](const std::string& place, const Json& property) {
+      if (place.ends_with(end)) text += property["description"].get<std::string>() + '\n';
+    });
+    return text;
+  };
+  const Json campaign = campaign_schema().schema, scene = scene_schema().schema;
+  for (const char* end : {"requirements/*/max", "until/*/width"})
+    CHECK_THAT(text_at(campaign, end), Catch::StartsWith("a number, in the output's unit"));
+  CHECK_THAT(text_at(scene, "damper/coefficient"),
+             Catch::Contains("N·m·(s/rad)^exponent") && Catch::Contains("N·m·s/rad"));
+  CHECK_THAT(text_at(campaign, "/mean"),
+             Catch::StartsWith("a number, in the unit of the parameter that is drawn"));
+  CHECK_THAT(text_at(campaign, "through/*/table"), Catch::Contains("monotone cubic"));
+  for (const char* end : {"spring/table", "rate/table", "ratio/table"})
+    CHECK_THAT(text_at(scene, end), Catch::Contains("monotone cubic"));
+}
+
 TEST_CASE("bounds are read off what readers expect") {
   CHECK(bounds_of("a number, kg, > 0") == Json{{"exclusiveMinimum", 0.0}});
   CHECK(bounds_of("a number, > 0 and < 1, or \"auto\"") ==
