@@ -1,8 +1,11 @@
+#include "montecarlo/interfaces/commands/cli.hpp"
 #include "montecarlo/report/text/method_list.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <regex>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -35,8 +38,26 @@ TEST_CASE("a command line that makes no sense is refused") {
   const std::vector<Refused> list{
       {{}, "error: no command is given\nerror: see wingspread --help\n"},
       {{"frobnicate"},
-       "error: The following argument was not expected: frobnicate\n"
+       "error: found the unknown command \"frobnicate\", expected a command of wingspread\n"
        "error: see wingspread --help\n"},
+      {{"rnu", "c.json"},
+       "error: found the unknown command \"rnu\", expected a command of wingspread (did you mean "
+       "\"run\"?)\nerror: see wingspread --help\n"},
+      {{"run", "c.json", "--otu", "r", "--seeds=3"},
+       "error: found the unknown option \"--otu\", expected an option of wingspread run (did you "
+       "mean \"--out\"?)\n"
+       "error: found the unknown option \"--seeds\", expected an option of wingspread run (did you "
+       "mean \"--seed\"?)\n"
+       "error: --out is required\nerror: see wingspread run --help\n"},
+      {{"size", "--prob", "0.9", "--confidence", "0.9"},
+       "error: found the unknown option \"--prob\", expected an option of wingspread size (did you "
+       "mean \"--probability\"?)\nerror: see wingspread size --help\n"},
+      {{"version", "now"},
+       "error: found the argument \"now\", expected no further argument\n"
+       "error: see wingspread version --help\n"},
+      {{"schema", "scnee"},
+       "error: of: found \"scnee\", expected \"scene\" or \"campaign\" (did you mean "
+       "\"scene\"?)\nerror: see wingspread schema --help\n"},
       {{"run", "c.json"}, "error: --out is required\nerror: see wingspread run --help\n"},
       {{"run", "c.json", "--out", "r", "--shard", "0/2"},
        "error: --shard: found 0/2, expected I/N with whole numbers 1 ≤ I ≤ N ≤ 1000000\n"
@@ -78,4 +99,48 @@ TEST_CASE("the version and the methods") {
   const auto json = run_program(folder, {"methods", "--json"});
   CHECK(json.code == 0);
   CHECK(parse_json(json.out) == methods_json(methods()));
+}
+
+TEST_CASE("an empty argument is refused, wherever it stands") {
+  const Folder folder;
+  const std::string empty = ": found an empty argument, expected a value (a shell variable that is "
+                            "not set?)\nerror: see wingspread ";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> list{
+      {{"report", "a", ""}, "folders"},
+      {{"report", ""}, "folders"},
+      {{"report", "a", "--out", ""}, "--out"},
+      {{"run", "c.json", "--out", ""}, "--out"},
+      {{"check", ""}, "file"},
+      {{"check", "s.json", "--draw", ""}, "--draw"},
+      {{"simulate", "s.json", "--out", ""}, "--out"},
+      {{"analyze", "a", "--requirements", ""}, "--requirements"},
+      {{"merge", "a", "", "--out", "b"}, "folders"},
+      {{"new", "--out", ""}, "--out"},
+      {{"sensitivity", "a", "--out", ""}, "--out"},
+      {{"export", "", "--out", "x.h5"}, "folder"}};
+  for (const auto& [arguments, place] : list) {
+    CAPTURE(arguments, place);
+    const auto [code, out, error] = run_program(folder, arguments);
+    CHECK(code == 2);
+    CHECK(out.empty());
+    CHECK(error == "error: " + place + empty + arguments.front() + " --help\n");
+  }
+}
+
+// A number's limits are in its line of --help: "from 1 to 1024", "> 0 and < 1", "at least 0".
+TEST_CASE("--help says the limits of every number") {
+  const Folder folder;
+  const std::regex number(R"(  --(\S+) (N|K|L|R|S|INT|UINT|FLOAT|SCALE)( |$).*)"),
+      limits(R"(from \S+ to |at least |> 0|≥ 0|1, 2, 4 or 8|each > 0)");
+  long numbers = 0;
+  for (const Command& command : all_commands()) {
+    const std::string help = run_program(folder, {std::string(command.name), "--help"}).out;
+    for (const std::string& line : lines_of(help)) {
+      if (!std::regex_match(line, number)) continue;
+      CAPTURE(command.name, line);
+      CHECK(std::regex_search(line, limits));
+      ++numbers;
+    }
+  }
+  CHECK(numbers > 40);
 }

@@ -83,8 +83,19 @@ TEST_CASE("report and analyze read a folder that may only be read, and write els
       return;
     }
     CHECK(refused.code == 4);
-    CHECK_THAT(refused.error, Catch::Contains("expected a folder that can be locked"));
-    CHECK(run_as_reader(folder, {"report", path}).code == 4);
+    CHECK_THAT(refused.error, Catch::Contains("expected a folder that can be written; --out DIR "));
+    const Finished unreported = run_as_reader(folder, {"report", path});
+    CHECK(unreported.code == 4);
+    CHECK_THAT(unreported.error,
+               Catch::Contains("expected a folder that can be written; --out FILE "));
+    const std::string one = cases ? path + "/weak" : path, tables = folder.path() / "tables";
+    const Finished unranked = run_as_reader(folder, {"sensitivity", one});
+    CHECK(unranked.code == 4);
+    CHECK_THAT(unranked.error,
+               Catch::Contains("expected a folder that can be written; --out DIR "));
+    const Finished ranked = run_as_reader(folder, {"sensitivity", one, "--out", tables});
+    CHECK(ranked.code == 0);
+    CHECK(std::filesystem::exists(tables + "/sensitivity.json"));
     const Finished reported = run_as_reader(folder, {"report", path, "--out", page});
     CHECK(reported.error.empty());
     CHECK(reported.code == 0);
@@ -335,4 +346,25 @@ TEST_CASE("a page of many runs keeps to its size", "[report]") {
   CHECK(done.program({"report", many}).code == 0);
   CHECK(std::filesystem::file_size(many / "report.html") < 4'000'000);
   CHECK(page_data(many / "report.html")["sets"][0]["runs"] == 20'000);
+}
+
+TEST_CASE("page and program say in the same words which runs are missing", "[report][cases]") {
+  const Done part(full_campaign(40), {.stop_after = 12});
+  const long made = parse_json_file(part.path / "summary.json")["runs"];
+  REQUIRE(made < 40);
+  const Finished reported = part.program({"report", part.path});
+  const std::string missing = std::to_string(made) + " of 40 runs";
+  CHECK(reported.error == "warning: incomplete: " + missing + "; the verdicts are not final\n");
+  CHECK(page_data(part.page)["incomplete"] == missing);
+
+  const Folder folder;
+  Json json = quick_campaign(4500);
+  json["outputs"] = {"latch_time"};
+  json["cases"] =
+      parse_json(R"([ { "name": "as_it_is" }, { "name": "hot" }, { "name": "cold" } ])");
+  const std::string file = folder.write("c.json", json.dump()), path = folder.path() / "r";
+  REQUIRE(run_program(folder, {"run", file, "--out", path, "--case", "hot"}).code == 0);
+  const Finished cases = run_program(folder, {"report", path});
+  CHECK_THAT(cases.error, Catch::Contains("incomplete: no run of case as_it_is and cold;"));
+  CHECK(page_data(path + "/report.html")["incomplete"] == "no run of case as_it_is and cold");
 }

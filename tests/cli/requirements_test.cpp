@@ -257,6 +257,9 @@ TEST_CASE("run --until refuses what cannot be reached for, by its option") {
         "status (did you mean \"root.latch_time\"?)\n");
   CHECK(refusal({"--until", "deployed 2%"}) ==
         "error: --until: found a relative_width, expected a width, for a share of runs\n");
+  CHECK_THAT(refusal({"--until", "root.latch_time@0.5 3 deg"}),
+             HasFacts({"error: --until: found string \"3 deg\", expected a number, s, > 0",
+                       "\"s\", \"ms\", \"min\" or \"h\""}));
   CHECK_THAT(refusal({"--until", "soon"}),
              Catch::StartsWith("error: --until: found \"soon\", expected e.g. "));
   CHECK_THAT(refusal({"--until", "deployed 0.1", "--shard", "1/2"}),

@@ -135,6 +135,55 @@ TEST_CASE("rare names the case, the unit and the confidence, and so does its pag
   CHECK(rare["beyond"] == found["beyond"]);
 }
 
+TEST_CASE(
+    "rare takes a limit with a unit, and lists the units of the output where it refuses one") {
+  const Folder folder;
+  const std::string file = file_with(folder, quick_campaign(10));
+  const auto rare = [&](const char* output, const char* side, const char* limit) {
+    return run_program(folder, {"rare", file, "--output", output, side, limit, "--samples", "100",
+                                "--repeats", "2", "--json"});
+  };
+  const Finished plain = rare("root.latch_time", "--above", "5");
+  CHECK(plain.code == 0);
+  CHECK(rare("root.latch_time", "--above", "5000 ms").out == plain.out);
+  CHECK(rare("root.latch_rate", "--below", "-1 rad/s").out ==
+        rare("root.latch_rate", "--below", "-1").out);
+  const Finished wrong = rare("root.peak_moment", "--above", "350 N");
+  CHECK(wrong.code == 2);
+  CHECK_THAT(wrong.error, Catch::StartsWith("error: --above: found \"350 N\", expected a number, "
+                                            "N·m, or a string of a number and its unit: ") &&
+                              Catch::Contains("\"ft*lbf\", or another one made of Nm, N, "));
+  CHECK_THAT(rare("root.peak_moment", "--above", "inf").error,
+             Catch::Contains("error: --above: found \"inf\", expected a finite number"));
+}
+
+// Two normal draws with the correlation r: the one that is first by name is its mean plus std times its coordinate z1, the
+// other its mean plus std times (r z1 + √(1 − r²) z2).
+TEST_CASE("rare's normal coordinates are free of the draws' correlations, and it says so") {
+  const Folder folder;
+  Json json = quick_campaign(10);
+  json["dispersions"][1] = {{"name", "tip_spring"},
+                            {"distribution", {{"type", "normal"}, {"mean", 1}, {"std", 0.05}}},
+                            {"apply", "scale"},
+                            {"to", {"hinges.tip.spring.scale"}}};
+  const auto rare = [&](const char* form) {
+    return run_program(folder, {"rare", file_with(folder, json), "--output", "root.latch_time",
+                                "--above", "5.1", "--samples", "100", "--repeats", "2", form});
+  };
+  json["correlations"] = {{{"between", {"root_spring", "tip_spring"}}, {"spearman", 0.8}}};
+  const Json run = parse_json(rare("--json").out)["likeliest"];
+  const double z1 = run["z"]["root_spring"], z2 = run["z"]["tip_spring"],
+               r = 2 * std::sin(3.14159265358979324 * 0.8 / 6);
+  CHECK(run["draws"]["root_spring"].get<double>() == Approx(1 + 0.05 * z1).epsilon(1e-9));
+  CHECK(run["draws"]["tip_spring"].get<double>() ==
+        Approx(1 + 0.05 * (r * z1 + std::sqrt(1 - r * r) * z2)).epsilon(1e-9));
+  const std::string text = rare("--threads=2").out;
+  CHECK_THAT(text, Catch::Contains("in normal coordinates: ") &&
+                       Catch::Contains("normal coordinate: 0 at the law's median") &&
+                       Catch::Contains("correlated draws"));
+  CHECK_THAT(text, !Catch::Contains("standard deviations"));
+}
+
 TEST_CASE("rare refuses half an event, and an odd number of samples") {
   const Folder folder;
   const std::string file = file_with(folder, quick_campaign(10));

@@ -71,10 +71,10 @@ void remove_parts(const std::filesystem::path& folder) {
     if (entry.path().filename().string().ends_with(part_suffix)) unlink(entry.path().c_str());
 }
 
-void make_folder(const std::filesystem::path& path) {
+void make_folder(const std::filesystem::path& path, const char* expected) {
   std::error_code why;
   std::filesystem::create_directories(path, why);
-  if (why) refuse_path(path, why.value(), "a folder that can be made");
+  if (why) refuse_path(path, why.value(), expected);
 }
 
 std::optional<std::string> read_text(const std::filesystem::path& path) {

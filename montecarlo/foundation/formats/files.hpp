@@ -46,7 +46,9 @@ void drop_part() noexcept;
 void remove_parts(const std::filesystem::path& folder);
 
 /// Makes the folder and its parents. @throws as refuse_path
-void make_folder(const std::filesystem::path& path);
+/// @param expected for the message where that fails
+void make_folder(const std::filesystem::path& path,
+                 const char* expected = "a folder that can be made");
 
 /// The largest text file that is read whole.
 inline constexpr std::size_t most_text_bytes = std::size_t{64} << 20;

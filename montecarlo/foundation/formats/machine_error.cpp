@@ -19,6 +19,7 @@ MachineError::MachineError(const Problem& problem) : MachineError(to_string(prob
 MachineError::MachineError(std::string message) : message_(std::move(message)) {}
 
 void refuse_path(const std::filesystem::path& path, int error, const char* expected) {
+  if (path.empty()) throw SpecError({{"", "", "an empty path", expected}});
   Problem problem{path.string(), "", std::generic_category().message(error), expected};
   if (is_the_paths_fault(error)) throw SpecError({std::move(problem)});
   throw MachineError(problem);

@@ -20,8 +20,6 @@
 namespace wingspread {
 namespace {
 
-constexpr const char* expected_lock = "a folder that can be locked for one writer";
-
 std::string host_name() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
@@ -70,9 +68,9 @@ int open_without_signals(const std::filesystem::path& path, int flags) {
   return file;
 }
 
-int open_lock(const std::filesystem::path& path) {
+int open_lock(const std::filesystem::path& path, const char* expected) {
   const int file = open_without_signals(path, O_RDWR | O_CREAT);
-  if (file < 0) refuse_path(path, errno, expected_lock);
+  if (file < 0) refuse_path(path, errno, expected);
   return file;
 }
 
@@ -102,8 +100,9 @@ bool is_at(int file, const std::filesystem::path& path) {
 }
 
 /// Locks and returns the file; nothing if its last holder removed it between opening and locking.
-std::optional<int> take(const std::filesystem::path& folder, const std::filesystem::path& path) {
-  const int file = open_lock(path);
+std::optional<int> take(const std::filesystem::path& folder, const std::filesystem::path& path,
+                        const char* expected) {
+  const int file = open_lock(path, expected);
   const std::string holder = name_in(file);
   const int error = lock(file);
   const bool has_no_locks = error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP;
@@ -114,7 +113,7 @@ std::optional<int> take(const std::filesystem::path& folder, const std::filesyst
   }
   close(file);
   if (error == EWOULDBLOCK || has_no_locks) refuse_second(folder, holder);
-  refuse_path(path, error, expected_lock);
+  refuse_path(path, error, expected);
 }
 
 /// @throws if another process holds a folder that this process cannot write to
@@ -142,7 +141,7 @@ int write_name(int file) {
 
 } // namespace
 
-FolderLock::FolderLock(std::filesystem::path folder, For purpose)
+FolderLock::FolderLock(std::filesystem::path folder, For purpose, const char* expected)
     : folder_(std::move(folder)), path_(folder_ / lock_file) {
   if (purpose == For::reading && is_read_only(folder_, path_)) {
     refuse_writer(folder_, path_);
@@ -152,12 +151,12 @@ FolderLock::FolderLock(std::filesystem::path folder, For purpose)
   made_ = !std::filesystem::exists(folder_, unknown);
   make_folder(folder_);
   std::optional<int> taken;
-  while (!taken) taken = take(folder_, path_);
+  while (!taken) taken = take(folder_, path_, expected);
   file_ = *taken;
   if (const int error = write_name(file_)) {
     unlink(path_.c_str());
     close(file_);
-    refuse_path(path_, error, expected_lock);
+    refuse_path(path_, error, expected);
   }
   remove_parts(folder_);
 }

@@ -20,7 +20,9 @@ public:
 
   /// Creates the folder if needed, and removes temporary files that a killed program left.
   /// @throws MachineError that names the holder if another process holds the folder; as refuse_path (machine_error.hpp)
-  explicit FolderLock(std::filesystem::path folder, For purpose = For::writing);
+  /// @param expected for the message where the folder cannot be written; a command's names its --out
+  explicit FolderLock(std::filesystem::path folder, For purpose = For::writing,
+                      const char* expected = "a folder that can be locked for one writer");
   /// Releases the lock, and removes the folder if this object created it and it is empty.
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -1,6 +1,7 @@
 #include "montecarlo/interfaces/commands/cli.hpp"
 
 #include "montecarlo/foundation/formats/machine_error.hpp"
+#include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/interfaces/commands/commands.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
@@ -8,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -18,6 +20,7 @@
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 namespace wingspread {
 namespace {
@@ -75,6 +78,56 @@ std::string name_of_command(const CLI::App& app) {
   return named;
 }
 
+/// The options of a command, as a user writes them.
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> words;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+  return words;
+}
+
+/// " (did you mean "--probability"?)" for "--prob" too; empty if no option is near.
+std::string meant_option(const std::string& option, const std::vector<std::string>& known) {
+  constexpr std::size_t shortest = 4; // two dashes and two letters
+  const auto longer = std::ranges::find_if(
+      known, [&](const std::string& each) { return each.starts_with(option); });
+  return did_you_mean(option.size() >= shortest && longer != known.end() ? *longer : option, known);
+}
+
+std::vector<std::string> names_of(std::span<const Command> commands) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.emplace_back(command.name);
+  return names;
+}
+
+/// One line for each argument that no command or option takes: the unknown options, else the first word.
+std::string unknown_text(const CLI::App& app, std::span<const Command> commands) {
+  const std::vector<std::string> left = app.remaining(true);
+  const auto given = app.get_subcommands();
+  const std::vector<std::string> known = options_of(given.empty() ? app : *given.front());
+  std::string text;
+  for (const std::string& argument : left)
+    if (argument.starts_with('-') && argument.size() > 1) {
+      const std::string option = argument.substr(0, argument.find('='));
+      text += fmt::format("found the unknown option \"{}\", expected an option of {}{}\n", option,
+                          name_of_command(app), meant_option(option, known));
+    }
+  if (!text.empty() || left.empty()) return text;
+  const bool is_command = given.empty();
+  return fmt::format("found {} \"{}\", expected {}{}\n",
+                     is_command ? "the unknown command" : "the argument", left.front(),
+                     is_command ? "a command of wingspread" : "no further argument",
+                     is_command ? did_you_mean(left.front(), names_of(commands)) : "");
+}
+
+/// What is wrong with the command line, a line for each problem. A misspelt option comes before the one that is missed.
+std::string text_of(const CLI::ParseError& error, const CLI::App& app,
+                    std::span<const Command> commands) {
+  const std::string unknown = unknown_text(app, commands);
+  const bool is_all = !unknown.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  return is_all ? unknown : unknown + error.what() + '\n';
+}
+
 } // namespace
 
 int run_action(const Action& action) {
@@ -126,7 +179,9 @@ ParsedArguments parse_arguments(int argc, const char* const* argv,
   } catch (const CLI::Success& asked) { // --help, --version
     return {{}, app.exit(asked)};
   } catch (const CLI::ParseError& error) {
-    return {{}, print_error(fmt::format("{}\nsee {} --help", error.what(), name_of_command(app)))};
+    return {{},
+            print_error(fmt::format("{}see {} --help", text_of(error, app, commands),
+                                    name_of_command(app)))};
   }
   if (!action) return {{}, print_error("no command is given\nsee wingspread --help")};
   return {action};

@@ -1,5 +1,6 @@
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
+#include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/model/schema/schema.hpp"
 #include "montecarlo/report/text/method_list.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
@@ -34,9 +35,8 @@ int print_schema(const SchemaOptions& options) {
 }
 
 void add_schema_options(CLI::App& command, SchemaOptions& options) {
-  command.add_option("of", options.of, "scene or campaign")
-      ->required()
-      ->check(CLI::IsMember({"scene", "campaign"}));
+  one_of(command.add_option("of", options.of, "scene or campaign"), {"scene", "campaign"})
+      ->required();
   command.footer(
       R"(An editor with this schema completes keys, describes them, and marks unknown keys and wrong types.
 `wingspread check` also checks values against each other.

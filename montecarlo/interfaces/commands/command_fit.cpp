@@ -93,10 +93,9 @@ void add_fit_options(CLI::App& command, FitCommandOptions& options) {
   command.add_option("--out", options.out, "The folder of the results: new or empty")->required();
   command.add_flag("--resume", options.resume,
                    "Continue an interrupted or unfinished fit in --out");
-  command
-      .add_option("--runs", options.runs,
-                  "Most runs of the sampler for each test; default: 100 for each sample asked for")
-      ->check(CLI::Range(1L, std::numeric_limits<long>::max()).description(""))
+  within(command.add_option("--runs", options.runs,
+                            "Most runs of the sampler a test; default: 100 a sample"),
+         1, std::numeric_limits<long>::max())
       ->type_name("N");
   add_seed_option(command, options.seed);
   add_machine_options(command, options.machine);

@@ -197,7 +197,8 @@ void add_margin_options(CLI::App& command, MarginOptions& options) {
   command
       .add_option("--scale", options.scale, "Scale these parameters, e.g. 'hinges.*.spring.scale'")
       ->type_name("PATH");
-  command.add_option("--range", options.range, "Search from this scale to that one, e.g. 0.8 1.5")
+  command
+      .add_option("--range", options.range, "Search from this scale to that one, > 0, e.g. 0.8 1.5")
       ->expected(2)
       ->type_name("SCALE");
   add_sampling_options(command, options.sampling);

@@ -1,6 +1,7 @@
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/spec_error.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
+#include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/design_questions.hpp"
 #include "montecarlo/interfaces/terminal/examples.hpp"
 #include "montecarlo/model/starter/starter.hpp"
@@ -37,7 +38,7 @@ void write_new_files(const std::filesystem::path& folder, const NewFiles& files)
                           "a new folder: this file would be lost"});
   }
   if (!problems.empty()) throw SpecError(std::move(problems));
-  make_folder(folder);
+  make_folder(folder, "a folder that can be made; --out DIR names another");
   for (const auto& [name, text] : files) {
     write_file(folder / name, text);
     fmt::print("{}\n", (folder / name).string());
@@ -102,12 +103,10 @@ void add_design_options(CLI::App& command, NewOptions& options) {
   command.add_option("--name", design.name, "Name of the wing and of its folder")
       ->type_name("NAME")
       ->each(designed);
-  command.add_option("--wings", design.wings, "1, or 2 on both sides of the spacecraft")
-      ->check(CLI::Range(1, 2).description(""))
+  within(command.add_option("--wings", design.wings, "Number of wings (2: on both sides)"), 1, 2)
       ->type_name("N")
       ->each(designed);
-  command.add_option("--panels", design.panels, "Panels of a wing")
-      ->check(CLI::Range(1, most_panels).description(""))
+  within(command.add_option("--panels", design.panels, "Panels of a wing"), 1, most_panels)
       ->type_name("N")
       ->each(designed);
   command.add_flag_function(
@@ -115,12 +114,13 @@ void add_design_options(CLI::App& command, NewOptions& options) {
       "A yoke between the spacecraft and the first panel");
   for (const DesignNumber& number : design_numbers())
     add_number(command, options, number.option,
-               fmt::format("{}; default: {}", number.what, WingDesign().*number.value),
+               fmt::format("{}, {}; default: {}", number.what, number.dimension.condition,
+                           WingDesign().*number.value),
                number.dimension.unit, [number](const std::string& text, WingDesign& into) {
                  return read_design_number(text, number, into);
                });
   add_number(command, options, damper_option,
-             "damper of the root hinge, 0: none; default: one that doubles the time", "N·m·s/rad",
+             "damper of the root hinge, ≥ 0; default: one that doubles the time", "N·m·s/rad",
              [](const std::string& text, WingDesign& into) { return read_damper(text, into); });
 }
 

@@ -2,6 +2,8 @@
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/quantity.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
@@ -26,7 +28,7 @@ constexpr long most_samples = 10'000'000, most_repeats = 1000;
 struct RareCommandOptions {
   std::filesystem::path campaign, out;
   std::string output, of_case;
-  std::optional<double> above, below;
+  std::string above, below; ///< limits as they are written; empty: not given
   std::optional<std::uint64_t> seed;
   std::optional<double> confidence;
   RareOptions rare;
@@ -34,18 +36,28 @@ struct RareCommandOptions {
   bool resume = false, json = false;
 };
 
+/// The limit in the output's unit. @throws SpecError when it is neither a finite number nor a quantity of the output's kind
+double limit_of(const RareCommandOptions& options) {
+  const bool above = !options.above.empty();
+  const std::string& text = above ? options.above : options.below;
+  const std::string unit = parse_output_name(options.output).unit;
+  const auto limit = parse_quantity(text, unit);
+  if (limit && std::isfinite(*limit)) return *limit;
+  throw SpecError({{"", above ? "--above" : "--below", '"' + text + '"',
+                    limit ? "a finite number" : expected_quantity({unit})}});
+}
+
 /// The event whose probability is asked for.
 /// @throws SpecError unless the options name an output with one finite limit, or neither
 RareEvent event_of(const RareCommandOptions& options) {
-  const int limits = int(options.above.has_value()) + int(options.below.has_value());
-  const double limit = options.above.value_or(options.below.value_or(0));
-  if (limits != (options.output.empty() ? 0 : 1) || !std::isfinite(limit))
+  const int limits = int(!options.above.empty()) + int(!options.below.empty());
+  if (limits != (options.output.empty() ? 0 : 1))
     throw SpecError({{"", "--output",
                       fmt::format("{} with {} limits",
                                   options.output.empty() ? "none" : options.output, limits),
-                      "an output with either --above or --below and a finite limit; or none of the "
+                      "an output with either --above or --below; or none of the "
                       "three, and the event is that the wing does not deploy"}});
-  return {options.output, limit, options.above.has_value()};
+  return {options.output, limits == 0 ? 0 : limit_of(options), !options.above.empty()};
 }
 
 std::string refuse_odd_samples(const std::string& text) {
@@ -154,19 +166,22 @@ void add_rare_options(CLI::App& command, RareCommandOptions& options) {
       .add_option("--output", options.output,
                   "The output with a limit; default: the event is not deployed")
       ->type_name("NAME");
-  command.add_option("--above", options.above, "The event: a value above this limit, in SI units")
-      ->type_name("X");
-  command.add_option("--below", options.below, "The event: a value below this limit, in SI units")
+  command
+      .add_option("--above", options.above,
+                  "The event: a value above X, in SI units or with its unit: \"350 N*m\"")
       ->type_name("X");
   command
-      .add_option("--samples", options.rare.samples,
-                  "Runs of a level, a multiple of 10; default: 2000")
-      ->check(CLI::Range(100L, most_samples).description(""))
+      .add_option("--below", options.below,
+                  "The event: a value below X, in SI units or with its unit: \"5 deg/s\"")
+      ->type_name("X");
+  within(command.add_option("--samples", options.rare.samples,
+                            "Runs of a level, a multiple of 10; default: 2000"),
+         100, most_samples)
       ->check(refuse_odd_samples)
       ->type_name("N");
-  command
-      .add_option("--repeats", options.rare.repeats, "Number of independent repeats; default: 5")
-      ->check(CLI::Range(1L, most_repeats).description(""))
+  within(command.add_option("--repeats", options.rare.repeats,
+                            "Number of independent repeats; default: 5"),
+         1, most_repeats)
       ->type_name("R");
   command.add_option("--out", options.out,
                      "A folder for rare.json, which `report` draws: new or empty");

@@ -1,6 +1,8 @@
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
+#include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/report/page/html_page.hpp"
@@ -18,6 +20,8 @@ namespace wingspread {
 namespace {
 
 constexpr const char* report_file = "report.html";
+constexpr const char* page_elsewhere =
+    "a folder that can be written; --out FILE writes the page elsewhere";
 
 struct ReportOptions {
   std::vector<std::filesystem::path> folders;
@@ -44,7 +48,8 @@ int report(const ReportOptions& options) {
   for (const std::filesystem::path& folder : options.folders) {
     if (!is_study_folder(folder)) (void)read_any_campaign(folder); // before the lock creates a file
     const bool written = options.out.empty() && locks.empty();     // the page goes into the first
-    locks.emplace_back(folder, written ? FolderLock::For::writing : FolderLock::For::reading);
+    locks.emplace_back(folder, written ? FolderLock::For::writing : FolderLock::For::reading,
+                       page_elsewhere);
     if (!is_study_folder(folder)) warn_of_preview(read_any_campaign(folder));
   }
   const std::filesystem::path out =
@@ -77,8 +82,10 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
   command.add_option("folders", options.folders, "Results folders")->required();
   command.add_option("--out", options.out, "The page; default: report.html in the first folder")
       ->type_name("FILE");
-  command.add_option("--threads", options.threads, "Number of threads; 0: all processors")
-      ->check(CLI::Range(0, 1024).description(""));
+  within(command.add_option("--threads", options.threads,
+                            "Number of threads; default: 0, all processors"),
+         0, most_threads)
+      ->type_name("N");
   for (const auto& [key, help, member] : header_words)
     command.add_option("--" + std::string(key), options.header.*member, help)->type_name("TEXT");
   command.footer(

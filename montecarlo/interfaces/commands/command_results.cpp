@@ -118,6 +118,9 @@ Summary summarize_again(StoredCampaign& stored, const std::filesystem::path& to)
   return write_statistics(stored, read_stored_results(stored).results, spec);
 }
 
+constexpr const char* statistics_elsewhere =
+    "a folder that can be written; --out DIR writes the statistics elsewhere";
+
 /// With --out the results folder is only read.
 FolderLock::For lock_purpose(const AnalyzeOptions& options) {
   return options.out.empty() ? FolderLock::For::writing : FolderLock::For::reading;
@@ -128,7 +131,7 @@ int analyze_cases(const AnalyzeOptions& options, const std::filesystem::path& to
   std::deque<FolderLock> locks;
   std::vector<StoredCampaign> asked; // all are read before anything is written
   for (const CaseSpec& spec : made_cases(whole)) {
-    locks.emplace_back(whole.folder / spec.name, lock_purpose(options));
+    locks.emplace_back(whole.folder / spec.name, lock_purpose(options), statistics_elsewhere);
     asked.push_back(as_asked(read_stored_campaign(whole.folder / spec.name), options));
   }
   if (to != whole.folder) copy_rows(whole.folder, to);
@@ -144,7 +147,7 @@ int analyze(const AnalyzeOptions& options) {
   (void)read_any_campaign(options.folder); // before the lock makes a file in some other folder
   const bool elsewhere = !options.out.empty();
   if (elsewhere) refuse_used_folder(options.out, "a new or an empty folder");
-  const FolderLock lock(options.folder, lock_purpose(options));
+  const FolderLock lock(options.folder, lock_purpose(options), statistics_elsewhere);
   std::optional<FolderLock> other;
   if (elsewhere) other.emplace(options.out);
   const std::filesystem::path& to = elsewhere ? options.out : options.folder;
@@ -183,10 +186,10 @@ void add_analyze_options(CLI::App& command, AnalyzeOptions& options) {
   command.add_option("folder", options.folder, "The results folder")->required();
   command
       .add_option("--quantiles", options.quantiles,
-                  "Probabilities of the quantiles, e.g. 0.1,0.9; default: the campaign's")
+                  "Quantiles, each > 0 and < 1, e.g. 0.1,0.9; default: the campaign's")
       ->delimiter(',');
   add_confidence_option(command, options.confidence);
-  command.add_option("--bins", options.bins, "Bins of the histograms: a number, or auto");
+  command.add_option("--bins", options.bins, "Bins of the histograms: from 1 to 10000, or auto");
   command.add_option("--requirements", options.requirements,
                      "A JSON file with an array of requirements; default: the campaign's");
   command.add_option("--out", options.out,

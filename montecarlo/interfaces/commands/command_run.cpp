@@ -35,7 +35,7 @@ void override_until(Campaign& campaign, const std::vector<std::string>& until) {
 std::string refuse_until(const std::string& text) {
   if (parse_stopping_goal(text)) return "";
   return fmt::format(
-      "found \"{}\", expected e.g. \"root.peak_moment@0.99 5\" (its 0.99 quantile "
+      "found \"{}\", expected e.g. \"root.peak_moment@0.99 5 N*m\" (its 0.99 quantile "
       "with an interval 5 N·m wide), \"root.peak_moment@0.99 2%\", \"deployed 0.01\" or "
       "\"requirement deployed\"",
       text);
@@ -136,10 +136,10 @@ the cases. All cases use the same draws. The exit code is the worst of all cases
 
 --until names a confidence interval and its largest width, from lower to upper bound, at the
 campaign's confidence. Several goals must be reached together:
-  "root.peak_moment@0.99 5"    the 0.99 quantile, in N·m
-  "root.peak_moment@0.99 2%"   the same, as a share of the quantile
-  "deployed 0.01"              the share of runs that deploy (or stall, …: any status)
-  "requirement deployed"       the requirement, by name or output, has passed or failed
+  "root.peak_moment@0.99 5 N*m"  the 0.99 quantile; a plain number is in SI units: N·m
+  "root.peak_moment@0.99 2%"     the same, as a share of the quantile
+  "deployed 0.01"                the share of runs that deploy (or stall, …: any status)
+  "requirement deployed"         the requirement, by name or output, has passed or failed
 The goals are checked after 1000, 2000, 4000, … runs and nowhere else, so a campaign always stops
 at the same run; its number of runs is the maximum. Each of these interim analyses adds a chance of
 a wrong answer, so all bounds and verdicts share their risk among them and hold wherever the

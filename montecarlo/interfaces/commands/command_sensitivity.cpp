@@ -43,11 +43,28 @@ void refuse_run_options(const SensitivityOptions& options) {
   };
   refuse(options.samples.has_value(), "--samples");
   refuse(options.seed.has_value(), "--seed");
-  refuse(!options.out.empty(), "--out");
   refuse(options.resume, "--resume");
   refuse(!options.shard.empty(), "--shard");
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
+
+/// Holds the folder that is analyzed and the one that is written to: --out, which is new or empty, or the same.
+class AnalysisFolders {
+public:
+  explicit AnalysisFolders(const SensitivityOptions& options)
+      : to_(options.out.empty() ? options.from : options.out) {
+    const bool elsewhere = !options.out.empty();
+    if (elsewhere) refuse_used_folder(options.out, "a new or an empty folder");
+    from_.emplace(options.from, elsewhere ? FolderLock::For::reading : FolderLock::For::writing,
+                  "a folder that can be written; --out DIR writes the tables elsewhere");
+    if (elsewhere) other_.emplace(options.out);
+  }
+  [[nodiscard]] const std::filesystem::path& to() const { return to_; }
+
+private:
+  std::filesystem::path to_;
+  std::optional<FolderLock> from_, other_;
+};
 
 /// Prints the analysis and, with a folder, writes sensitivity.json and sensitivity.csv.
 template <class Sensitivity>
@@ -69,7 +86,7 @@ void show_analysis(const Sensitivity& all, const Json& about, const std::string&
 int analyze_ranks(const SensitivityOptions& options) {
   refuse_run_options(options);
   const StoredCampaign stored = read_stored_campaign(options.from);
-  const FolderLock lock(options.from);
+  const AnalysisFolders folders(options);
   const Results results = read_stored_results(stored).results;
   const double confidence = confidence_of(options.confidence, stored.campaign.statistics);
   Stamp stamp = stored.stamp;
@@ -82,7 +99,7 @@ int analyze_ranks(const SensitivityOptions& options) {
   show_analysis(rank_sensitivity(results, confidence, made), stamp_json(stamp),
                 fmt::format("{} · {} · rank correlations", stored.campaign.scene.name,
                             counted(static_cast<long>(results.size()), "run", "runs")),
-                options.from, options);
+                folders.to(), options);
   return exit_code::done;
 }
 
@@ -113,10 +130,10 @@ int analyze_design_folder(const SensitivityOptions& options) {
   if (design.shard)
     throw SpecError({{options.from.string(), "", describe(design.shard) + " of a design",
                       "a whole design: `wingspread merge` merges shards"}});
-  const FolderLock lock(options.from);
+  const AnalysisFolders folders(options);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   return analyze_design(design, read_design_runs(options.from, plan).results, options,
-                        options.from);
+                        folders.to());
 }
 
 /// Makes the remaining runs of a design. @return whether they were interrupted
@@ -219,18 +236,18 @@ int sensitivity(const SensitivityOptions& given) {
 void add_sensitivity_options(CLI::App& command, SensitivityOptions& options) {
   command.add_option("from", options.from, "A results folder, a campaign's file, or a design.json")
       ->required();
-  command
-      .add_option("--samples", options.samples,
-                  "Rows of the design for Sobol' indices (see below); default: 1000")
-      ->check(CLI::Range(2L, long{most_runs}).description(""))
+  within(command.add_option("--samples", options.samples,
+                            "Rows of the design (see below); default: 1000"),
+         2, most_runs)
       ->type_name("N");
   add_seed_option(command, options.seed);
   add_case_option(command, options.of_case);
   add_confidence_option(command, options.confidence);
-  command.add_option("--resamples", options.resamples, "Bootstrap resamples; default: 1000")
-      ->check(CLI::Range(20L, 1'000'000L).description(""))
+  within(command.add_option("--resamples", options.resamples, "Bootstrap resamples; default: 1000"),
+         20, 1'000'000)
       ->type_name("N");
-  command.add_option("--out", options.out, "With a campaign's file: the folder for the runs");
+  command.add_option("--out", options.out,
+                     "A new folder: for a campaign's runs, or for the tables of a folder");
   command.add_flag("--resume", options.resume, "Continue an interrupted study in --out");
   add_shard_option(command, options.shard,
                    "Make only part I of N of the design's runs, e.g. 2/5; needs --out");
@@ -256,7 +273,7 @@ the folder that making all runs at once gives, byte for byte.
 
 Both analyses name for each output the dispersions that move it, the most important first; --all
 prints the coefficients with their bounds. They write all of them to sensitivity.json and
-sensitivity.csv in the folder. A warning names each dispersion that moves no output.
+sensitivity.csv in the folder, or in --out. A warning names each dispersion that moves no output.
 
 Example:
   wingspread sensitivity results/first

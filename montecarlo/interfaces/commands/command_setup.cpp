@@ -1,6 +1,7 @@
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 
 #include "montecarlo/foundation/platform/thread_pool.hpp"
+#include "montecarlo/interfaces/terminal/command_options.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -41,19 +42,28 @@ SpecError in_file(const SpecError& error, const std::filesystem::path& file) {
   return SpecError(std::move(problems));
 }
 
+void refuse_empty_arguments(CLI::App& command) {
+  const auto refuse = [](const std::string& text) -> std::string {
+    if (!text.empty()) return "";
+    return "found an empty argument, expected a value (a shell variable that is not set?)";
+  };
+  for (CLI::Option* option : command.get_options())
+    if (option->get_items_expected_max() > 0) option->check(refuse);
+}
+
 void add_machine_options(CLI::App& command, MachineOptions& options) {
-  command.add_option("--threads", options.threads, "Number of threads; default: all processors")
-      ->check(CLI::Range(1, most_threads).description(""))
+  within(command.add_option("--threads", options.threads,
+                            "Number of threads; default: all processors"),
+         1, most_threads)
       ->type_name("N");
   command
       .add_option("--lanes", options.lanes,
                   "Runs that one thread makes at once: 1, 2, 4 or 8; default: the most")
       ->check(CLI::IsMember({1, 2, 4, 8}).description(""))
       ->type_name("L");
-  command
-      .add_option("--isa", options.isa,
-                  "Instruction set: scalar, neon, avx2 or avx512; default: the widest")
-      ->check(CLI::IsMember({"scalar", "neon", "avx2", "avx512"}).description(""))
+  one_of(command.add_option("--isa", options.isa,
+                            "Instruction set: scalar, neon, avx2 or avx512; default: the widest"),
+         {"scalar", "neon", "avx2", "avx512"})
       ->type_name("NAME");
 }
 

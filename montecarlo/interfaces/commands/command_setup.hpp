@@ -13,6 +13,10 @@
 
 namespace wingspread {
 
+/// Makes every argument and option of the command refuse an empty text. An empty path would be taken for an option that is
+/// not given, or for the present folder.
+void refuse_empty_arguments(CLI::App& command);
+
 /// Adds a command to the command line. Its options live as long as the action that uses them.
 /// @param add_options adds options and the footer: void(CLI::App&, Options&)
 /// @param run         carries the command out: int(const Options&), the exit status
@@ -22,6 +26,7 @@ void add_command(CLI::App& app, Action& action, const char* name, const char* de
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand(name, description);
   add_options(command, *options);
+  refuse_empty_arguments(command);
   command.callback([options, run, &action] { action = [options, run] { return run(*options); }; });
 }
 

@@ -126,7 +126,10 @@ int replay(const ReplayOptions& options) {
 }
 
 void add_dt_option(CLI::App& command, std::optional<double>& dt) {
-  command.add_option("--dt", dt, "Interval between rows of the trajectory, s; default: every step")
+  limited(with_unit(command.add_option(
+                        "--dt", dt, "Interval between rows of the trajectory; default: every step"),
+                    "s"),
+          "s, > 0")
       ->type_name("S");
 }
 
@@ -143,10 +146,13 @@ void add_simulate_options(CLI::App& command, SimulateOptions& options) {
   add_strict_option(command, options.strict);
   add_dt_option(command, options.dt);
   command.add_option("--method", settings.method, "Integration method; see wingspread methods");
-  command.add_option("--step", settings.step, "Step size of a method with a fixed step, s");
-  command.add_option("--rtol", settings.rtol, "Relative tolerance of a step, at least 1e-15");
-  command.add_option("--atol", settings.atol, "Absolute tolerance of a step, rad and rad/s");
-  command.add_option("--t-end", settings.t_end, "End of the simulation, s");
+  with_unit(command.add_option("--step", settings.step,
+                               "Step size of a method with a fixed step, s, > 0"),
+            "s");
+  command.add_option("--rtol", settings.rtol,
+                     "Relative tolerance of a step, at least 1e-15 and < 1");
+  command.add_option("--atol", settings.atol, "Absolute tolerance of a step, rad and rad/s, > 0");
+  with_unit(command.add_option("--t-end", settings.t_end, "End of the simulation, s, > 0"), "s");
   command
       .add_option("--latch", settings.latch, "Latch model: event, or smoothed:EPS with EPS in rad")
       ->type_name("event|smoothed:EPS")
@@ -163,9 +169,9 @@ Example:
 
 void add_replay_options(CLI::App& command, ReplayOptions& options) {
   command.add_option("folder", options.folder, "The results folder")->required();
-  command.add_option("--run", options.run, "The run's number in runs.csv, from 0")
+  within(command.add_option("--run", options.run, "The run's number in runs.csv"), 0,
+         std::numeric_limits<long>::max())
       ->required()
-      ->check(CLI::Range(0L, std::numeric_limits<long>::max()).description(""))
       ->type_name("K");
   add_case_option(command, options.of_case);
   command.add_flag("--json", options.json, "Print the outcome as JSON");

@@ -1,7 +1,9 @@
 #include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/number_text.hpp"
 #include "montecarlo/foundation/formats/spec_error.hpp"
 #include "montecarlo/foundation/statistics/wilks.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
+#include "montecarlo/interfaces/terminal/command_options.hpp"
 
 #include <fmt/format.h>
 
@@ -96,64 +98,52 @@ int size(const SizeOptions& options) {
   return exit_code::done;
 }
 
-CLI::Validator between(double lower, double upper, bool inclusive) {
-  const std::string expected = inclusive ? fmt::format("a number from {} to {}", lower, upper)
-                                         : fmt::format("a number, > {} and < {}", lower, upper);
-  return {[=](const std::string& text) {
-            double value = 0;
-            const bool is_number = CLI::detail::lexical_cast(text, value);
-            const bool fits =
-                inclusive ? lower <= value && value <= upper : lower < value && value < upper;
-            return is_number && fits ? "" : fmt::format("found {}, expected {}", text, expected);
-          },
-          ""};
+/// Takes numbers from 0 to 1 only. @param whole whether 0 and 1 are among them
+CLI::Option* share(CLI::Option* option, bool whole) {
+  const std::string limits = whole ? "from 0 to 1" : "> 0 and < 1";
+  const auto refuse = [=](const std::string& text) -> std::string {
+    const auto value = parse_number<double>(text);
+    const bool fits = value && (whole ? 0 <= *value && *value <= 1 : 0 < *value && *value < 1);
+    return fits ? ""
+                : fmt::format("found {}, expected a number{} {}", text, whole ? "" : ",", limits);
+  };
+  return limited(option->check(refuse), limits);
 }
 
-CLI::Validator from(long least) { return CLI::Range(least, most_runs_sized).description(""); }
-
 void add_questions(CLI::App& command, SizeOptions& options) {
-  auto* probability = command
-                          .add_option("--probability", options.probability,
-                                      "The probability to be shown, e.g. 0.9973")
-                          ->check(between(0, 1, false));
-  command
-      .add_option("--confidence", options.confidence,
-                  "The confidence: one-sided, or of the interval of --width")
-      ->required()
-      ->check(between(0, 1, false));
-  auto* order =
-      command
-          .add_option("--order", options.order,
-                      "Order of the tolerance limit: 1 for the largest value, 2 for the next")
-          ->check(from(1))
-          ->needs(probability);
+  auto* probability = share(command.add_option("--probability", options.probability,
+                                               "The probability to be shown, e.g. 0.9973"),
+                            false);
+  share(command.add_option("--confidence", options.confidence,
+                           "The confidence: one-sided, or of the interval of --width"),
+        false)
+      ->required();
+  auto* order = within(command.add_option("--order", options.order,
+                                          "Order of the tolerance limit (1: the largest)"),
+                       1, most_runs_sized)
+                    ->needs(probability);
   auto* two_sided =
       command.add_flag("--two-sided", options.two_sided, "Tolerance limits on both sides")
           ->needs(probability);
-  auto* failures = command
-                       .add_option("--failures", options.failures,
-                                   "Runs that may break the requirement; default: order - 1")
-                       ->check(from(0))
+  auto* failures = within(command.add_option("--failures", options.failures,
+                                             "Runs that may break it; default: order - 1"),
+                          0, most_runs_sized)
                        ->needs(probability)
                        ->excludes(order)
                        ->excludes(two_sided);
-  command
-      .add_option("--runs", options.runs,
-                  "Ask how many of this number of runs may break the requirement")
-      ->check(from(1))
+  within(command.add_option("--runs", options.runs, "Ask how many of these runs may break it"), 1,
+         most_runs_sized)
       ->needs(probability)
       ->excludes(order)
       ->excludes(two_sided)
       ->excludes(failures);
-  auto* width = command
-                    .add_option("--width", options.width,
-                                "Width of a share's confidence interval, lower to upper bound")
-                    ->check(between(0, 1, false))
+  auto* width = share(command.add_option("--width", options.width,
+                                         "Whole width of a share's confidence interval"),
+                      false)
                     ->excludes(probability);
-  command
-      .add_option("--proportion", options.proportion,
-                  "The share expected; default: 0.5, which takes the most runs")
-      ->check(between(0, 1, true))
+  share(command.add_option("--proportion", options.proportion,
+                           "The share expected; default: 0.5 (most runs)"),
+        true)
       ->needs(width);
 }
 
@@ -164,6 +154,7 @@ void add_size(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("size", "Compute how many runs show what is required");
   add_questions(*command, *options);
   command->add_flag("--json", options->json, "Print the answer as JSON");
+  refuse_empty_arguments(*command);
   command->footer(R"(The answers hold for independent draws: the design "random".
 
 Example:

@@ -1,12 +1,16 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 
+#include "montecarlo/foundation/formats/json_reader.hpp"
+#include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/number_text.hpp"
+#include "montecarlo/foundation/formats/quantity.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace wingspread {
 namespace {
@@ -27,15 +31,54 @@ std::string refuse_shard(const std::string& text) {
 
 } // namespace
 
+CLI::Option* limited(CLI::Option* option, std::string_view limits) {
+  std::string text = option->get_description();
+  text.insert(std::min(text.find("; default"), text.size()), fmt::format(", {}", limits));
+  return option->description(text);
+}
+
+CLI::Option* within(CLI::Option* option, std::int64_t least, std::int64_t most) {
+  const bool open = most == std::numeric_limits<std::int64_t>::max();
+  option->check(CLI::Range(least, most).description(""));
+  return limited(option, open ? fmt::format("at least {}", least)
+                              : fmt::format("from {} to {}", least, most));
+}
+
+CLI::Option* one_of(CLI::Option* option, std::vector<std::string> words) {
+  const auto refuse = [words = std::move(words)](const std::string& text) -> std::string {
+    if (std::ranges::find(words, text) != words.end()) return "";
+    const std::vector<std::string_view> listed(words.begin(), words.end());
+    return fmt::format("found \"{}\", expected {}{}", text, quoted_list(listed),
+                       did_you_mean(text, words));
+  };
+  return option->check(refuse);
+}
+
+std::optional<double> parse_quantity(std::string_view text, std::string_view unit) {
+  if (const auto number = parse_number<double>(text)) return number;
+  return in_unit(text, unit);
+}
+
+CLI::Option* with_unit(CLI::Option* option, std::string_view unit) {
+  const auto convert = [unit = std::string(unit)](std::string& text) -> std::string {
+    const auto value = parse_quantity(text, unit);
+    if (!value) return fmt::format("found \"{}\", expected {}", text, expected_quantity({unit}));
+    text = fmt::format("{}", *value);
+    return "";
+  };
+  return option->transform(CLI::Validator(convert, ""));
+}
+
 void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed) {
-  command.add_option("--seed", seed, "The seed; default: the campaign's")
+  limited(command.add_option("--seed", seed, "The seed; default: the campaign's"),
+          "from 0 to 2^64 - 1")
       ->check(refuse_seed)
       ->type_name("N");
 }
 
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling) {
-  command.add_option("--runs", sampling.runs, "Number of runs; default: the campaign's")
-      ->check(CLI::Range(std::int64_t{1}, most_runs).description(""))
+  within(command.add_option("--runs", sampling.runs, "Number of runs; default: the campaign's"), 1,
+         most_runs)
       ->type_name("N");
   add_seed_option(command, sampling.seed);
 }
@@ -53,8 +96,9 @@ std::optional<Shard> parse_shard(std::string_view text) {
 }
 
 void add_confidence_option(CLI::App& command, std::optional<double>& confidence) {
-  command.add_option("--confidence", confidence,
-                     "Confidence of all bounds, e.g. 0.99; default: the campaign's");
+  limited(command.add_option("--confidence", confidence,
+                             "Confidence of all bounds; default: the campaign's"),
+          "> 0 and < 1");
 }
 
 double confidence_of(const std::optional<double>& given, const StatisticsSpec& own) {

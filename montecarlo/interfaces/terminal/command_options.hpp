@@ -13,9 +13,21 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+} // namespace CLI
 
 namespace wingspread {
+
+/// Takes integers from `least` to `most` only, and says so in the option's help, before its default.
+CLI::Option* within(CLI::Option* option, std::int64_t least, std::int64_t most);
+/// Adds the option's limits in words ("> 0 and < 1") to its help, before its default. Whoever reads the value checks them.
+CLI::Option* limited(CLI::Option* option, std::string_view limits);
+/// Takes the words only, and suggests the nearest one.
+CLI::Option* one_of(CLI::Option* option, std::vector<std::string> words);
+/// Takes a number with a unit, too: "20 min" for an option in seconds.
+CLI::Option* with_unit(CLI::Option* option, std::string_view unit);
+/// Reads a number in the unit, or with a unit of its own; nothing for other text.
+[[nodiscard]] std::optional<double> parse_quantity(std::string_view text, std::string_view unit);
 
 /// Replacements for the campaign's "sampling".
 struct SamplingOptions {
