@@ -131,11 +131,11 @@ TEST_CASE("an empty argument is refused, wherever it stands") {
 TEST_CASE("--help says the limits of every number") {
   const Folder folder;
   const std::regex number(R"(  --(\S+) (N|K|L|R|S|INT|UINT|FLOAT|SCALE)( |$).*)"),
-      limits(R"(from \S+ to |at least |> 0|≥ 0|1, 2, 4 or 8|each > 0)");
+      wrapped(R"(\n {28,})"), limits(R"(from \S+ to |at least |> 0|≥ 0|1, 2, 4 or 8|each > 0)");
   long numbers = 0;
   for (const Command& command : all_commands()) {
     const std::string help = run_program(folder, {std::string(command.name), "--help"}).out;
-    for (const std::string& line : lines_of(help)) {
+    for (const std::string& line : lines_of(std::regex_replace(help, wrapped, " "))) {
       if (!std::regex_match(line, number)) continue;
       CAPTURE(command.name, line);
       CHECK(std::regex_search(line, limits));

@@ -357,14 +357,14 @@ TEST_CASE("page and program say in the same words which runs are missing", "[rep
   CHECK(reported.error == "warning: incomplete: " + missing + "; the verdicts are not final\n");
   CHECK(page_data(part.page)["incomplete"] == missing);
 
-  const Folder folder;
   Json json = quick_campaign(4500);
   json["outputs"] = {"latch_time"};
   json["cases"] =
       parse_json(R"([ { "name": "as_it_is" }, { "name": "hot" }, { "name": "cold" } ])");
-  const std::string file = folder.write("c.json", json.dump()), path = folder.path() / "r";
-  REQUIRE(run_program(folder, {"run", file, "--out", path, "--case", "hot"}).code == 0);
-  const Finished cases = run_program(folder, {"report", path});
+  const std::string file = part.folder.write("c.json", json.dump()),
+                    path = part.folder.path() / "cases";
+  REQUIRE(part.program({"run", file, "--out", path, "--case", "hot"}).code == 0);
+  const Finished cases = part.program({"report", path});
   CHECK_THAT(cases.error, Catch::Contains("incomplete: no run of case as_it_is and cold;"));
   CHECK(page_data(path + "/report.html")["incomplete"] == "no run of case as_it_is and cold");
 }

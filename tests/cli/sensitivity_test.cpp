@@ -180,7 +180,7 @@ TEST_CASE("rare's normal coordinates are free of the draws' correlations, and it
   const std::string text = rare("--threads=2").out;
   CHECK_THAT(text, Catch::Contains("in normal coordinates: ") &&
                        Catch::Contains("normal coordinate: 0 at the law's median") &&
-                       Catch::Contains("correlated draws"));
+                       Catch::Contains("correlated draw the part that draws before it"));
   CHECK_THAT(text, !Catch::Contains("standard deviations"));
 }
 

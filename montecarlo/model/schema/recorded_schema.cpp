@@ -154,14 +154,18 @@ private:
                                 : "");
     return "";
   }
-  /// The expectation of the first reader that states one.
+  /// The expectation of the first reader that states one; and of the first that takes units, if the value may have some.
   static std::string description_of(const Instances& all) {
+    std::string first, quantity;
     for (const Instance& each : all)
-      for (const Question* question : each.questions())
-        if (question->key.empty() && !question->expected.empty()) return question->expected;
-    return "";
+      for (const Question* question : each.questions()) {
+        if (!question->key.empty() || question->expected.empty()) continue;
+        if (first.empty()) first = question->expected;
+        if (quantity.empty() && question->what == What::quantity) quantity = question->expected;
+      }
+    if (quantity.empty() || first.find("its unit") != std::string::npos) return first;
+    return quantity.starts_with(first) ? quantity : first + "; or " + quantity;
   }
-
   static bool any_question(const Instances& all, std::initializer_list<What> kinds) {
     return std::ranges::any_of(all, [&](const Instance& each) {
       return std::ranges::any_of(kinds, [&](What kind) { return each.has(kind); });

@@ -13,7 +13,7 @@ namespace {
 
 /// The warnings of the flight scene with these hinges damped, one line each.
 std::string warnings_of(std::initializer_list<int> damped, double t_end) {
-  const std::filesystem::path studies = std::filesystem::path(test::source_folder) / "studies";
+  const std::filesystem::path studies = std::filesystem::path(source_folder) / "studies";
   Scene scene = read_scene_file(studies / "scenes/three_panel_flight.json");
   for (const int hinge : damped) scene.hinges[hinge].damper = Damper{.coefficient = 120};
   Integration integration;

@@ -105,7 +105,8 @@ TEST_CASE("Each fault of what acts across a hinge is told", "[hinge_json]") {
         "/hinges/0/damper/coefficient: found -3, expected >= 0"},
        {"/hinges/0/damper/coefficient", "\"3 N*m\"",
         "/hinges/0/damper/coefficient: found string \"3 N*m\", expected a number, "
-        "N·m·(s/rad)^0.45, ≥ 0, or a string of a number and its unit: \"N·m·(s/rad)^0.45\""},
+        "N·m·(s/rad)^0.45, ≥ 0, or a string of a number and its unit: \"N·m·(s/rad)^0.45\", "
+        "or another one made of deg, °, rev"},
        {"/hinges/0/damper/exponent", "0", "/hinges/0/damper/exponent: found 0, expected > 0"},
        {"/hinges/0/damper/exponent", "",
         "/hinges/0/damper/exponent: found nothing, expected a number, > 0"},

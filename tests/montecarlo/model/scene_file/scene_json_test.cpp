@@ -110,7 +110,8 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
        {"/base/motion", "",
         "/base/motion: found nothing, expected \"fixed\", \"prescribed\" or \"free\""},
        {"/base/motion", "\"fixd\"",
-        "/base/motion: found string \"fixd\", expected \"fixed\", \"prescribed\" or \"free\""},
+        "/base/motion: found string \"fixd\", expected \"fixed\", \"prescribed\" or \"free\" (did "
+        "you mean \"fixed\"?)"},
        {"/base/mass", "5", "/base/mass: found the unknown key \"mass\", expected \"motion\""},
        {"/base", R"({"motion": "free", "inertia": -2})",
         "/base/mass: found nothing, expected a number, kg, > 0\n"

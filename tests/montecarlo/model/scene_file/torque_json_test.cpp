@@ -80,7 +80,7 @@ TEST_CASE("Each fault of a torque is told with place, found and expected", "[tor
         "/hinges/0/spring/offset: found null, expected a number, N·m"},
        {"/hinges/0/harness/table", "[1, 2]",
         "/hinges/0/harness/table: found an array of 2, expected a table: an object with angle and "
-        "torque"},
+        "torque, unless \"interpolation\" is \"linear\""},
        {"/hinges/0/harness/table/angle", "",
         "/hinges/0/harness/table/angle: found nothing, expected an array of 2 to 1000 numbers, "
         "rad"},
