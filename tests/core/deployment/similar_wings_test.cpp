@@ -18,6 +18,7 @@ Outcome converted(Outcome outcome, const Units& units) {
     for (Peak& peak : *peaks) peak.value *= units.moment();
   for (Peak& peak : outcome.peak_force) peak.value *= units.force();
   for (double& energy : outcome.motor_energy) energy *= units.moment();
+  outcome.final.base_position *= units.length, outcome.final.base_velocity *= units.length;
   EnergyAudit& audit = outcome.energy;
   for (double* energy : {&audit.initial, &audit.final, &audit.drift_before_first_latch})
     *energy *= units.moment();
