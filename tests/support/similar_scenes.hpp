@@ -3,7 +3,9 @@
 
 #include "core/scene/scene.hpp"
 
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace wingspread::oracle {
