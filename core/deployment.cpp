@@ -168,7 +168,7 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
   std::vector<std::pair<int, int>> tree(scene.hinges.size());
   std::transform(scene.hinges.begin(), scene.hinges.end(), tree.begin(),
                  [](const Hinge& hinge) { return std::pair(hinge.parent, hinge.child); });
-  if (tree != kept_->tree || !has_room(kept_->wing, scene)) {
+  if (tree != kept_->tree || !has_features_of(kept_->wing, scene)) {
     kept_->wing = make_wing<double>(scene, outward_order(scene));
     kept_->tree = std::move(tree);
   }
@@ -261,7 +261,7 @@ private:
       exhausted_ = !name;
       if (!name) break;
       const std::vector<Fault> faults = unphysical(scene_);
-      if (faults.empty() && has_room(structure_, scene_)) {
+      if (faults.empty() && has_features_of(structure_, scene_)) {
         runs().set_parameters(wing, scene_);
         return name;
       }

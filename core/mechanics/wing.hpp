@@ -225,20 +225,21 @@ void set_loop(const Wing<T>& wing, const Synchronisation& loop, LoopTerms<T>& te
 
 } // namespace detail
 
-/// Whether a wing made for another scene with this tree can take this scene's features: draws may add a backlash or
-/// gravity.
-template <class T> [[nodiscard]] bool has_room(const Wing<T>& wing, const Scene& scene) {
+/// Whether a wing made for another scene with this tree has exactly this scene's features. A draw may add or remove a
+/// backlash or the air. Methods, peak searches and proofs depend on what a wing has room for, so that a wing with more room
+/// than its scene needs would give a run other bits than one made for the scene.
+template <class T> [[nodiscard]] bool has_features_of(const Wing<T>& wing, const Scene& scene) {
   const auto is_of = [&](const LoopTerms<T>& terms, const Synchronisation& loop) {
     return wing.hinge_of[terms.first] == loop.first && wing.hinge_of[terms.second] == loop.second;
   };
+  const auto any = [&](auto has) {
+    return std::any_of(scene.hinges.begin(), scene.hinges.end(), has);
+  };
   return wing.base.motion == detail::motion_of_base(scene) &&
          (wing.base.table != nullptr) == (detail::table_of_base(scene) != nullptr) &&
-         (!wing.real.empty() || std::none_of(scene.hinges.begin(), scene.hinges.end(), is_real)) &&
-         wing.plates.empty() != detail::feels_air(scene) && // the proofs depend on it
-         (!wing.releases.empty() ||
-          std::none_of(scene.hinges.begin(), scene.hinges.end(), detail::has_release)) &&
-         (!wing.motors.empty() ||
-          std::none_of(scene.hinges.begin(), scene.hinges.end(), detail::has_motor)) &&
+         wing.real.empty() != any(is_real) && wing.plates.empty() != detail::feels_air(scene) &&
+         wing.releases.empty() != any(detail::has_release) &&
+         wing.motors.empty() != any(detail::has_motor) &&
          std::equal(wing.loops.begin(), wing.loops.end(), scene.synchronisations.begin(),
                     scene.synchronisations.end(), is_of);
 }

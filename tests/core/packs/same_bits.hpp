@@ -34,14 +34,21 @@ inline std::string bits_of(const Outcome& outcome) {
     for (const HingeEvent& event : *events) add(event.hinge), add(event.time), add(event.rate);
   for (const double angle : outcome.final_angle) add(angle);
   for (const double energy : outcome.motor_energy) add(energy);
-  for (const auto* peaks : {&outcome.peak_moment, &outcome.peak_force, &outcome.hold_moment})
+  for (const auto* peaks :
+       {&outcome.peak_moment, &outcome.peak_force, &outcome.hold_moment, &outcome.bending_moment})
     for (const Peak& peak : *peaks) add(peak.value), add(peak.time);
+  for (const double frequency : outcome.mode_frequencies) add(frequency);
+  for (const int hinge : outcome.never_released) add(hinge);
+  if (outcome.base_peaks) add(outcome.base_peaks->angle), add(outcome.base_peaks->rate);
   for (const double beyond : outcome.overtravel) add(beyond);
   for (const Phase& phase : outcome.phases) all += phase.method, add(phase.from), add(phase.to);
   for (const auto* v : {&outcome.final.angles, &outcome.final.rates})
     for (const double x : *v) add(x);
   add(outcome.final.base_angle), add(outcome.final.base_rate);
-  add(outcome.t_end), add(outcome.energy.final);
+  for (const auto* v : {&outcome.final.base_position, &outcome.final.base_velocity})
+    for (const double x : *v) add(x);
+  add(outcome.t_end), add(outcome.peaks_final ? 1 : 0);
+  add(outcome.energy.initial), add(outcome.energy.final);
   add(outcome.energy.drift_before_first_latch);
   add(static_cast<double>(outcome.work.steps)), add(static_cast<double>(outcome.work.rejected));
   add(static_cast<double>(outcome.work.rhs_evaluations));

@@ -149,6 +149,20 @@ TEST_CASE("each fault of a trace has its line") {
   CHECK(with("").find("no header") != std::string::npos);
 }
 
+TEST_CASE("empty lines in a trace are no rows; one cell too few or too many is a fault") {
+  const std::string rows = "0,86,0\n0.1,85.5,-1\n0.2,84,-2\n";
+  const std::string whole = Files("t,th,w\n" + rows).problems(tests_json());
+  for (const std::string& text :
+       {"t,th,w\n" + rows + "\n", "t,th,w\n\n" + rows, "t,th,w\r\n\r\n" + rows + "\n\n"}) {
+    CAPTURE(text);
+    CHECK(Files(text).problems(tests_json()) == whole);
+  }
+  for (const char* row : {"0.3\n", "0.3,80\n", "0.3,80,-3,1\n", ",\n"})
+    CHECK_THAT(Files("t,th,w\n" + rows + row).problems(tests_json()),
+               Catch::Contains("t1.csv: line 5: found ") &&
+                   Catch::EndsWith("expected 3, as in the header"));
+}
+
 TEST_CASE("a trace of another unit, sense, column or zero of time is refused") {
   const Folder folder;
   const Campaign campaign = campaign_of(panel_campaign());

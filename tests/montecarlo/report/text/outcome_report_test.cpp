@@ -191,3 +191,44 @@ TEST_CASE("the outcome in words") {
   CHECK(outcome_text(scene, simulate(scene, 1)) ==
         "three_panel: invalid (bodies.panel_1.mass is -1, expected > 0)\n");
 }
+
+TEST_CASE("each table of loads stands where its loads are known, and none of a run that failed") {
+  Scene scene = read_scene_file(three_panel_file());
+  scene.hinges[1].release.emplace();
+  scene.hinges[2].motor.emplace();
+  scene.bodies[1].flexible.emplace();
+  Outcome outcome = simulate(read_scene_file(three_panel_file()), 1);
+  const std::vector<Peak> peaks{{1.5, 0.25}, {2.5, 0.5}, {3.5, 0.75}};
+  const auto tables = [&](const Outcome& of) {
+    std::string found;
+    const std::string text = outcome_text(scene, of);
+    for (const char* title : {"\nPEAK", "\nHOLD", "\nMOTOR"})
+      if (text.find(title) != std::string::npos) found += title;
+    return found;
+  };
+  outcome.peak_moment = outcome.peak_force = outcome.hold_moment = {};
+  outcome.motor_energy = {};
+  CHECK(tables(outcome).empty());
+  Outcome all = outcome;
+  for (auto* of : {&all.peak_moment, &all.peak_force, &all.hold_moment, &all.bending_moment})
+    *of = peaks;
+  all.motor_energy = {0, 0, 4.5};
+  CHECK(tables(all) == "\nPEAK\nHOLD\nMOTOR");
+  const std::string text = outcome_text(scene, all);
+  for (const char* row : {"  root                          1.5000    0.250000         1.5000    "
+                          "0.250000\n",
+                          "  panel_2                       2.5000    0.500000 bending\n",
+                          "  mid                           2.5000    0.500000\n",
+                          "  tip                          4.500000\n"})
+    CHECK_THAT(text, Catch::Contains(row));
+  CHECK(text.find("panel_1") == std::string::npos); // rigid
+  Outcome one = outcome;
+  for (auto* of : {&one.peak_moment, &one.peak_force}) {
+    one.peak_moment = one.peak_force = {};
+    *of = peaks;
+    CHECK(tables(one) == "\nPEAK");
+    CHECK_THAT(outcome_text(scene, one), Catch::Contains("–"));
+  }
+  all.status = Status::failed;
+  CHECK(tables(all).empty());
+}

@@ -1,0 +1,64 @@
+#include "montecarlo/report/data/page_source.hpp"
+#include "montecarlo/report/data/set_json.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
+#include "tests/montecarlo/report/data/page_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("a folder read for the page tells what its runs tell in memory", "[page]") {
+  const Folder place;
+  const std::filesystem::path path = place.path() / "r";
+  Json json = full_campaign(100);
+  json["statistics"] = {{"confidence", 0.9}};
+  json["requirements"] = parse_json(
+      R"([ { "output": "mid.peak_moment", "max": 100, "probability": 0.2, "confidence": 0.5 } ])");
+  const Campaign campaign = campaign_of(json);
+  (void)run_into(path, campaign);
+  const auto in_memory = source_of(campaign, rows_of(RunPlan(campaign), {0, 100}));
+  in_memory->stored.folder = in_memory->made_from = path;
+  const auto read = read_page_source(read_stored_campaign(path), "set", nullptr, 1);
+  CHECK(read->confidence == 0.9);
+  CHECK(read->replayable());
+  CHECK(set_json(*read, {}, 1) == set_json(*in_memory, {}, 1));
+
+  Campaign before = campaign;
+  before.scene.name = "before its case";
+  const auto of_case = read_page_source(read_stored_campaign(path), "cold", &before, 1);
+  CHECK(of_case->label == "cold");
+  CHECK(of_case->before_case.scene.name == "before its case");
+  CHECK(read->before_case.scene.name == campaign.scene.name);
+}
+
+TEST_CASE("the page's bounds hold together over all interim analyses, with rows and without",
+          "[page]") {
+  const Folder place;
+  Json json = quick_campaign(5000);
+  json["until"] = Json{parse_stopping_goal("root.latch_time@0.5 1e-9").value()}; // never met
+  const Campaign campaign = campaign_of(json);
+  (void)run_into(place.path() / "rows", campaign);
+  const auto rows =
+      read_page_source(read_stored_campaign(place.path() / "rows"), "rows", nullptr, 1);
+  CHECK(rows->summary.interim.count() > 1);
+  CHECK(rows->confidence == rows->summary.interim.confidence_of_bound(0.95));
+  CHECK(rows->confidence > 0.95);
+
+  json.erase("until");
+  const Campaign whole = campaign_of(json);
+  const RunPlan plan(whole);
+  const std::filesystem::path path = place.path() / "streaming";
+  ThreadEvaluator evaluator({.threads = 1}, never);
+  StreamingFolder folder(path, plan, std::nullopt, false);
+  REQUIRE(folder.begin(evaluator));
+  (void)evaluator.make(plan, folder.remaining(), {[&](const Batch& batch) { folder.add(batch); }});
+  folder.finish();
+  const auto streaming = read_page_source(read_stored_campaign(path), "streaming", nullptr, 1);
+  CHECK(streaming->confidence == 0.95);
+  CHECK((rows->has_rows() && !streaming->has_rows()));
+  CHECK(streaming->made_from == path);
+  CHECK(streaming->summary.runs == 5000);
+  CHECK(set_json(*streaming, {}, 1)["orders"][0]["count"] ==
+        set_json(*rows, {}, 1)["orders"][0]["count"]);
+}
