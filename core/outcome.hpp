@@ -42,9 +42,9 @@ struct Goal {
   bool sample_motion_only = false; ///< samples without moments and energies
 };
 
-/// `deployed`: every latch is engaged at the end, and no hold still holds a hinge; a hinge without a latch is not judged
-/// otherwise. `stalled`: at least one latch is not engaged, and it is proven that none will engage any more, though hinges
-/// may still swing, or a hinge, with a latch or without, is still held at the end. Outcome::reason names the proof:
+/// `deployed`: every latch is engaged at the end, and no hold still holds a hinge. Of a hinge without a latch nothing else
+/// is asked. `stalled`: at least one latch is not engaged, and it is proven that none will engage any more, though hinges
+/// may still swing; or a hinge, with a latch or without, is still held at the end. Outcome::reason names the proof:
 /// everything sticks, energy is missing, or a hinge was never released.
 /// A scene without latches ends `timed_out`, unless a hinge is still held.
 enum class Status { deployed, stalled, timed_out, invalid, failed };
@@ -126,7 +126,7 @@ struct Outcome {
   /// The largest moment that each hinge's hold bore, N·m; empty when not asked for, or where no hinge is held.
   std::vector<Peak> hold_moment;
   std::vector<double>
-      final_angle; ///< at t_end, from the latched angle, rad; final with Goal::to_rest; empty when not asked for
+      final_angle; ///< at t_end, from the latched angle, rad; empty when not asked for
   /// Work of each hinge's motor while the hinge's latch was not engaged, J; 0 without a motor. Empty when not asked for, or
   /// where no hinge has a motor.
   std::vector<double> motor_energy;

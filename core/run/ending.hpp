@@ -13,8 +13,8 @@
 /// |   … nor a peak of a free base's motion       | the modes and the angular momentum do     | final_peaks.hpp    |
 /// | … and no latch lets go                       | the energy left bounds its load           | energy_bounds.hpp  |
 ///
-/// No run ends early while a hold may still let go, or while something asked for at its end may still change: the angles
-/// of hinges that move (Goal::to_rest), and the energy of a motor on a hinge without an engaged latch.
+/// No run ends early while a hold may still let go, or while an output of its end may still change: the angles of hinges
+/// that move (Goal::to_rest), and the energy of a motor on a hinge without an engaged latch.
 ///
 /// The proofs stand in the room proofs/ (standstill.hpp in events/), the last two called by final_peaks.hpp.
 /// They are functions of the state. `Ending` remembers the results, and proof_schedule.hpp says at which

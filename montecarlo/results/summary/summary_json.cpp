@@ -336,10 +336,8 @@ Json accuracy_json(const Summary& summary) {
             {"beyond_largest", share_json(summary, 0)},
             {"moved", share_json(summary, accuracy.moved.size())},
             {"outputs", std::move(outputs)}};
-  if (!accuracy.moved.empty()) {
-    json["moved"]["which"] = accuracy.moved;
-    json["moved"]["outputs"] = accuracy.moved_outputs;
-  }
+  if (!accuracy.moved.empty())
+    json["moved"].update({{"which", accuracy.moved}, {"outputs", accuracy.moved_outputs}});
   if (!accuracy.in_doubt.empty()) json["in_doubt"] = accuracy.in_doubt;
   if (accuracy.unreached > 0) json["unreached"] = accuracy.unreached;
   return json;
