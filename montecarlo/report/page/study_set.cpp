@@ -234,7 +234,7 @@ Json strata_json(const Json& study) {
   for (const Json& part : listed.is_null() ? Json::array() : listed) {
     std::string text;
     for (const auto& [name, value] : part.at("rare_values").items())
-      text += (text.empty() ? "" : ", ") + name + " = " + value.dump();
+      text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, value.get<double>());
     const bool reached = part.at("reached");
     strata.push_back({{"text", text.empty() ? "no rare value" : text},
                       {"probability", page_number(part.at("probability"), 6)},
