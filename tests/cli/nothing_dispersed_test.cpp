@@ -18,14 +18,14 @@ Json undispersed(Json dispersions) {
   return json;
 }
 
-Json law(Json distribution) {
+Json stowed_torque_by(Json distribution) {
   return {{"name", "s"},
           {"distribution", std::move(distribution)},
           {"apply", "scale"},
           {"to", {"hinges.root.spring.torque_stowed"}}};
 }
 
-constexpr const char* warning = "nothing is dispersed: all 40 runs are the same run";
+constexpr const char* one_run_warning = "nothing is dispersed: all 40 runs are the same run";
 
 } // namespace
 
@@ -34,8 +34,8 @@ TEST_CASE("runs that are all the same show no probability, and say so everywhere
   const auto constant = parse_json(R"({ "type": "constant", "value": 1 })");
   const auto one_atom =
       parse_json(R"({ "type": "discrete", "values": [1, 2], "weights": [1, 0] })");
-  for (const Json& dispersions :
-       {Json::array(), Json::array({law(constant)}), Json::array({law(one_atom)})}) {
+  for (const Json& dispersions : {Json::array(), Json::array({stowed_torque_by(constant)}),
+                                  Json::array({stowed_torque_by(one_atom)})}) {
     const std::string file = folder.write("c.json", undispersed(dispersions).dump());
     CAPTURE(dispersions.dump());
     const auto checked = run_program(folder, {"check", file});
@@ -54,7 +54,7 @@ TEST_CASE("runs that are all the same show no probability, and say so everywhere
                                 Catch::Contains("No probability is shown"));
       CHECK(ran.error.find("--until") == std::string::npos); // more of the same run decide nothing
       const Json summary = parse_json_file(std::filesystem::path(out) / summary_file);
-      CHECK(summary["warnings"][0].get<std::string>().starts_with(warning));
+      CHECK(summary["warnings"][0].get<std::string>().starts_with(one_run_warning));
       const Json& requirements = summary["requirements"];
       CHECK(requirements[0]["verdict"] == "undecided");
       CHECK(requirements[0]["guaranteed"]["share"].is_null());
@@ -64,7 +64,7 @@ TEST_CASE("runs that are all the same show no probability, and say so everywhere
     }
     CHECK(run_program(folder, {"report", with_rows}).code == 0);
     const Json set = page_data(with_rows + "/report.html")["sets"][0];
-    CHECK(set["warnings"][0].get<std::string>().starts_with(warning));
+    CHECK(set["warnings"][0].get<std::string>().starts_with(one_run_warning));
     CHECK(set["requirements"][0]["verdict"] == "open");
     CHECK(set["requirements"][0]["guaranteed"].is_null());
   }
@@ -72,8 +72,8 @@ TEST_CASE("runs that are all the same show no probability, and say so everywhere
 
 TEST_CASE("a law with any spread, in the campaign or in a case, is not warned of") {
   const Folder folder;
-  Json json = undispersed(
-      Json::array({law(parse_json(R"({ "type": "normal", "mean": 1, "std": 0.01 })"))}));
+  Json json = undispersed(Json::array(
+      {stowed_torque_by(parse_json(R"({ "type": "normal", "mean": 1, "std": 0.01 })"))}));
   const auto error = [&] {
     return run_program(folder, {"check", folder.write("c.json", json.dump())}).error;
   };

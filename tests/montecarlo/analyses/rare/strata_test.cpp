@@ -13,7 +13,7 @@ using namespace wingspread::test;
 
 namespace {
 
-const auto untold = [](const StudyProgress&) {};
+const auto nothing_told = [](const StudyProgress&) {};
 
 /// A lid: a constant spring of 1.2 N·m turns it through 1.5 rad in √(2·1.5/1.2) s, for an inertia of 1 kg·m².
 Json lid() {
@@ -27,16 +27,17 @@ Json lid() {
     "sampling": { "runs": 400, "seed": 3 } })");
 }
 
-Json discrete(const std::string& name, const std::vector<double>& values,
-              const std::vector<double>& weights, const std::string& apply, const std::string& to) {
+Json discrete_law(const std::string& name, const std::vector<double>& values,
+                  const std::vector<double>& weights, const std::string& apply,
+                  const std::string& to) {
   return {{"name", name},
           {"distribution", {{"type", "discrete"}, {"values", values}, {"weights", weights}}},
           {"apply", apply},
           {"to", {to}}};
 }
 
-Json normal(const std::string& name, double mean, double std, const std::string& apply,
-            const std::string& to) {
+Json normal_law(const std::string& name, double mean, double std, const std::string& apply,
+                const std::string& to) {
   return {{"name", name},
           {"distribution", {{"type", "normal"}, {"mean", mean}, {"std", std}}},
           {"apply", apply},
@@ -46,25 +47,25 @@ Json normal(const std::string& name, double mean, double std, const std::string&
 /// A release that fails with this probability, after a delay of 5 ± 0.4 s.
 Json failing_lid(double probability) {
   Json json = lid();
-  json["dispersions"] = {
-      discrete("nofire", {0, 1}, {1 - probability, probability}, "set", "hinges.h.release.fails"),
-      normal("D", 5, 0.4, "set", "hinges.h.release.delay")};
+  json["dispersions"] = {discrete_law("nofire", {0, 1}, {1 - probability, probability}, "set",
+                                      "hinges.h.release.fails"),
+                         normal_law("D", 5, 0.4, "set", "hinges.h.release.delay")};
   return json;
 }
 
-RareResult estimate(const Json& campaign, RareOptions options) {
+RareResult estimate_of(const Json& campaign, RareOptions options) {
   ThreadEvaluator evaluator({.threads = 2}, never);
-  return estimate_rare_event(campaign_of(campaign), options, evaluator, untold);
+  return estimate_rare_event(campaign_of(campaign), options, evaluator, nothing_told);
 }
 
-double tail(double beta) { return std::erfc(beta / std::sqrt(2)) / 2; }
+double upper_tail(double beta) { return std::erfc(beta / std::sqrt(2)) / 2; }
 
 /// How many of the seeds' bounds cover the probability.
 int covered(Json campaign, RareOptions options, double exact, int seeds) {
   int count = 0;
   for (int seed = 0; seed < seeds; ++seed) {
     campaign["sampling"]["seed"] = seed;
-    const RareEstimate found = estimate(campaign, options).estimate;
+    const RareEstimate found = estimate_of(campaign, options).estimate;
     INFO("seed " << seed << ": " << found.interval.lower << " … " << found.interval.upper);
     CHECK(found.interval.lower > 0);
     CHECK(found.interval.upper < 3 * exact);
@@ -81,13 +82,13 @@ double sum_of_probabilities(const Strata& strata) {
 }
 
 /// n discrete dispersions whose last value has this probability.
-Json many(int count, double probability) {
+Json rare_values(int count, double probability) {
   Json json = lid();
   json["dispersions"] = Json::array();
   for (int k = 0; k < count; ++k)
-    json["dispersions"].push_back(discrete("d" + std::to_string(k), {1, 1.001},
-                                           {1 - probability, probability}, "scale",
-                                           "bodies.lid.inertia"));
+    json["dispersions"].push_back(discrete_law("d" + std::to_string(k), {1, 1.001},
+                                               {1 - probability, probability}, "scale",
+                                               "bodies.lid.inertia"));
   return json;
 }
 
@@ -106,12 +107,12 @@ TEST_CASE("a rare stiffness among common ones, and a rare failure beside late de
   Json island = lid();
   island["scene"]["hinges"][0].erase("release");
   island["dispersions"] = {
-      discrete("k", {2000, 9000}, {0.9997, 0.0003}, "set", "hinges.h.latch.stiffness"),
-      normal("s", 1, 0.05, "scale", "hinges.h.spring.scale")};
+      discrete_law("k", {2000, 9000}, {0.9997, 0.0003}, "set", "hinges.h.latch.stiffness"),
+      normal_law("s", 1, 0.05, "scale", "hinges.h.spring.scale")};
   CHECK(covered(island, {.event = {"h.peak_moment", 120, true}, .samples = 100, .repeats = 2}, 3e-4,
                 seeds) >= 10);
   // it latches later than 8 s: never, or after a delay of 8 s less the travel's time
-  const double late = tail((8 - std::sqrt(2 * 1.5 / 1.2) - 5) / 0.4);
+  const double late = upper_tail((8 - std::sqrt(2 * 1.5 / 1.2) - 5) / 0.4);
   const double exact = 5e-4 + (1 - 5e-4) * late;
   CHECK(covered(failing_lid(5e-4),
                 {.event = {"h.latch_time", 8, true}, .samples = 500, .repeats = 5}, exact,
@@ -122,10 +123,10 @@ TEST_CASE("two rare values that only together stall the wing: one in a million",
   Json json = lid();
   json["scene"]["hinges"][0]["friction"] = {{"coulomb", 0.1}, {"model", "exact"}};
   const std::string friction = "hinges.h.friction.coulomb";
-  json["dispersions"] = {discrete("a", {0, 0.7}, {0.999, 0.001}, "add", friction),
-                         discrete("b", {0, 0.7}, {0.999, 0.001}, "add", friction),
-                         normal("s", 1, 0.01, "scale", "hinges.h.spring.scale")};
-  const RareResult found = estimate(json, {.samples = 500, .repeats = 3});
+  json["dispersions"] = {discrete_law("a", {0, 0.7}, {0.999, 0.001}, "add", friction),
+                         discrete_law("b", {0, 0.7}, {0.999, 0.001}, "add", friction),
+                         normal_law("s", 1, 0.01, "scale", "hinges.h.spring.scale")};
+  const RareResult found = estimate_of(json, {.samples = 500, .repeats = 3});
   CHECK(found.strata.size() == 4);
   CHECK(found.estimate.probability == Approx(1e-6).epsilon(0.01));
   CHECK(found.estimate.interval.lower <= 1e-6);
@@ -139,11 +140,11 @@ TEST_CASE("strata share all probability, and are one without rare values", "[rar
   const auto strata = [](const Json& json, long samples = 2000) {
     return strata_of(campaign_of(json), {.samples = samples});
   };
-  CHECK(strata(many(1, 0.3)).list.size() == 1);
-  CHECK(strata(many(1, 0.3)).unseen.empty());
-  CHECK(strata(many(1, 0.016)).list.size() == 1); // 32 runs of a level have it
-  CHECK(strata(many(1, 0.014)).list.size() == 2);
-  const Strata ten = strata(many(10, 1e-3));
+  CHECK(strata(rare_values(1, 0.3)).list.size() == 1);
+  CHECK(strata(rare_values(1, 0.3)).unseen.empty());
+  CHECK(strata(rare_values(1, 0.016)).list.size() == 1); // 32 runs of a level have it
+  CHECK(strata(rare_values(1, 0.014)).list.size() == 2);
+  const Strata ten = strata(rare_values(10, 1e-3));
   CHECK(ten.list.size() == 64); // none, one or two of ten are 56; three have 1e-9 each
   CHECK(ten.list[55].rare.size() == 2);
   CHECK(ten.list.front().rare.empty());
@@ -167,8 +168,8 @@ TEST_CASE("draws of a stratum have its value, and correlated draws their conditi
   constexpr double p = 1e-4, rho = 0.7;
   Json json = lid();
   json["dispersions"] = {
-      discrete("z_rare", {1, 2, 3}, {0.5, p, 0.5 - p}, "scale", "bodies.lid.inertia"),
-      normal("a_normal", 1, 1e-3, "scale", "hinges.h.spring.scale")};
+      discrete_law("z_rare", {1, 2, 3}, {0.5, p, 0.5 - p}, "scale", "bodies.lid.inertia"),
+      normal_law("a_normal", 1, 1e-3, "scale", "hinges.h.spring.scale")};
   json["correlations"] = {{{"between", {"a_normal", "z_rare"}}, {"spearman", rho}}};
   const Campaign campaign = campaign_of(json);
   const Strata strata = strata_of(campaign, {});
@@ -210,9 +211,9 @@ TEST_CASE("values that no first level may draw keep the upper bound at that of p
                           {"distribution", {{"type", "empirical"}, {"values", values}}},
                           {"apply", "scale"},
                           {"to", {"hinges.h.spring.scale"}}},
-                         normal("J", 1, 0.02, "scale", "bodies.lid.inertia")};
+                         normal_law("J", 1, 0.02, "scale", "bodies.lid.inertia")};
   const RareOptions options{.event = {"h.latch_time", 1.75, true}, .samples = 200, .repeats = 2};
-  const RareResult found = estimate(json, options);
+  const RareResult found = estimate_of(json, options);
   REQUIRE(found.unseen.size() == 1);
   CHECK(found.unseen[0].first == "measured");
   CHECK(found.unseen[0].second == Approx(400.0 / 5000));
@@ -220,13 +221,13 @@ TEST_CASE("values that no first level may draw keep the upper bound at that of p
   CHECK(doubts_of(found).back().find("\"measured\"") != std::string::npos);
   values.resize(20); // each is drawn 20 times
   json["dispersions"][0]["distribution"]["values"] = values;
-  CHECK(estimate(json, options).unseen.empty());
+  CHECK(estimate_of(json, options).unseen.empty());
 }
 
 TEST_CASE("the report of strata has each one's probability, and the sum", "[rare]") {
   const RareOptions options{.samples = 200, .repeats = 2};
   const Json campaign = failing_lid(1e-5);
-  const RareResult found = estimate(campaign, options);
+  const RareResult found = estimate_of(campaign, options);
   const std::string text = rare_text(found, options, campaign_of(campaign));
   CHECK_THAT(text, Catch::Contains("P(not deployed) = 1e-05, 95 % bounds") &&
                        Catch::Contains("nofire = 1") && Catch::Contains("no rare value"));
