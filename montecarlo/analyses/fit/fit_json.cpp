@@ -17,7 +17,17 @@ Json parameters_json(const FitResult& result) {
                        {"upper", each.upper},
                        {"std_ratio", each.std_ratio}};
     if (!each.unit.empty()) json[each.name]["unit"] = each.unit;
+    if (!result.held.empty()) json[each.name]["std_with_held"] = each.widening * each.std;
+    if (each.limit) json[each.name]["at_limit"] = *each.limit;
   }
+  return json;
+}
+
+Json held_json(const FitResult& result) {
+  Json json = Json::object();
+  for (const HeldDispersion& each : result.held)
+    json[each.name] = {{"value", each.median},
+                       {"prior", {{"mean", each.prior_mean}, {"std", each.prior_std}}}};
   return json;
 }
 
@@ -60,6 +70,9 @@ Json trace_json(const FittedChannel& fitted) {
             {"n_effective", fitted.channel.effective},
             {"p_value", json_number(fitted.p_value)}};
   if (!known) json["estimated_std"] = fitted.rms;
+  for (const Outlier& each : fitted.outliers)
+    json["outliers"].push_back(
+        {{"t", each.time}, {"measured", each.measured}, {"sigmas", each.sigmas}});
   if (fitted.channel.offset_std > 0 && known) json["offset"] = fitted.offset;
   return json;
 }
@@ -111,6 +124,7 @@ Json fit_json(const FitResult& result, const FitSpec& spec, const Json& about) {
   json.update({{"finished", result.finished},
                {"findings", fit_findings(result, spec)},
                {"parameters", parameters_json(result)},
+               {"held", held_json(result)},
                {"correlation", correlation_json(result)},
                {"sampler",
                 {{"ess", result.sampler.ess},

@@ -6,6 +6,7 @@
 #include "montecarlo/analyses/fit/proposal.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/model/campaign/set_by_draws.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
 
 #include <boost/math/special_functions/gamma.hpp>
@@ -23,6 +24,7 @@ constexpr long runs_of_a_sample = 100;
 constexpr std::size_t predicted_rows = 400; // for bands and p-values
 constexpr int temperings = 2;               // the mode moves little when the likelihood is tempered
 constexpr std::size_t prior_points = 20000;
+constexpr int least_tried = 16; // points of the prior that show whether a number can be predicted
 
 std::size_t walkers_for(std::size_t dimensions) {
   const std::size_t walkers = std::max(least_walkers, 4 * dimensions);
@@ -65,14 +67,49 @@ private:
   RunPlan plan_;
 };
 
-LawMoments prior_moments(const FitParameter& parameter, const Campaign& campaign) {
-  if (parameter.kind != FitParameter::Kind::dispersion) return {0, parameter.std};
-  const PreparedDistribution law(campaign.dispersions[parameter.dispersion].distribution);
+LawMoments moments_of(const PreparedDistribution& law) {
   std::vector<double> values;
   for (std::size_t k = 0; k < prior_points; ++k)
     values.push_back(law.quantile((static_cast<double>(k) + 0.5) / prior_points));
   const Moments found = moments(values);
   return {found.mean, found.std};
+}
+
+LawMoments prior_moments(const FitParameter& parameter, const Campaign& campaign) {
+  if (parameter.kind != FitParameter::Kind::dispersion) return {0, parameter.std};
+  return moments_of(PreparedDistribution(campaign.dispersions[parameter.dispersion].distribution));
+}
+
+/// The limit of the prior at which the posterior lies; nothing for a prior without two limits.
+std::optional<double> limit_at(double mean, const FitParameter& parameter,
+                               const Campaign& campaign) {
+  if (parameter.kind != FitParameter::Kind::dispersion) return std::nullopt;
+  const PreparedDistribution law(campaign.dispersions[parameter.dispersion].distribution);
+  const double lower = law.quantile(0), upper = law.quantile_complement(0);
+  if (!std::isfinite(upper - lower)) return std::nullopt;
+  const double near = at_limit * (upper - lower);
+  if (mean - lower < near) return lower;
+  return upper - mean < near ? std::optional(upper) : std::nullopt;
+}
+
+/// Dispersions that vary and are not fitted.
+std::vector<std::size_t> held_ones(const Campaign& campaign, const FitSpec& spec) {
+  std::vector<std::size_t> held;
+  for (std::size_t i = 0; i < campaign.dispersions.size(); ++i)
+    if (varies(campaign.dispersions[i].distribution) &&
+        std::ranges::find(spec.parameters, i) == spec.parameters.end())
+      held.push_back(i);
+  return held;
+}
+
+/// The spec with the held dispersions fitted too, if they have a continuous law.
+FitSpec with_held(FitSpec spec, const Campaign& campaign, const std::vector<std::size_t>& held) {
+  for (const std::size_t i : held)
+    if (std::visit([]<class L>(const L&) { return Continuous<L>; },
+                   campaign.dispersions[i].distribution.law))
+      spec.parameters.push_back(i);
+  std::ranges::sort(spec.parameters);
+  return spec;
 }
 
 /// All kept points, step by step.
@@ -117,11 +154,12 @@ public:
     search_modes();
     sample(log, told);
     summarize_parameters();
+    summarize_held();
     summarize_channels();
     judge_candidates();
     result_.space = space_.list();
     result_.common = space_.common();
-    result_.runs = runs_.runs();
+    result_.runs += runs_.runs();
     std::vector<std::size_t> written;
     for (std::size_t k = 0; k < space_.common(); ++k)
       written.push_back(space_.list()[k].dispersion);
@@ -195,7 +233,8 @@ private:
       result_.parameters.push_back(
           {parameter.name, std::string(parameter.unit), prior.mean, prior.standard_deviation,
            mode[k], after.mean, after.std, quantile(sorted, tail), quantile(sorted, 1 - tail),
-           std::sqrt(covariance(place, place)), std::abs(modes_.front().at[place])});
+           std::sqrt(covariance(place, place)), std::abs(modes_.front().at[place]), 1,
+           limit_at(after.mean, parameter, campaign_)});
     }
     const auto common = static_cast<Eigen::Index>(space_.common());
     result_.u_covariance = covariance.topLeftCorner(common, common);
@@ -205,6 +244,32 @@ private:
       row.resize(space_.common());
       result_.rows.push_back(std::move(row));
     }
+  }
+
+  void summarize_held() {
+    const std::vector<std::size_t> held = held_ones(campaign_, spec_);
+    for (const std::size_t i : held) {
+      const PreparedDistribution law(campaign_.dispersions[i].distribution);
+      const LawMoments prior = moments_of(law);
+      result_.held.push_back(
+          {campaign_.dispersions[i].name, law.quantile(0.5), prior.mean, prior.standard_deviation});
+    }
+    const FitSpec all = with_held(spec_, campaign_, held);
+    if (all.parameters.size() == spec_.parameters.size()) return;
+    const ParameterSpace space(campaign_, all);
+    TestRuns runs(spec_.tests, all.parameters, space, *evaluator_);
+    FitPoint at = FitPoint::Zero(static_cast<Eigen::Index>(space.size()));
+    std::vector<std::size_t> fitted; // places in the larger space, in the order of this one
+    for (std::size_t k = 0; k < space_.size(); ++k) {
+      const auto same = std::ranges::find(space.list(), space_.list()[k].name, &FitParameter::name);
+      fitted.push_back(static_cast<std::size_t>(same - space.list().begin()));
+      at[static_cast<Eigen::Index>(fitted.back())] =
+          modes_.front().at[static_cast<Eigen::Index>(k)];
+    }
+    const std::vector<double> widening = widening_by_held(data_, modes_.front().prediction, runs,
+                                                          at, fitted, covariance_of(points_));
+    for (std::size_t k = 0; k < widening.size(); ++k) result_.parameters[k].widening = widening[k];
+    result_.runs += runs.runs();
   }
 
   void summarize_channels() {
@@ -223,8 +288,25 @@ private:
       fitted.fitted = mode[channel.first];
       fitted.sigmas = (fitted.measured - fitted.fitted) / channel.std.value_or(undefined);
       fitted.p_value = p_value_of(channel, predictions);
-      if (channel.column) add_bands(channel, predictions, fitted);
+      if (!channel.column) continue;
+      add_bands(channel, predictions, fitted);
+      add_outliers(channel, fitted);
     }
+  }
+
+  void add_outliers(const Channel& channel, FittedChannel& fitted) const {
+    const std::vector<double> residuals = residuals_of(data_, channel, modes_.front().prediction);
+    Sum rest;
+    for (const double r : residuals) rest.add(r * r);
+    const std::vector<std::size_t> far = outliers_of(residuals, channel.std);
+    for (const std::size_t i : far) {
+      rest.add(-residuals[i] * residuals[i]);
+      fitted.outliers.push_back({spec_.tests[channel.test].times[i],
+                                 data_.measured[channel.first + i],
+                                 std::abs(residuals[i]) / channel.std.value_or(fitted.rms)});
+    }
+    fitted.rest_rms =
+        std::sqrt(std::max(0.0, rest.value()) / static_cast<double>(residuals.size() - far.size()));
   }
 
   /// The mean over the posterior of P(χ²(n_eff) ≥ κ χ²): κ χ² is of n_eff independent numbers.
@@ -281,6 +363,18 @@ FitResult fit_campaign(const Campaign& campaign, const FitSpec& spec, const FitO
                        const std::atomic<bool>& stop, BatchLog* log,
                        const std::function<void(const EnsembleState&)>& told) {
   return Study(campaign, spec, options, stop).run(log, told);
+}
+
+void refuse_unpredictable(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,
+                          const std::string& file, const std::atomic<bool>& stop) {
+  const auto evaluator = evaluator_of(options.pool, stop);
+  const ParameterSpace space(campaign, spec);
+  TestRuns runs(spec.tests, spec.parameters, space, *evaluator);
+  std::vector<Problem> problems = unpredictable(
+      spec.tests, runs,
+      first_points(space.size(), std::max(spec.starts, least_tried), campaign.sampling.seed));
+  for (Problem& problem : problems) problem.file = file;
+  if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
 Json about_fit(const Campaign& campaign, const FitSpec& spec) {

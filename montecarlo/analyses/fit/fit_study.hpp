@@ -25,6 +25,19 @@ struct FittedParameter {
   double mode = 0, mean = 0, std = 0, lower = 0, upper = 0;
   double std_ratio = 0;    ///< standard deviation in u: the share of the prior's that is left
   double prior_sigmas = 0; ///< |u| of the mode: its distance from the prior's median
+  double widening = 1;     ///< factor of `std` by the spread of dispersions that are not fitted
+  std::optional<double> limit{}; ///< of the prior, if the posterior lies there
+};
+
+/// A dispersion that is not fitted: every test holds it at its median.
+struct HeldDispersion {
+  std::string name;
+  double median = 0, prior_mean = 0, prior_std = 0;
+};
+
+/// A number of a trace far from the fit and from the other numbers (outliers_of).
+struct Outlier {
+  double time = 0, measured = 0, sigmas = 0;
 };
 
 /// Residuals of a channel at the highest mode, and over the posterior.
@@ -38,6 +51,8 @@ struct FittedChannel {
   double measured = 0, fitted = 0, sigmas = 0; ///< of a value: `fitted` at the mode
   /// Of a trace: predictions at the mode, and the bounds of the posterior's, at the test's times.
   std::vector<double> mode, lower, upper;
+  std::vector<Outlier> outliers{}; ///< the furthest first
+  double rest_rms = 0;             ///< of the other numbers
 };
 
 /// Whether a channel contradicts the model: the p-value is below this.
@@ -48,6 +63,10 @@ inline constexpr double foreign_sigmas = 10;
 inline constexpr double too_close = 5;
 /// A parameter this far from its prior's median contradicts the prior: the prior's probability is 6e-5.
 inline constexpr double conflict_sigmas = 4;
+
+/// A posterior mean this close to a limit of its prior, as a share of the prior's range, lies at it. Heuristic: the prior
+/// gives it 1 %.
+inline constexpr double at_limit = 0.01;
 
 /// Quantiles 5, 50 and 95 % of an output with the priors and with the posterior.
 struct PredictedOutput {
@@ -60,6 +79,7 @@ struct FitResult {
   std::vector<FitParameter> space;
   std::size_t common = 0; ///< parameters of the prediction: the first of the list
   std::vector<FittedParameter> parameters;
+  std::vector<HeldDispersion> held;   ///< dispersions that vary and are not fitted
   Eigen::MatrixXd correlation;        ///< of the parameters
   std::vector<double> mode_distances; ///< of further modes from the highest, in standard deviations
   std::vector<double> mode_drops;     ///< their log posterior below the highest
@@ -73,6 +93,11 @@ struct FitResult {
   std::vector<PredictedOutput> prediction;
   std::vector<std::string> lost_laws; ///< of cases, for fitted dispersions; see lost_laws()
 };
+
+/// Runs points of the prior before anything is written. @param file of the tests, for the message
+/// @throws SpecError where no run has a measured number, or a number is too large to be compared; Stopped
+void refuse_unpredictable(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,
+                          const std::string& file, const std::atomic<bool>& stop);
 
 /// @param log recorded batches of the sampler; may be null
 /// @throws Stopped

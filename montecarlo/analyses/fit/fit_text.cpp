@@ -1,4 +1,5 @@
 #include "montecarlo/analyses/fit/fit_report.hpp"
+#include "montecarlo/engine/runs/trajectory_columns.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 
 #include <fmt/format.h>
@@ -21,11 +22,67 @@ std::string misfit_text(const FittedChannel& fitted) {
                      fitted.chi_squared, channel.count, channel.effective, fitted.p_value);
 }
 
+/// "85.6 deg"; a rate in rad/s, a moment in N·m.
+std::string with_unit(double value, std::string_view unit) {
+  return unit == "rad" ? degrees_text(value) + " deg" : fmt::format("{:.5g} {}", value, unit);
+}
+
+/// The numbers far from the rest, at most 3.
+std::string outliers_text(const FittedChannel& fitted, std::string_view unit) {
+  constexpr std::size_t most = 3;
+  const std::size_t count = fitted.outliers.size();
+  std::string text = fmt::format("{} of {} numbers {} far from the rest:", count,
+                                 fitted.channel.count, count == 1 ? "is" : "are");
+  for (std::size_t i = 0; i < std::min(count, most); ++i)
+    text += fmt::format("{} {} at {:.6g} s, {:.0f} σ from the fit", i == 0 ? "" : ";",
+                        with_unit(fitted.outliers[i].measured, unit), fitted.outliers[i].time,
+                        fitted.outliers[i].sigmas);
+  if (count > most) text += fmt::format("; and {} others", count - most);
+  return text + (count == 1 ? ". Is it a bad sample? It pulls the fit: leave it out"
+                            : ". Are they bad samples? They pull the fit: leave them out");
+}
+
+/// "spring 0.035 in place of 0.0101".
+std::string widened_text(const FitResult& result) {
+  constexpr double least = 1.05;
+  std::string text;
+  for (const FittedParameter& each : result.parameters)
+    if (each.widening > least)
+      text += fmt::format("{}{} {:.3g} in place of {:.3g}", text.empty() ? "" : ", ", each.name,
+                          each.widening * each.std, each.std);
+  return text;
+}
+
+void add_held(const FitResult& result, std::vector<std::string>& list) {
+  constexpr std::size_t most = 6;
+  const std::size_t count = result.held.size();
+  if (count == 0) return;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(count, most); ++i)
+    text += fmt::format("{}{} = {:.5g} (prior {:.4g} +- {:.3g})", text.empty() ? "" : ", ",
+                        result.held[i].name, result.held[i].median, result.held[i].prior_mean,
+                        result.held[i].prior_std);
+  if (count > most) text += fmt::format(" and {} others", count - most);
+  const std::string widened = widened_text(result);
+  list.push_back(fmt::format("not fitted, held at {} in all tests: {}. {}",
+                             count == 1 ? "its median" : "their medians", text,
+                             widened.empty()
+                                 ? "To first order the spread of what is held adds nothing"
+                                 : "To first order, with the spread of what is held, the "
+                                   "posterior sd is: " +
+                                       widened));
+}
+
 void add_misfits(const FitResult& result, const FitSpec& spec, std::vector<std::string>& list) {
   for (const FittedChannel& fitted : result.channels) {
     const std::string where =
         fmt::format("{} of \"{}\"", fitted.name, spec.tests[fitted.channel.test].name);
     const double sigmas = fitted.channel.std ? fitted.rms / *fitted.channel.std : 0;
+    const bool far_samples = !fitted.outliers.empty();
+    if (far_samples)
+      list.push_back(where + ": " + outliers_text(fitted, unit_of_column(fitted.name)));
+    const double rest = far_samples ? fitted.rest_rms / fitted.channel.std.value_or(fitted.rms) : 0;
+    if (far_samples && rest <= foreign_sigmas) continue;
     if (fitted.channel.column && sigmas > foreign_sigmas)
       list.push_back(fmt::format("{}: the residuals are {:.0f} σ at the best fit: a trace of "
                                  "another hinge, another sense or unit, or a test under other "
@@ -43,6 +100,11 @@ void add_misfits(const FitResult& result, const FitSpec& spec, std::vector<std::
       list.push_back(fmt::format("{} lies {:.1f} standard deviations of its prior from the prior's "
                                  "median: tests and prior contradict each other",
                                  each.name, each.prior_sigmas));
+  for (const FittedParameter& each : result.parameters)
+    if (each.limit)
+      list.push_back(fmt::format("{} lies at the limit {:.6g} of its prior: the tests ask for a "
+                                 "value beyond it",
+                                 each.name, *each.limit));
 }
 
 std::string parameters_text(const FitResult& result) {
@@ -127,6 +189,7 @@ std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& sp
                                  fitted.name, spec.tests[fitted.channel.test].name,
                                  fitted.channel.count, fitted.channel.effective));
   }
+  add_held(result, list);
   for (const std::string& law : result.lost_laws)
     list.push_back("the law of this case is not in the written campaign, which draws the posterior "
                    "in every case: " +

@@ -66,6 +66,25 @@ std::string describe(const FitDirection& direction, const std::vector<std::strin
                      same_sign ? "difference" : "sum", sd);
 }
 
+std::vector<double> widening_by_held(const FitData& data, const Prediction& prediction,
+                                     TestRuns& runs, const FitPoint& at,
+                                     const std::vector<std::size_t>& fitted,
+                                     const Eigen::MatrixXd& covariance) {
+  const Eigen::MatrixXd v = least_squares_jacobian(data, squares_of(data, prediction), runs, at);
+  const auto own = static_cast<Eigen::Index>(fitted.size());
+  Eigen::MatrixXd seen(v.rows(), own), held(v.rows(), v.cols() - own);
+  for (Eigen::Index column = 0, k = 0, h = 0; column < v.cols(); ++column)
+    if (std::ranges::find(fitted, static_cast<std::size_t>(column)) != fitted.end())
+      seen.col(k++) = v.col(column);
+    else
+      held.col(h++) = v.col(column);
+  const Eigen::MatrixXd shift = (seen.transpose() * seen).llt().solve(seen.transpose() * held);
+  std::vector<double> widening;
+  for (Eigen::Index k = 0; k < own; ++k)
+    widening.push_back(std::sqrt(1 + shift.row(k).squaredNorm() / covariance(k, k)));
+  return widening;
+}
+
 std::vector<CandidateGain> candidate_gains(std::span<const FitTest> candidates, TestRuns& runs,
                                            const FitPoint& mode,
                                            const Eigen::MatrixXd& covariance) {

@@ -32,6 +32,20 @@ inline constexpr double named_weight = 0.15;
                                    const std::vector<std::string>& names,
                                    const Eigen::MatrixXd& covariance);
 
+/// By how much the spread of dispersions that are not fitted widens each parameter's standard deviation, at least 1.
+///
+/// A fit holds them at their medians. To first order the mode moves by S = −(VᵀV)⁻¹VᵀV_h for one standard deviation of
+/// each of them, with V and V_h the columns of the least squares' Jacobian of fitted and of held dispersions: √(1 + ΣS²/C)
+/// @param runs       of a space in which the held ones are parameters too
+/// @param at         the mode in that space, held ones at 0
+/// @param fitted     places of the fitted parameters in that space; all others are held
+/// @param covariance C of the fitted parameters, in u
+[[nodiscard]] std::vector<double> widening_by_held(const FitData& data,
+                                                   const Prediction& prediction, TestRuns& runs,
+                                                   const FitPoint& at,
+                                                   const std::vector<std::size_t>& fitted,
+                                                   const Eigen::MatrixXd& covariance);
+
 /// What a test that has not been made would tell.
 struct CandidateGain {
   std::string name;

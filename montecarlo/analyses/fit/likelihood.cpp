@@ -45,6 +45,23 @@ std::vector<double> residuals_of(const FitData& data, const Channel& channel,
   return residuals;
 }
 
+std::vector<std::size_t> outliers_of(std::span<const double> residuals, std::optional<double> std) {
+  constexpr double far = 6, normal = 1.4826;
+  constexpr std::size_t least = 5, one_of = 20;
+  if (residuals.size() < least) return {};
+  std::vector<double> sizes;
+  for (const double r : residuals) sizes.push_back(std::abs(r));
+  std::vector<double> sorted = sizes;
+  std::ranges::sort(sorted);
+  const double limit = far * std::max(std.value_or(0), normal * quantile(sorted, 0.5));
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    if (sizes[i] > limit) found.push_back(i);
+  if (found.size() > std::max<std::size_t>(1, sizes.size() / one_of)) return {};
+  std::ranges::stable_sort(found, std::ranges::greater{}, [&](std::size_t i) { return sizes[i]; });
+  return found;
+}
+
 ChannelFit fit_of(const FitData& data, const Channel& channel, const Prediction& prediction) {
   ChannelFit fit;
   std::vector<double> residuals = raw_residuals(data, channel, prediction);

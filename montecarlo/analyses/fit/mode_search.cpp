@@ -4,6 +4,7 @@
 #include "distributions/design.hpp"
 
 #include <Eigen/Cholesky>
+#include <fmt/format.h>
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ std::vector<Prediction> predictions_around(TestRuns& runs, const FitPoint& at) {
 }
 
 /// The functions that Eigen's LevenbergMarquardt asks for.
-struct Problem {
+struct LeastSquares {
   const FitData& data;
   TestRuns& runs;
   std::vector<double> squares;
@@ -64,8 +65,8 @@ FitMode end_of(const FitData& data, TestRuns& runs, FitPoint at) {
       data.channels, [](const Channel& channel) { return channel.std.has_value(); });
   Prediction prediction = predict_one(runs, at);
   for (int k = 0; k < (is_known ? 1 : most_weightings); ++k) {
-    Problem problem{data, runs, squares_of(data, prediction), at.size()};
-    Eigen::LevenbergMarquardt<Problem> search(problem);
+    LeastSquares problem{data, runs, squares_of(data, prediction), at.size()};
+    Eigen::LevenbergMarquardt<LeastSquares> search(problem);
     search.parameters.maxfev = most_evaluations;
     search.parameters.xtol = search.parameters.ftol = 1e-10;
     const FitPoint before = at;
@@ -158,6 +159,35 @@ std::vector<FitPoint> first_points(std::size_t dimensions, int count, std::uint6
                                                             static_cast<std::size_t>(i))));
   }
   return points;
+}
+
+std::vector<Problem> unpredictable(std::span<const FitTest> tests, TestRuns& runs,
+                                   std::span<const FitPoint> points) {
+  const std::vector<Prediction> tried = runs.predict(points, RunAccuracy::campaign);
+  const FitData data = data_of(tests);
+  std::vector<Problem> problems;
+  for (const Channel& channel : data.channels) {
+    const auto compares = [&](const Prediction& prediction) {
+      return std::isfinite(fit_of(data, channel, prediction).log_likelihood);
+    };
+    if (std::ranges::any_of(tried, compares)) continue;
+    const auto has_all = [&](const Prediction& prediction) {
+      return std::ranges::all_of(std::span(prediction).subspan(channel.first, channel.count),
+                                 [](double number) { return std::isfinite(number); });
+    };
+    const FitTest& test = tests[channel.test];
+    const std::string& name =
+        channel.column ? test.columns[*channel.column].name : test.values[channel.value].name;
+    const std::string place =
+        channel.column ? "trace/columns/" + name : fmt::format("values/{}", channel.value);
+    problems.push_back(
+        {"", fmt::format("/tests/{}/{}", channel.test, place),
+         std::ranges::any_of(tried, has_all)
+             ? "numbers too large to be compared with a run by their std"
+             : fmt::format("{}, which none of {} runs of the prior has", name, points.size()),
+         "numbers that runs of the campaign come near"});
+  }
+  return problems;
 }
 
 double distance_of(const FitMode& first, const FitMode& second) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "montecarlo/analyses/fit/likelihood.hpp"
+#include "montecarlo/foundation/formats/spec_error.hpp"
 
 #include <cstdint>
 
@@ -42,6 +43,11 @@ struct FitMode {
 /// The prior's median and the points of a Sobol' design.
 [[nodiscard]] std::vector<FitPoint> first_points(std::size_t dimensions, int count,
                                                  std::uint64_t seed);
+
+/// The measured numbers that no run at the points has, and those whose distance to every run overflows. Each with its
+/// place in the tests' file.
+[[nodiscard]] std::vector<Problem> unpredictable(std::span<const FitTest> tests, TestRuns& runs,
+                                                 std::span<const FitPoint> points);
 
 /// The distance of two modes in standard deviations of the first.
 [[nodiscard]] double distance_of(const FitMode& first, const FitMode& second);

@@ -15,6 +15,9 @@ namespace wingspread {
 namespace {
 
 constexpr std::size_t least_rows = 2;
+// Heuristic: a prediction has a sample every 10 to 20 ms, 1e6 of them up to here. A typing error in a time would take all
+// memory.
+constexpr double latest = 2e4; // s
 
 /// A cell of the header: a name, and a unit in brackets if there is one.
 struct HeaderCell {
@@ -133,6 +136,17 @@ private:
   std::size_t width_ = 0;
 };
 
+/// Refuses times that a run does not have. @param time with at least one row
+void refuse_times(const TraceColumn& time, const std::string& file) {
+  const double last = time.values.back();
+  if (!(last > 0))
+    time.at.refuse(fmt::format("times that end at {:g} s in {}, before the run begins", last, file),
+                   "times since the run begins, at 0 s");
+  else if (last > latest)
+    time.at.refuse(fmt::format("times up to {:g} s in {}", last, file),
+                   fmt::format("times up to {:g} s: leave out the rest after the motion", latest));
+}
+
 } // namespace
 
 void read_trace(const JsonCursor& at, const std::filesystem::path& path,
@@ -155,6 +169,7 @@ void read_trace(const JsonCursor& at, const std::filesystem::path& path,
         at.refuse(fmt::format("{} {} in {}", columns.front().values.size(),
                               columns.front().values.size() == 1 ? "row" : "rows", path.string()),
                   fmt::format("at least {}", least_rows), "/file"));
+  refuse_times(columns.front(), path.string());
   for (const TraceColumn& column : columns)
     if (std::ranges::all_of(column.values, [&](double v) { return v == column.values.front(); }))
       column.at.refuse(fmt::format("\"{}\", which is {} in every row of {}", column.header,

@@ -2,6 +2,7 @@
 
 #include "montecarlo/foundation/formats/spec_error.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <algorithm>
@@ -71,14 +72,120 @@ private:
   RunPlan plan_;
 };
 
-std::optional<LikeliestRun> likeliest_of(const std::vector<SubsetEstimate>& estimates,
+std::optional<LikeliestRun> likeliest_of(const std::vector<StratumEstimate>& strata,
                                          NormalRuns& runs) {
-  const NormalPoint* nearest = nullptr;
-  for (const SubsetEstimate& estimate : estimates)
-    for (const NormalPoint& point : estimate.inside)
-      if (!nearest || distance(point) < distance(*nearest)) nearest = &point;
+  std::optional<NormalPoint> nearest;
+  for (const StratumEstimate& part : strata)
+    for (const SubsetEstimate& estimate : part.estimates)
+      for (const NormalPoint& point : estimate.inside) {
+        NormalPoint z = within(part.stratum, point);
+        if (!nearest || distance(z) < distance(*nearest)) nearest = std::move(z);
+      }
   return nearest ? std::optional(runs.run_at(*nearest)) : std::nullopt;
 }
+
+/// N of a stratum's levels: all strata with rare values together have as many as the first one, but each at least 200.
+long samples_of(const Strata& strata, std::size_t s, long samples) {
+  if (s == 0) return samples;
+  constexpr long least = 200; // 20 chains
+  const long share = samples / (std::ssize(strata.list) - 1) / 10 * 10;
+  return std::max(share, std::min(samples, least));
+}
+
+/// No upper bound is below that of the first levels as a plain sample.
+void widen_to_plain(double confidence, RareEstimate& estimate) {
+  const Interval plain = clopper_pearson(estimate.hits, estimate.draws, confidence);
+  estimate.interval.upper = std::max(estimate.interval.upper, plain.upper);
+}
+
+/// Simulates strata one after the other.
+class StrataSimulation {
+public:
+  StrataSimulation(const Campaign& campaign, const RareOptions& options, NormalRuns& runs,
+                   const std::function<void(const StudyProgress&)>& progress)
+      : campaign_(campaign), options_(options), runs_(runs), progress_(progress),
+        strata_(strata_of(campaign, {options.samples, options.repeats, options.smallest})) {}
+
+  RareResult run() {
+    const std::size_t count = strata_.list.size();
+    result_.strata.resize(count);
+    // Strata with rare values go first. The others need not climb to levels that add nothing to the sum.
+    for (std::size_t s = 1; s < count; ++s) simulate(s);
+    simulate(0);
+    result_.left_out = strata_.left_out;
+    result_.unseen = std::move(strata_.unseen);
+    result_.estimate = sum_of(result_.strata, result_.left_out);
+    result_.likeliest = likeliest_of(result_.strata, runs_);
+    for (StratumEstimate& part : result_.strata)
+      for (SubsetEstimate& estimate : part.estimates) estimate.inside.clear();
+    return std::move(result_);
+  }
+
+private:
+  /// A level of stratum s below this adds less than 1e-3 to the sum so far, together with those of all other strata.
+  [[nodiscard]] double smallest_of(std::size_t s) const {
+    const double negligible = 1e-3 * found_ / static_cast<double>(strata_.list.size());
+    return std::min(1.0, std::max(options_.smallest, negligible) / strata_.list[s].probability);
+  }
+
+  [[nodiscard]] SubsetOptions subset_of(std::size_t s) const {
+    return {samples_of(strata_, s, options_.samples), smallest_of(s), campaign_.sampling.seed, 0};
+  }
+
+  /// Most runs of the strata after this one.
+  [[nodiscard]] long most_after(std::size_t s) const {
+    if (s == 0) return 0;
+    long most = options_.repeats * most_evaluations(subset_of(0));
+    for (std::size_t next = s + 1; next < strata_.list.size(); ++next)
+      most += options_.repeats * most_evaluations(subset_of(next));
+    return most;
+  }
+
+  void simulate(std::size_t s) {
+    StratumEstimate& part = result_.strata[s];
+    part.stratum = strata_.list[s];
+    const LimitStateFunction g = [&](std::span<const NormalPoint> points) {
+      return judge(part.stratum, points);
+    };
+    SubsetOptions subset = subset_of(s);
+    part.samples = subset.samples;
+    for (long k = 0; k < options_.repeats; ++k) {
+      // A first stratum by itself has the streams of a simulation without strata.
+      subset.repetition = (static_cast<std::uint64_t>(s) << 32U) + static_cast<std::uint64_t>(k);
+      most_ = made_ + (options_.repeats - k) * most_evaluations(subset) +
+              most_after(s); // an upper bound: a repeat may end early
+      part.estimates.push_back(
+          subset_simulation(g, coordinates_of(campaign_.dispersions).names.size(), subset));
+    }
+    part.estimate = combined(part.estimates, options_.confidence);
+    if (!strata_.unseen.empty()) widen_to_plain(options_.confidence, part.estimate);
+    if (part.estimate.reached) found_ += part.stratum.probability * part.estimate.probability;
+  }
+
+  std::vector<double> judge(const Stratum& stratum, std::span<const NormalPoint> points) {
+    std::vector<NormalPoint> moved;
+    for (const NormalPoint& point : points) moved.push_back(within(stratum, point));
+    std::vector<double> values;
+    const auto told = [&](long now) {
+      progress_({0, 0, made_ + now, std::max(most_, made_ + now)});
+    };
+    for (const auto& [value, status] : runs_.judge(moved, told)) {
+      values.push_back(value);
+      ++result_.statuses[static_cast<std::size_t>(status)];
+    }
+    made_ += std::ssize(points);
+    return values;
+  }
+
+  const Campaign& campaign_;
+  const RareOptions& options_;
+  NormalRuns& runs_;
+  const std::function<void(const StudyProgress&)>& progress_;
+  Strata strata_;
+  RareResult result_;
+  double found_ = 0; ///< the sum so far
+  long made_ = 0, most_ = 0;
+};
 
 } // namespace
 
@@ -89,30 +196,7 @@ RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& opti
     throw SpecError({{"", "/dispersions", "none", "at least one: there is nothing to vary"}});
   const LimitState limit_state(campaign, options.event);
   NormalRuns runs(campaign, limit_state, evaluator);
-  RareResult result;
-  long made = 0, most = 0;
-  const auto told = [&](long now) { progress({0, 0, made + now, std::max(most, made + now)}); };
-  const LimitStateFunction g = [&](std::span<const NormalPoint> points) {
-    std::vector<double> values;
-    for (const auto& [value, status] : runs.judge(points, told)) {
-      values.push_back(value);
-      ++result.statuses[static_cast<std::size_t>(status)];
-    }
-    made += std::ssize(points);
-    return values;
-  };
-  for (long k = 0; k < options.repeats; ++k) {
-    const SubsetOptions subset{options.samples, options.smallest, campaign.sampling.seed,
-                               static_cast<std::uint64_t>(k)};
-    most = made + (options.repeats - k) *
-                      most_evaluations(subset); // an upper bound: a repeat may end early
-    result.estimates.push_back(
-        subset_simulation(g, coordinates_of(campaign.dispersions).names.size(), subset));
-  }
-  result.estimate = combined(result.estimates, options.confidence);
-  result.likeliest = likeliest_of(result.estimates, runs);
-  for (SubsetEstimate& estimate : result.estimates) estimate.inside.clear();
-  return result;
+  return StrataSimulation(campaign, options, runs, progress).run();
 }
 
 } // namespace wingspread

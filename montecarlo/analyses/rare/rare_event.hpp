@@ -1,9 +1,10 @@
 /// The probability of a rare event in a campaign: independent subset simulations over its draws.
 ///
-///   z → u = Φ(z) and 1 − u → copula, quantiles → draws → run → g (limit_state.hpp)
+///   z → point of the stratum (strata.hpp) → u = Φ(z) and 1 − u → copula, quantiles → draws → run → g (limit_state.hpp)
 #pragma once
 
 #include "montecarlo/analyses/rare/limit_state.hpp"
+#include "montecarlo/analyses/rare/strata.hpp"
 #include "montecarlo/analyses/rare/subset_simulation.hpp"
 #include "montecarlo/engine/runs/evaluator.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
@@ -33,8 +34,12 @@ struct LikeliestRun {
 };
 
 struct RareResult {
-  std::vector<SubsetEstimate> estimates; ///< one per repeat; `inside` is empty
-  RareEstimate estimate;
+  std::vector<StratumEstimate> strata; ///< without a rare value first
+  double left_out = 0; ///< probability of the draws in no stratum: in the upper bound
+  /// Dispersions with values that the first levels may miss, and the expected draws of the rarest one. With any, no
+  /// upper bound is below that of plain sampling.
+  std::vector<std::pair<std::string, double>> unseen;
+  RareEstimate estimate;                 ///< over all strata
   std::array<long, 5> statuses{};        ///< of all runs made, in the order of Status
   std::optional<LikeliestRun> likeliest; ///< none if no sampled run has the event
 };

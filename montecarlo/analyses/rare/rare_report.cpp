@@ -60,11 +60,89 @@ Json likeliest_json(const LikeliestRun& run, const Campaign& campaign) {
           {"z", z}};
 }
 
+Json repeats_json(const StratumEstimate& part, const RareEvent& event) {
+  Json repeats = Json::array();
+  for (const SubsetEstimate& estimate : part.estimates)
+    repeats.push_back(estimate_json(estimate, event));
+  return repeats;
+}
+
+Json stratum_json(const StratumEstimate& part, const RareEvent& event) {
+  const RareEstimate& estimate = part.estimate;
+  Json rare = Json::object();
+  for (const auto& [name, value] : part.stratum.rare) rare[name] = json_number(value);
+  return {{"rare_values", rare},
+          {"probability", part.stratum.probability},
+          {"samples", part.samples},
+          {"event", estimate.probability},
+          {"reached", estimate.reached},
+          {"lower", estimate.interval.lower},
+          {"upper", estimate.interval.upper},
+          {"runs", estimate.evaluations},
+          {"repeats", repeats_json(part, event)}};
+}
+
+bool is_stratified(const RareResult& result) {
+  return result.strata.size() > 1 || result.left_out > 0;
+}
+
+/// Null without strata: `repeats` then has everything.
+Json strata_json(const RareResult& result, const RareEvent& event) {
+  if (!is_stratified(result)) return nullptr;
+  Json strata = Json::array();
+  for (const StratumEstimate& part : result.strata) strata.push_back(stratum_json(part, event));
+  return strata;
+}
+
+const char* method_of(const RareResult& result) {
+  if (is_stratified(result)) return "stratified_subset_simulation";
+  return result.estimate.plain ? "plain_sampling" : "subset_simulation";
+}
+
+/// P of the stratum and the event, "≲ " for an upper bound.
+std::string part_text(const StratumEstimate& part, double factor) {
+  return fmt::format(
+      "{}{:.3g}", part.estimate.reached ? "" : "≲ ",
+      factor * (part.estimate.reached ? part.estimate.probability : part.estimate.interval.upper));
+}
+
+/// The strata, largest part of the sum first, at most 12.
+std::string strata_text(const RareResult& result) {
+  if (!is_stratified(result)) return "";
+  constexpr std::size_t most_lines = 12;
+  std::vector<const StratumEstimate*> order;
+  for (const StratumEstimate& part : result.strata) order.push_back(&part);
+  std::ranges::stable_sort(order, std::ranges::greater{}, [](const StratumEstimate* part) {
+    return part->stratum.probability * part->estimate.interval.upper;
+  });
+  std::string text =
+      "\nSTRATA: rare values of discrete dispersions are drawn by themselves; their probability is "
+      "exact\n";
+  text += fmt::format("  {:<40}{:>13}{:>13}{:>13}{:>9}\n", "draws", "P(draws)", "P(event)",
+                      "product", "runs");
+  const std::size_t shown = std::min(order.size(), most_lines);
+  for (const StratumEstimate* part : std::span(order).first(shown))
+    text += fmt::format("  {:<40}{:>13.3g}{:>13}{:>13}{:>9}\n", describe(part->stratum),
+                        part->stratum.probability, part_text(*part, 1),
+                        part_text(*part, part->stratum.probability), part->estimate.evaluations);
+  if (shown < order.size()) {
+    const StratumEstimate& next = *order[shown];
+    text += fmt::format("  {} others, each at most {:.2g}\n", order.size() - shown,
+                        next.stratum.probability * next.estimate.interval.upper);
+  }
+  if (result.left_out > 0)
+    text += fmt::format("  {:<40}{:>13.3g}{:>13}{:>13}{:>9}\n", "not simulated", result.left_out,
+                        "≤ 1", fmt::format("≤ {:.3g}", result.left_out), 0);
+  return text;
+}
+
 std::string repeats_text(const RareResult& result, const RareOptions& options) {
-  std::string text = fmt::format("\n{:<8}{:>14}{:>12}{:>10}   {}\n", "REPEAT", "probability",
-                                 "variation", "runs", "levels");
-  for (std::size_t k = 0; k < result.estimates.size(); ++k) {
-    const SubsetEstimate& estimate = result.estimates[k];
+  const StratumEstimate& first = result.strata.front();
+  std::string text =
+      fmt::format("\n{:<8}{:>14}{:>12}{:>10}   {}{}\n", "REPEAT", "probability", "variation",
+                  "runs", "levels", is_stratified(result) ? ", of draws with no rare value" : "");
+  for (std::size_t k = 0; k < first.estimates.size(); ++k) {
+    const SubsetEstimate& estimate = first.estimates[k];
     text += fmt::format("  {:<6}{:>14}{:>12}{:>10}  ", k + 1,
                         fmt::format("{}{:.3g}", estimate.reached || estimate.stuck ? "" : "≲ ",
                                     estimate.probability),
@@ -102,7 +180,7 @@ std::string likeliest_text(const LikeliestRun& run, const Campaign& campaign) {
 }
 
 std::string plain_text(const RareEstimate& estimate) {
-  if (!estimate.reached || estimate.plain) return "";
+  if (!estimate.reached || estimate.plain || !std::isfinite(estimate.plain_runs)) return "";
   if (estimate.plain_is_enough())
     return fmt::format(
         " Plain sampling would have been enough: {:.0f} runs give the same accuracy.",
@@ -114,13 +192,18 @@ std::string plain_text(const RareEstimate& estimate) {
 /// The estimate and its bounds.
 std::string result_text(const RareResult& result, double confidence, const std::string& event) {
   const RareEstimate& all = result.estimate;
+  if (is_stratified(result) && all.interval.lower > 0)
+    return fmt::format("P({}) = {:.3g}, {:g} % bounds {:.4g} … {:.4g}{}\n", event, all.probability,
+                       100 * confidence, all.interval.lower, all.interval.upper,
+                       all.reached ? "" : "; the upper one is an estimate, not guaranteed");
+  const std::vector<SubsetEstimate>& repeats = result.strata.front().estimates;
   if (!all.reached)
     return fmt::format(
         "P({}): not reached in {} of {} repeats. Probability of the last levels {:.3g}, {:g} % "
         "bound "
         "{:.3g}:\nestimated upper bound, not guaranteed\n",
-        event, std::ranges::count(result.estimates, false, &SubsetEstimate::reached),
-        result.estimates.size(), all.probability, 100 * confidence, all.interval.upper);
+        event, std::ranges::count(repeats, false, &SubsetEstimate::reached), repeats.size(),
+        all.probability, 100 * confidence, all.interval.upper);
   if (all.plain)
     return fmt::format("P({}) = {:.6g}, {:g} % bounds {:.6g} … {:.6g} (Clopper–Pearson)\nThe "
                        "first levels are a plain sample: {} of {} runs have the event. For such an "
@@ -132,14 +215,47 @@ std::string result_text(const RareResult& result, double confidence, const std::
                      percent(all.variation, 0));
 }
 
+/// Whether a stratum's upper bound is at least 1 % of the sum's.
+bool matters(const StratumEstimate& part, const RareEstimate& all) {
+  return part.stratum.probability * part.estimate.interval.upper >= 0.01 * all.interval.upper;
+}
+
+std::string unseen_text(const std::string& name, double draws) {
+  return fmt::format(
+      "\"{}\" has values that the simulation may miss: the rarest one is drawn {:.2g} "
+      "times on average in all first levels. The upper bound is that of plain "
+      "sampling: more --samples or --repeats",
+      name, draws);
+}
+
 } // namespace
+
+std::vector<std::string> doubts_of(const RareResult& result) {
+  std::vector<std::string> doubts;
+  const auto any = [&](auto is) {
+    return std::ranges::any_of(result.strata, [&](const StratumEstimate& part) {
+      return matters(part, result.estimate) && is(part);
+    });
+  };
+  if (any([](const StratumEstimate& part) {
+        return std::ranges::any_of(part.estimates, &SubsetEstimate::stuck);
+      }))
+    doubts.emplace_back("at some levels all runs are equally far from the event, so the simulation "
+                        "could not approach it");
+  if (any([](const StratumEstimate& part) { return repetitions_disagree(part.estimates); }))
+    doubts.emplace_back("the repeats scatter more than their Markov chains explain: some may have "
+                        "missed a cause of the event. Use more --samples and --repeats");
+  for (const auto& [name, draws] : result.unseen) doubts.push_back(unseen_text(name, draws));
+  return doubts;
+}
 
 Json rare_json(const RareResult& result, const RareOptions& options, const Campaign& campaign,
                const Json& about) {
   const RareEstimate& all = result.estimate;
-  Json by_status = Json::object(), repeats = Json::array();
+  Json by_status = Json::object();
   for (const Status status : statuses)
     by_status[to_string(status)] = result.statuses[static_cast<std::size_t>(status)];
+<<<<<<< HEAD
   for (const SubsetEstimate& estimate : result.estimates)
     repeats.push_back(estimate_json(estimate, options.event));
   return {{stamp_key, about},
@@ -186,6 +302,56 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
           {"statuses", by_status},
           {"likeliest",
            result.likeliest ? likeliest_json(*result.likeliest, campaign) : Json(nullptr)}};
+=======
+  return {
+      {stamp_key, about},
+      {"event", describe(options.event)},
+      {"beyond", event_json(options.event)},
+      {"case", campaign.of_case.empty() ? Json(nullptr) : Json(campaign.of_case)},
+      {"probability", all.probability},
+      {"reached", all.reached},
+      {"method", method_of(result)},
+      {"first_levels", {{"runs", all.draws}, {"with_event", all.hits}}},
+      {"confidence", options.confidence},
+      {"lower", all.interval.lower},
+      {"upper", all.interval.upper},
+      {"variation",
+       {{"value", json_number(all.variation)},
+        {"from_chains", json_number(all.from_chains)},
+        {"from_repeats", json_number(all.from_spread)}}},
+      {"runs", all.evaluations},
+      {"bias", json_number(all.bias)},
+      {"plain_runs", json_number(all.plain_runs)},
+      {"plain_sampling_is_enough", all.plain_is_enough()},
+      {"definitions",
+       {{"probability",
+         "mean of independent subset simulations; of those that did not reach the event, the "
+         "estimated probability of the last level that they did: more than the event's, but "
+         "an estimate; 0 of one whose runs are all equally far from the event; by "
+         "plain_sampling: with_event of the runs of the first_levels"},
+        {"bias", "by how much the probability is too large on average, in units of it: 0.4 of "
+                 "a repeat's squared variation, as measured on events of known probability; "
+                 "not taken off, and not in the bounds"},
+        {"variation", "coefficient of variation of the mean: by the correlation along chains, "
+                      "by the repeats' spread, and the larger of the two"},
+        {"bounds", "probability exp(+- q variation), q normal or Student's, the wider; no "
+                   "lower one where a repeat did not reach the event; by plain_sampling: "
+                   "Clopper-Pearson, two-sided"},
+        {"plain_runs", "runs of plain sampling for the same variation"},
+        {"strata", "draws with rare values of discrete dispersions are simulated by themselves: "
+                   "probability is that of the draws, exact; event is that of the event among "
+                   "them; the sum of the products is the result; null without rare values"},
+        {"repeats", "those of the draws with no rare value"},
+        {"not_simulated", "probability of the draws in no stratum; the upper bound has it"}}},
+      {"samples", options.samples},
+      {"strata", strata_json(result, options.event)},
+      {"not_simulated", result.left_out},
+      {"warnings", doubts_of(result)},
+      {"repeats", repeats_json(result.strata.front(), options.event)},
+      {"statuses", by_status},
+      {"likeliest",
+       result.likeliest ? likeliest_json(*result.likeliest, campaign) : Json(nullptr)}};
+>>>>>>> stats
 }
 
 std::string rare_text(const RareResult& result, const RareOptions& options,
@@ -200,6 +366,7 @@ std::string rare_text(const RareResult& result, const RareOptions& options,
     text += fmt::format("Bias: such estimates are too large by about {} on average\n",
                         percent(all.bias, 1));
   text += fmt::format("{} runs made.{}\n", all.evaluations, plain_text(all));
+  text += strata_text(result);
   text += repeats_text(result, options);
   if (result.likeliest) text += likeliest_text(*result.likeliest, campaign);
   return text;

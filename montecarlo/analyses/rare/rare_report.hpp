@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace wingspread {
 
@@ -15,6 +16,9 @@ inline constexpr const char* rare_json_file = "rare.json";
 /// @param about the value of the key "wingspread"
 [[nodiscard]] Json rare_json(const RareResult& result, const RareOptions& options,
                              const Campaign& campaign, const Json& about);
+
+/// Reasons to doubt the estimate, a sentence each.
+[[nodiscard]] std::vector<std::string> doubts_of(const RareResult& result);
 
 [[nodiscard]] std::string rare_text(const RareResult& result, const RareOptions& options,
                                     const Campaign& campaign);

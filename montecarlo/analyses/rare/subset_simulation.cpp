@@ -23,6 +23,10 @@ constexpr double first_scale =
     0.6; // λ of the first chains (ibid.); a bad value costs acceptance in the first steps only
 constexpr double bias_of_square = 0.4; // bias / δ², fitted to the two measurements in the header
 
+// Standard errors between the largest and the smallest of some repetitions. Normal ones of 1000 repetitions are at most
+// 4.7 apart; logarithms of estimates with variations of 50 % have longer tails.
+constexpr double far_apart = 7;
+
 double standard_normal(RandomStream& stream) {
   const double u = open_uniform(stream());
   return inverse(Normal{}, {u, 1 - u});
@@ -303,6 +307,20 @@ void widen_for_atom(double confidence, RareEstimate& all) {
 SubsetEstimate subset_simulation(const LimitStateFunction& g, std::size_t dimensions,
                                  const SubsetOptions& options) {
   return SubsetSimulation(g, dimensions, options).run();
+}
+
+bool repetitions_disagree(std::span<const SubsetEstimate> estimates) {
+  if (estimates.size() < 2 || is_plain(estimates)) return false;
+  const auto reached = std::ranges::count_if(estimates, &SubsetEstimate::reached);
+  if (reached == 0) return false;
+  if (reached < std::ssize(estimates)) return true;
+  RareEstimate all;
+  estimate_by_levels(estimates, 0.95, all);
+  if (all.from_spread > 2 * all.from_chains) return true;
+  const auto [least, most] = std::ranges::minmax(
+      estimates, {}, [](const SubsetEstimate& each) { return each.probability; });
+  return std::log(most.probability / least.probability) >
+         far_apart * std::hypot(least.variation, most.variation);
 }
 
 long most_evaluations(const SubsetOptions& options) {

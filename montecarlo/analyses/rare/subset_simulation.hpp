@@ -96,6 +96,10 @@ struct SubsetEstimate {
 [[nodiscard]] SubsetEstimate subset_simulation(const LimitStateFunction& g, std::size_t dimensions,
                                                const SubsetOptions& options);
 
+/// Whether repetitions differ by far more than their own variations explain: 7 standard errors between the logarithms of
+/// two probabilities, or twice the variation of the mean. Also if some reached the event and others did not.
+[[nodiscard]] bool repetitions_disagree(std::span<const SubsetEstimate> estimates);
+
 /// An upper bound of the number of evaluations of g, unless many points have equal g: then a level divides the
 /// probability by less than 10.
 [[nodiscard]] long most_evaluations(const SubsetOptions& options);

@@ -54,11 +54,26 @@ int report_unfinished() {
   return exit_of(false);
 }
 
+/// Refuses tests that no run resembles before the folder is made. @return false if interrupted
+bool can_predict(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,
+                 const std::string& file, const std::atomic<bool>& stop) {
+  try {
+    refuse_unpredictable(campaign, spec, options, file, stop);
+    return true;
+  } catch (const Stopped&) {
+    fmt::print(stderr, "interrupted: nothing is written\n");
+    return false;
+  }
+}
+
 int fit(const FitCommandOptions& given) {
   Campaign campaign = read_campaign_file(given.campaign);
   override_sampling(campaign, std::nullopt, given.seed);
   const FitSpec spec = read_fit_file(given.tests, campaign);
   FitOptions options{.pool = pool_of(given.machine)};
+  const Interrupt interrupt;
+  if (!can_predict(campaign, spec, options, given.tests.string(), interrupt.flag()))
+    return exit_code::interrupted;
   FitFolder folder(given.out, about_fit(campaign, spec), given.resume);
   if (folder.is_finished()) {
     (void)show_finished(given.out / fit_json_file, given.json);
@@ -66,7 +81,6 @@ int fit(const FitCommandOptions& given) {
   }
   options.most_runs = given.runs.value_or(0);
   options.confidence = campaign.statistics.confidence;
-  const Interrupt interrupt;
   try {
     FitResult result;
     {
@@ -115,7 +129,8 @@ dispersions; the tests' file names those to be fitted, each test's changes of th
 Writes posterior.csv (a row a sample), fit.json, traces.csv (measured, fitted, bands) and
 campaign.json, which draws whole rows of posterior.csv: `wingspread run DIR/campaign.json` is the
 prediction. Prints first whether the model fits at all, then the parameters, what the tests do not
-see, and what further tests ("candidates") would tell. Exit code 1: the chains are not finished.
+see, and what further tests ("candidates") would tell. Dispersions that are not fitted are held at
+their medians. Exit code 1: the chains are not finished. A model that does not fit is told, with 0.
 
 Example:
   wingspread fit campaign.json tests.json --out fit

@@ -16,7 +16,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -75,12 +74,7 @@ int report_broken_runs(const RareResult& result) {
 }
 
 void warn_if_doubtful(const RareResult& result) {
-  if (std::ranges::any_of(result.estimates, &SubsetEstimate::stuck))
-    fmt::print(stderr, "warning: at some levels all runs are equally far from the event, so the "
-                       "simulation could not approach it\n");
-  if (result.estimate.from_spread > 2 * result.estimate.from_chains)
-    fmt::print(stderr, "warning: the repeats scatter more than their Markov chains explain: use "
-                       "more --samples\n");
+  for (const std::string& doubt : doubts_of(result)) fmt::print(stderr, "warning: {}\n", doubt);
 }
 
 /// The values that identify the study. A folder with other values is refused.
@@ -198,7 +192,8 @@ the one before. A probability of one in a million takes some ten thousand runs.
   The coefficient of variation is the estimate's standard deviation as a share of the estimate; the
 independent repeats show it too. The estimate is biased high by 0.4 of one repeat's squared
 coefficient of variation: more --samples reduce the bias, more --repeats do not. Draws are
-independent, whatever the campaign's design. If the simulation does not reach the event, it prints
+independent, whatever the campaign's design. A value of a discrete dispersion that is too rare to be
+drawn (a release that fails, one in 100,000) is simulated by itself, with its exact probability. If the simulation does not reach the event, it prints
 the estimated probability of the last level: an estimated upper bound, not guaranteed.
   A run without the output (it stalled before, or failed) counts as the event.
 

@@ -35,6 +35,7 @@ Fit fit(const Input& input, const Input& tests, const FitRequest& request) {
   FitOptions options{.pool = {.threads = request.threads}};
   options.most_runs = request.runs;
   options.confidence = campaign.statistics.confidence;
+  refuse_unpredictable(campaign, spec, options, tests.file.string(), stop);
   std::optional<FitFolder> folder;
   if (!request.out.empty()) folder.emplace(request.out, about, false);
   FitResult result = fit_campaign(campaign, spec, options, stop, folder ? &folder->log() : nullptr,

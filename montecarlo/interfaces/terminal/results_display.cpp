@@ -65,7 +65,9 @@ void print_notes(const Summary& summary) {
                "risk of a wrong pass at any of them is at most 1 - confidence (summary.json states "
                "it); without it, take another --seed and a number of runs fixed beforehand\n",
                summary.interim.count(), fmt::join(summary.interim.before, ", "));
-  const auto is_open = [](const Verdict& verdict) { return !is_decided(verdict); };
+  const auto is_open = [](const Verdict& verdict) {
+    return !is_decided(verdict) && !verdict.one_run; // more of the same run decide nothing
+  };
   if (std::ranges::any_of(summary.requirements, is_open))
     fmt::print(
         stderr,

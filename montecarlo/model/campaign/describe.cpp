@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <bit>
+#include <set>
 #include <span>
 
 namespace wingspread {
@@ -124,6 +126,21 @@ std::string describe_correlation(const Campaign& campaign, const RankCorrelation
                      campaign.dispersions[correlation.second].name, correlation.spearman);
 }
 
+/// The correlated dispersions that a stratified design does not stratify: the copula (copula.hpp) leaves the first of a
+/// correlated group by name alone, and couples the others to it.
+std::string describe_lost_strata(const Campaign& campaign) {
+  if (campaign.sampling.design == DesignKind::random) return "";
+  std::set<std::string> later;
+  for (const RankCorrelation& pair : campaign.wanted_correlations)
+    if (pair.spearman != 0)
+      later.insert(
+          std::max(campaign.dispersions[pair.first].name, campaign.dispersions[pair.second].name));
+  if (later.empty()) return "";
+  return fmt::format("  {} {} not stratified: of correlated dispersions the design stratifies the "
+                     "first by name only\n",
+                     fmt::join(later, ", "), later.size() == 1 ? "is" : "are");
+}
+
 std::string describe_integration(const Integration& integration) {
   const std::string latch =
       integration.smoothing ? fmt::format("smoothed over {} rad", *integration.smoothing) : "event";
@@ -224,6 +241,7 @@ std::string describe(const Campaign& campaign) {
     text += counted(std::ssize(campaign.wanted_correlations), "correlation", "correlations") + "\n";
   for (const RankCorrelation& correlation : campaign.wanted_correlations)
     text += fmt::format("  {}\n", describe_correlation(campaign, correlation));
+  text += describe_lost_strata(campaign);
   text += "sampling: " + describe_sampling(campaign.sampling) + "\n";
   text += "integration: " + describe_integration(campaign.integration) + "\n";
   text += "outputs: " + describe_outputs(campaign.outputs) + "\n";

@@ -83,6 +83,7 @@ std::vector<InputWarning> check_input(const Campaign& campaign, const std::files
   const Outcome nominal = check_motion(nominal_scene(campaign), campaign.integration, scene);
   check_cases(campaign, scene, rest);
   check_dispersions(campaign, rest);
+  check_spread(campaign, rest);
   check_correlations(campaign, rest);
   check_outputs(campaign, rest);
   check_requirements(campaign, nominal, rest);

@@ -3,6 +3,7 @@
 #include "core/scene/scene.hpp"
 #include "distributions/prepared_distribution.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/model/campaign/set_by_draws.hpp"
 
 #include <fmt/format.h>
 
@@ -328,6 +329,21 @@ void check_dispersions(const Campaign& campaign, InputWarnings& warnings) {
     check_through(dispersion, spread, place, "", warnings);
   }
   for (std::size_t k = 0; k < campaign.cases.size(); ++k) check_case(campaign, k, warnings);
+}
+
+void check_spread(const Campaign& campaign, InputWarnings& warnings) {
+  const auto varies_in = [](const CaseSpec& spec) {
+    return std::ranges::any_of(
+        spec.distributions, [](const CaseDistribution& own) { return varies(own.distribution); });
+  };
+  if (campaign.sampling.runs < 2 || vary(campaign.dispersions) ||
+      std::ranges::any_of(campaign.cases, varies_in))
+    return;
+  warnings.add("/dispersions",
+               campaign.dispersions.empty() ? "none" : "laws with a single value only",
+               fmt::format("a parameter that varies: all {} runs are the same run, and show no "
+                           "probability",
+                           campaign.sampling.runs));
 }
 
 void check_correlations(const Campaign& campaign, InputWarnings& warnings) {

@@ -19,6 +19,9 @@ namespace wingspread {
 /// - through: more than 5 % of the draws lie beyond the ends of the table, in the campaign or in a case.
 void check_dispersions(const Campaign& campaign, InputWarnings& warnings);
 
+/// Warns where several runs are planned but nothing varies, in no case.
+void check_spread(const Campaign& campaign, InputWarnings& warnings);
+
 /// Warns of correlations of 0.8 and more, and of three dispersions correlated pairwise by 0.5 and more: they probably
 /// have one cause, which `through` draws once. Not of those that come with a covariance: what is fitted together is
 /// correlated as the fit left it.

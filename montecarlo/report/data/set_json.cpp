@@ -192,6 +192,7 @@ Json requirement_json(const Verdict& verdict, const PageSource& source) {
                {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)},
                {"evidence", evidence(verdict)}});
   json.update(broken_json(verdict, source));
+  if (verdict.one_run) json["one_run"] = true;
   json["changes"] = changes_json(source, verdict);
   return json;
 }

@@ -164,6 +164,7 @@
   const observed = (one, set) =>
     W.isNumber(one.observed_value) ? valueText(one.observed_value, one, set) : F.share(one.observed);
   function guaranteed(one, set) {
+    if (one.one_run) return "none: nothing is dispersed";
     if (W.isNumber(one.limit))
       return W.isNumber(one.guaranteed_value)
         ? valueText(one.guaranteed_value, one, set)

@@ -255,7 +255,8 @@
     const drawn = (rare.levels || [])
         .filter((one) => W.isNumber(one.threshold) && one.probability > 0)
         .map((one) => ({ ...one, threshold: one.threshold * factor })),
-      likeliest = rare.likeliest && rare.likeliest.draws;
+      likeliest = rare.likeliest && rare.likeliest.draws,
+      strata = rare.strata || [];
     const figure =
       drawn.length < 2
         ? null
@@ -290,7 +291,7 @@
             },
           });
     const reached =
-      rare.reached === false
+      rare.reached === false && strata.length === 0
         ? " The event was not reached: this is the estimated probability of the last level, which contains the event. Estimated upper bound, not guaranteed."
         : "";
     return [
@@ -299,6 +300,20 @@
         h("b", `${event}${rare.case ? `, case ${rare.case}` : ""}: ${F.number(rare.probability, 3)}`),
         ` (${bounds} ${F.number(rare.lower, 3)} … ${F.number(rare.upper, 3)}).${reached}`,
       ),
+      ...(rare.warnings || []).map((text) => h("p", h("b", "Warning: "), text + ".")),
+      strata.length
+        ? W.table(
+            "Draws with rare values of discrete dispersions, simulated by themselves",
+            ["Draws", number("P(draws)"), number("P(event)"), number("Product")],
+            strata.map((one) => [
+              one.text,
+              F.number(one.probability, 3),
+              (one.reached ? "" : "≤ ") + F.number(one.event, 3),
+              (one.reached ? "" : "≤ ") + F.number(one.probability * one.event, 3),
+            ]),
+            { showCaption: true },
+          )
+        : null,
       figure,
       likeliest && likeliest.length
         ? [

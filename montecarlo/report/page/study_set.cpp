@@ -226,6 +226,28 @@ Json levels_json(const Json& repeat) {
   return levels;
 }
 
+/// The draws that were simulated by themselves, the largest part of the sum first.
+Json strata_json(const Json& study) {
+  constexpr std::size_t most = 12;
+  std::vector<Json> strata;
+  const Json listed = study.value("strata", Json(nullptr)); // null, or of an earlier version: none
+  for (const Json& part : listed.is_null() ? Json::array() : listed) {
+    std::string text;
+    for (const auto& [name, value] : part.at("rare_values").items())
+      text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, value.get<double>());
+    const bool reached = part.at("reached");
+    strata.push_back({{"text", text.empty() ? "no rare value" : text},
+                      {"probability", page_number(part.at("probability"), 6)},
+                      {"event", page_number(part.at(reached ? "event" : "upper"), 6)},
+                      {"reached", reached}});
+  }
+  std::ranges::stable_sort(strata, std::ranges::greater{}, [](const Json& part) {
+    return part["probability"].get<double>() * part["event"].get<double>();
+  });
+  strata.resize(std::min(strata.size(), most));
+  return strata;
+}
+
 Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   const Json study = parse_json_file(folder / rare_json_file);
   Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
@@ -248,6 +270,8 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
                  {"upper", study["upper"]},
                  {"reached", study["reached"]},
                  {"levels", repeats.empty() ? Json::array() : levels_json(repeats.front())},
+                 {"warnings", study.value("warnings", Json::array())},
+                 {"strata", strata_json(study)},
                  {"likeliest", std::move(likeliest)}};
   return set;
 }

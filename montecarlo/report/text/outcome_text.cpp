@@ -115,16 +115,45 @@ std::string warnings(const Scene& scene, const Outcome& outcome) {
   return text.empty() ? "" : "\nWARNING\n" + text;
 }
 
+/// Whether a hinge may take energy from the motion before it latches.
+bool dissipates(const Hinge& hinge) {
+  const auto& [stiffness, damping] = hinge.joint.value_or(Joint{});
+  const auto rubs = [](const std::optional<Stop>& stop) { return stop && stop->dissipation > 0; };
+  return hinge.friction.coulomb > 0 || hinge.friction.viscous > 0 || hinge.damper ||
+         (hinge.spring.table && hinge.spring.table->both_ways()) || rubs(hinge.stop) ||
+         rubs(hinge.far_stop) || (hinge.hold && hinge.hold->damping > 0) || damping > 0;
+}
+
+bool dissipates(const Scene& scene) {
+  const bool air = scene.environment.air_density > 0;
+  return std::ranges::any_of(scene.hinges, [](const Hinge& hinge) { return dissipates(hinge); }) ||
+         std::ranges::any_of(scene.synchronisations,
+                             [](const Synchronisation& loop) { return loop.damping > 0; }) ||
+         std::ranges::any_of(scene.bodies, [&](const Body& body) {
+           return (air && body.plate) || (body.flexible && body.flexible->damping_ratio > 0);
+         });
+}
+
+/// The cause of the change of energy before the first latch. A scene that conserves energy shows the integrator's error.
+std::string energy_cause(const Scene& scene) {
+  const bool motors =
+      std::ranges::any_of(scene.hinges, [](const Hinge& hinge) { return hinge.motor.has_value(); });
+  const bool driven = scene.base.motion == BaseMotion::prescribed;
+  if (motors || driven)
+    return fmt::format("dissipated or exchanged with the {}", motors && driven
+                                                                  ? "motors and the base"
+                                                              : motors ? "motors"
+                                                                       : "base");
+  return dissipates(scene) ? "dissipated" : "of integration error";
+}
+
 std::string effort(const Scene& scene, const Outcome& outcome) {
   const auto& [initial, final, drift] = outcome.energy;
   const auto& [steps, rejected, evaluations] = outcome.work;
-  const char* lost = scene.base.motion == BaseMotion::prescribed
-                         ? "dissipated or exchanged with the base"
-                         : "dissipated";
   return fmt::format(
       "\nEnergy: {:.6g} J at the start, {:.6g} J at the end, {:.6g} J {} before the first latch.\n"
       "Work: {} steps, {} rejected, {} evaluations.\n",
-      initial, final, drift, lost, steps, rejected, evaluations);
+      initial, final, drift, energy_cause(scene), steps, rejected, evaluations);
 }
 
 } // namespace

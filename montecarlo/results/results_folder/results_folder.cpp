@@ -240,6 +240,7 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results,
   if (!stored.foreign) add_nominal(campaign, summary);
   summary.overtravels = overtravels(campaign.scene, results);
   if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
+  withdraw_if_one_run(campaign, summary);
   const bool whole = std::ssize(results.runs) == stored.runs().size();
   summary.stopped = !whole && is_complete(stored, results);
   if (!stored.foreign && !stored.stamp.shard && (whole || summary.stopped)) {

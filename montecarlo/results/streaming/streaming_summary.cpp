@@ -266,6 +266,7 @@ Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistic
     const auto of = [&](PeaksFinal final) { return peaks[static_cast<std::size_t>(final)]; };
     summary.peaks = {of(PeaksFinal::yes), of(PeaksFinal::no), of(PeaksFinal::unknown)};
   }
+  withdraw_if_one_run(campaign, summary);
   return summary;
 }
 

@@ -1,5 +1,7 @@
 #include "montecarlo/results/summary/judge_campaign.hpp"
 
+#include "montecarlo/model/campaign/set_by_draws.hpp"
+
 #include <algorithm>
 #include <cassert>
 
@@ -12,6 +14,18 @@ struct Wanted {
   std::vector<HingeDrive> drives;
   Column column;
 };
+
+bool have_one_result(const Summary& summary) {
+  const auto all_or_none = [&](const StatusShare& share) {
+    return share.count == 0 || share.count == summary.runs;
+  };
+  const auto is_constant = [](const OutputSummary& output) {
+    return output.moments.count == 0 ||
+           (output.missing == 0 && output.moments.min == output.moments.max);
+  };
+  return std::ranges::all_of(summary.statuses, all_or_none) &&
+         std::ranges::all_of(summary.outputs, is_constant);
+}
 
 std::vector<Wanted> wanted_of(const Campaign& campaign) {
   std::vector<Wanted> wanted;
@@ -49,6 +63,18 @@ std::vector<Verdict> judge_campaign(const Campaign& campaign, const Results& res
                                     const InterimAnalyses& interim) {
   return judge_all(campaign.requirements, results, interim,
                    static_margin_columns(campaign, results));
+}
+
+void withdraw_if_one_run(const Campaign& campaign, Summary& summary) {
+  if (summary.runs == 0 || vary(campaign.dispersions) || !have_one_result(summary)) return;
+  summary.one_run = true;
+  for (Verdict& verdict : summary.requirements) {
+    if (verdict.decision != Decision::pass) continue;
+    verdict.one_run = true;
+    verdict.decision = Decision::undecided;
+    verdict.guaranteed_share = undefined;
+    verdict.guaranteed = verdict.margin = std::nullopt;
+  }
 }
 
 } // namespace wingspread

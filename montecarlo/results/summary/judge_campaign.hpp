@@ -3,6 +3,7 @@
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/results/summary/summary.hpp"
 #include "montecarlo/results/summary/verdict.hpp"
 
 #include <vector>
@@ -17,5 +18,10 @@ namespace wingspread {
 /// Judges all requirements. @param interim as in judge()
 [[nodiscard]] std::vector<Verdict> judge_campaign(const Campaign& campaign, const Results& results,
                                                   const InterimAnalyses& interim = {});
+
+/// Where nothing is dispersed and all runs have the same result, sets `one_run`. Passed requirements become undecided,
+/// without guaranteed numbers: N times the same run show no probability. Runs of another tool may differ without a
+/// dispersion.
+void withdraw_if_one_run(const Campaign& campaign, Summary& summary);
 
 } // namespace wingspread

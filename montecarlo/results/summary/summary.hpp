@@ -153,6 +153,8 @@ struct Summary {
   bool stopped = false;                   ///< all goals were met before all runs were made
   InterimAnalyses interim{};              ///< which share the risk of every bound and verdict
   bool without_rows = false;              ///< computed from streaming statistics
+  bool one_run =
+      false; ///< nothing is dispersed, and all runs have the same result (judge_campaign.hpp)
 };
 
 /// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes per run and thread; as many

@@ -255,6 +255,11 @@ std::string joint_risk(const Verdict& verdict) {
 
 std::string evidence(const Verdict& verdict) {
   const long broken = verdict.failures();
+  if (verdict.one_run)
+    return fmt::format("nothing is dispersed: {} the same run, which keeps it. No probability is "
+                       "shown",
+                       verdict.runs == 1 ? "this is"
+                                         : fmt::format("all {} runs are", verdict.runs));
   std::string found =
       fmt::format("{} of {} {} {} it", broken, verdict.runs, verdict.runs == 1 ? "run" : "runs",
                   broken == 1 ? "breaks" : "break");

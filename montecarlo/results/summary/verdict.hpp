@@ -44,6 +44,7 @@ struct Verdict {
   long not_listed = 0;            ///< runs that break it and are not in `broken`: with --no-rows
   std::optional<long> least_runs; ///< fewest runs that could show it, if none broke it
   bool disproved = false;         ///< P < p is shown at the same confidence
+  bool one_run = false;           ///< all runs are the same run, so that none shows a probability
   long cut = 0;                   ///< deployed runs among those that break it, whose peak t_end cut
   /// Least and largest value, if the limit lies on the other side of zero from all values.
   std::optional<std::array<double, 2>> beyond_zero{};

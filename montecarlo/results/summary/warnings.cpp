@@ -78,6 +78,11 @@ PeaksCount count_peaks_final(const Results& results) {
 
 std::vector<std::string> warnings(const Summary& summary) {
   std::vector<std::string> lines;
+  if (summary.one_run && summary.runs > 1)
+    lines.push_back(
+        fmt::format("nothing is dispersed: all {} runs are the same run. Shares, bounds "
+                    "and verdicts show no probability",
+                    summary.runs));
   for (const Overtravel& overtravel : summary.overtravels)
     lines.push_back(warning(overtravel, summary.runs));
   if (!summary.latch_jumps.empty())

@@ -146,6 +146,12 @@ TEST_CASE("each fault of a trace has its line") {
   CHECK(with("t,th,w\n0,86,0\n0.1,86,-1\n0.2,86,-2\n").find("\"th\", which is 86 in every row") !=
         std::string::npos);
   CHECK(with("t,th,w\n0,86,0\n").find("1 row in t1.csv") != std::string::npos);
+  CHECK_THAT(
+      with("t,th,w\n-3,86,0\n-2,85,-1\n-0,84,-1\n"),
+      Catch::Contains("/tests/0/trace/time: found times that end at -0 s in t1.csv, before the "
+                      "run begins, expected times since the run begins"));
+  CHECK_THAT(with("t,th,w\n0,86,0\n1e300,85,-1\n"),
+             Catch::Contains("/tests/0/trace/time: found times up to 1e+300 s"));
   CHECK(with("").find("no header") != std::string::npos);
 }
 

@@ -221,6 +221,118 @@ TEST_CASE("a std in another unit, and tests that contradict the prior, are told"
         std::string::npos);
 }
 
+// The latch time depends on 2 N·m spring − 0.3 N·m friction alone: an error of the friction moves the spring by 0.15 of
+// it.
+TEST_CASE("a dispersion that is not fitted is named, and its spread widens what depends on it") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign(0.5, 0.2));
+  Json tests = parse_json(R"({ "tests": [ { "name": "timer",
+      "values": [ { "output": "root.latch_time", "value": 2.3, "std": "1 ms" } ] } ],
+    "fit": { "parameters": ["spring"], "samples": 400, "starts": 2 } })");
+  const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
+  const FitResult result = fitted(campaign, spec);
+  REQUIRE(result.held.size() == 1);
+  CHECK(result.held[0].name == "friction");
+  CHECK(result.held[0].median == 1);
+  CHECK(result.held[0].prior_std == Approx(0.2).epsilon(1e-2));
+  const FittedParameter& spring = result.parameters[0];
+  CHECK(spring.widening * spring.std == Approx(std::hypot(spring.std, 0.15 * 0.2)).epsilon(0.02));
+  const std::vector<std::string> findings = fit_findings(result, spec);
+  REQUIRE_FALSE(findings.empty());
+  CHECK_THAT(findings.back(), Catch::Contains("held at its median in all tests: friction = 1 ") &&
+                                  Catch::Contains("the posterior sd is: spring 0.03"));
+  const Json json = fit_json(result, spec, Json::object());
+  CHECK(json["held"]["friction"]["value"] == 1);
+  CHECK(json["parameters"]["spring"]["std_with_held"].get<double>() ==
+        Approx(spring.widening * spring.std));
+  tests["fit"]["parameters"] = {"spring", "friction"};
+  tests["tests"].push_back(tests["tests"][0]);
+  tests["tests"][1]["name"] = "again";
+  const FitSpec both = read_fit(tests, "", folder.path(), campaign);
+  CHECK(fitted(campaign, both).held.empty());
+}
+
+TEST_CASE("one bad sample is named with its time, not the whole trace") {
+  const Folder folder;
+  std::string text = "t,th\n";
+  for (int k = 0; k <= 80; ++k)
+    text += csv_cell(0.02 * k) + "," +
+            csv_cell(panel_angle(0.02 * k, 1.02, 1.1) + (k == 40 ? 1.0 : 1e-3 * std::sin(9 * k))) +
+            "\n";
+  folder.write("t1.csv", text);
+  const Campaign campaign = campaign_of(panel_campaign());
+  Json tests = parse_json(one_way);
+  tests["fit"]["samples"] = 100;
+  const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
+  const FitResult result = fitted(campaign, spec);
+  REQUIRE(result.channels[0].outliers.size() == 1);
+  CHECK(result.channels[0].outliers[0].time == Approx(0.8));
+  CHECK(result.channels[0].outliers[0].sigmas == Approx(200).epsilon(0.1));
+  const std::string first = fit_findings(result, spec).front();
+  CHECK_THAT(first, Catch::StartsWith("root.angle of \"one way\": 1 of 81 numbers is far from the "
+                                      "rest: ") &&
+                        Catch::Contains(" deg at 0.8 s, ") && Catch::Contains(" σ from the fit"));
+  const Json json = fit_json(result, spec, Json::object());
+  CHECK(json["tests"][0]["traces"]["root.angle"]["outliers"].size() == 1);
+}
+
+TEST_CASE("a posterior at a limit of its prior is told") {
+  const Folder folder;
+  Json json = panel_campaign();
+  json["dispersions"][0]["distribution"] =
+      parse_json(R"({ "type": "uniform", "lower": 0.9, "upper": 1.1 })");
+  const Campaign campaign = campaign_of(json);
+  const auto findings = [&](double spring) {
+    folder.write("t1.csv", panel_trace(spring, 1, 0, 0.005, 1));
+    Json tests = parse_json(one_way);
+    tests["fit"]["samples"] = 100, tests["fit"]["parameters"] = {"spring"};
+    const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
+    std::string text;
+    for (const std::string& each : fit_findings(fitted(campaign, spec), spec)) text += each + '\n';
+    return text;
+  };
+  CHECK_THAT(findings(1.3), Catch::Contains("spring lies at the limit 1.1 of its prior"));
+  CHECK_THAT(findings(0.7), Catch::Contains("spring lies at the limit 0.9 of its prior"));
+  CHECK_THAT(findings(1.0), !Catch::Contains("at the limit"));
+}
+
+TEST_CASE("numbers that no run has, or that cannot be compared, are refused with their place") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign());
+  const auto refused = [&](const Json& values) {
+    Json tests = parse_json(R"({ "tests": [ { "name": "one" } ],
+      "fit": { "parameters": ["spring"], "samples": 100, "starts": 2 } })");
+    tests["tests"][0]["values"] = values;
+    const FitSpec spec = read_fit(tests, "t.json", folder.path(), campaign);
+    return message_of([&] {
+      refuse_unpredictable(campaign, spec, {.pool = {.threads = 1}}, "t.json", never);
+      return 0;
+    });
+  };
+  const auto value = [](double measured, double std) {
+    return Json{{"output", "root.latch_time"}, {"value", measured}, {"std", std}};
+  };
+  CHECK(refused(Json::array({value(2.3, 0.01)})).empty());
+  CHECK(refused(Json::array({value(230, 0.01)})).empty()); // far off, and the findings say so
+  const std::string large = "found numbers too large to be compared with a run by their std";
+  CHECK_THAT(refused(Json::array({value(2.3, 0.01), value(1e300, 0.01)})),
+             Catch::StartsWith("t.json: /tests/0/values/1: " + large));
+  CHECK_THAT(refused(Json::array({value(2.3, 1e-300)})),
+             Catch::StartsWith("t.json: /tests/0/values/0: " + large));
+  Json slow = panel_campaign();
+  slow["integration"]["t_end"] = 0.5;
+  const Campaign never_latches = campaign_of(slow);
+  const FitSpec spec = read_fit(parse_json(R"({ "tests": [ { "name": "one", "values": [ { "output":
+        "root.latch_time", "value": 2, "std": 0.1 } ] } ], "fit": { "parameters": ["spring"] } })"),
+                                "t.json", folder.path(), never_latches);
+  CHECK_THAT(message_of([&] {
+               refuse_unpredictable(never_latches, spec, {.pool = {.threads = 1}}, "t.json", never);
+               return 0;
+             }),
+             Catch::StartsWith("t.json: /tests/0/values/0: found root.latch_time, which none of 16 "
+                               "runs of the prior has"));
+}
+
 TEST_CASE("chains that are not finished are no result") {
   const Folder folder;
   folder.write("t1.csv", panel_trace(1.02, 1.1, 0, 0.005, 1));

@@ -76,6 +76,21 @@ TEST_CASE("a missing number rules a point out, and repels the search") {
   CHECK(least_squares(data, squares, FitPoint::Zero(1), missing)[2] == 1e3);
 }
 
+TEST_CASE("numbers far from the rest are found, and not where the model is wrong") {
+  std::vector<double> residuals(40);
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    residuals[i] = 0.1 * std::sin(static_cast<double>(17 * i + 1)); // median size 0.07
+  CHECK(outliers_of(residuals, 0.1).empty());
+  CHECK(outliers_of(residuals, std::nullopt).empty());
+  residuals[7] = -3, residuals[30] = 5;
+  CHECK(outliers_of(residuals, 0.1) == std::vector<std::size_t>{30, 7});
+  CHECK(outliers_of(residuals, std::nullopt) == std::vector<std::size_t>{30, 7});
+  CHECK(outliers_of(residuals, 1.0).empty()); // within 6 σ
+  residuals[11] = 4;
+  CHECK(outliers_of(residuals, 0.1).empty());                              // 3 of 40: too many
+  CHECK(outliers_of(std::vector<double>{0.1, -0.1, 0.1, 9}, 0.1).empty()); // too few to tell
+}
+
 TEST_CASE("the autocorrelation of residuals tempers the likelihood") {
   std::vector<double> white, red;
   double x = normal();

@@ -152,7 +152,7 @@ TEST_CASE("an output beyond a limit, above and below, agrees with its own quanti
         estimate(json, {.event = {"root.latch_time", limit, above}, .samples = 1000, .repeats = 3});
     CHECK(std::abs(std::log(found.estimate.probability / 0.01)) <
           3.5 * std::hypot(found.estimate.variation, 1 / std::sqrt(40)));
-    CHECK(found.estimates[0].levels.front().threshold > 0);
+    CHECK(found.strata[0].estimates[0].levels.front().threshold > 0);
     CHECK((level_of({"root.latch_time", limit, above}, 1.0) < limit) == above);
   }
 }

@@ -257,6 +257,24 @@ TEST_CASE("repetitions are combined by their mean, and by the wider of two inter
   CHECK(!combined(std::vector{a, b}, 0.95).reached);
 }
 
+TEST_CASE("repetitions that differ by far more than their variations disagree") {
+  const auto disagree = [](const std::vector<double>& probabilities, double variation) {
+    std::vector<SubsetEstimate> estimates;
+    for (const double p : probabilities) {
+      SubsetEstimate& each = estimates.emplace_back();
+      each.probability = each.last_level = p;
+      each.variation = variation, each.reached = p > 0;
+      each.levels.resize(3);
+    }
+    return repetitions_disagree(estimates);
+  };
+  CHECK(disagree({2.67e-10, 1e-6, 3e-8, 2e-3, 5e-9}, 0.5));
+  CHECK(disagree({1e-5, 1e-5, 0, 1e-5}, 0.3)); // one did not reach the event
+  CHECK_FALSE(disagree({0.8e-5, 1e-5, 1.4e-5, 1.1e-5}, 0.3));
+  CHECK_FALSE(disagree({0.5e-5, 1e-5, 2.4e-5, 1.1e-5}, 0.5));
+  CHECK_FALSE(disagree({1e-5}, 0.3));
+}
+
 // Of 400 estimates, the spread is known to 1/√800, 3.5 %. Along the chains' correlation δ has to come out as large as
 // it is, and no larger; without it, at γ = 0, it is too small by a third.
 TEST_CASE("the variation is the spread that repetitions have, no less and no more", "[long]") {

@@ -79,6 +79,27 @@ TEST_CASE("the seed scene's outcome as JSON") {
   CHECK(json["work"]["steps"] == outcome.work.steps);
 }
 
+TEST_CASE("the energy's change before the first latch has its cause") {
+  Scene scene = read_scene_file(three_panel_file());
+  const Outcome outcome = simulate(scene, 1);
+  const auto told = [&](const char* cause) {
+    CHECK_THAT(outcome_text(scene, outcome),
+               Catch::Contains(std::string(" J ") + cause + " before the first latch."));
+  };
+  told("of integration error"); // its latches damp, but not before they engage
+  scene.hinges[1].damper = Damper{};
+  told("dissipated");
+  scene.hinges[1].damper.reset();
+  scene.hinges[2].friction.viscous = 0.1;
+  told("dissipated");
+  scene.base.motion = BaseMotion::prescribed;
+  told("dissipated or exchanged with the base");
+  scene.hinges[0].motor = Motor{};
+  told("dissipated or exchanged with the motors and the base");
+  scene.base.motion = BaseMotion::fixed;
+  told("dissipated or exchanged with the motors");
+}
+
 TEST_CASE("overtravel stands by hinge, and in the table, and is warned of without a stop") {
   Scene scene = read_scene_file(three_panel_file());
   Outcome outcome = simulate(scene, 1);

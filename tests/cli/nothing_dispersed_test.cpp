@@ -1,0 +1,99 @@
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// All wings latch within 6 s: 40 runs would show 90 % at 90 %, were they different ones.
+Json undispersed(Json dispersions) {
+  Json json = quick_campaign(40);
+  json["dispersions"] = std::move(dispersions);
+  json["requirements"] = {
+      {{"output", "deployed"}, {"probability", 0.9}, {"confidence", 0.9}},
+      {{"output", "root.latch_time"}, {"max", 6}, {"probability", 0.9}, {"confidence", 0.9}},
+      {{"output", "root.latch_time"}, {"max", 1}, {"probability", 0.9}, {"confidence", 0.9}}};
+  return json;
+}
+
+Json stowed_torque_by(Json distribution) {
+  return {{"name", "s"},
+          {"distribution", std::move(distribution)},
+          {"apply", "scale"},
+          {"to", {"hinges.root.spring.torque_stowed"}}};
+}
+
+constexpr const char* one_run_warning = "nothing is dispersed: all 40 runs are the same run";
+
+} // namespace
+
+TEST_CASE("runs that are all the same show no probability, and say so everywhere") {
+  const Folder folder;
+  const auto constant = parse_json(R"({ "type": "constant", "value": 1 })");
+  const auto one_atom =
+      parse_json(R"({ "type": "discrete", "values": [1, 2], "weights": [1, 0] })");
+  for (const Json& dispersions : {Json::array(), Json::array({stowed_torque_by(constant)}),
+                                  Json::array({stowed_torque_by(one_atom)})}) {
+    const std::string file = folder.write("c.json", undispersed(dispersions).dump());
+    CAPTURE(dispersions.dump());
+    const auto checked = run_program(folder, {"check", file});
+    CHECK(checked.code == 0);
+    CHECK_THAT(checked.error, HasFacts({"/dispersions", "all 40 runs are the same run"}));
+    CHECK(run_program(folder, {"check", file, "--strict"}).code == 2);
+    const std::string with_rows = folder.path() / "rows", without = folder.path() / "no_rows";
+    for (const std::string& out : {with_rows, without}) {
+      std::filesystem::remove_all(out);
+      std::vector<std::string> words{"run", file, "--out", out, "--table"};
+      if (out == without) words.emplace_back("--no-rows");
+      const auto ran = run_program(folder, words);
+      CHECK(ran.code == 1);
+      CHECK_THAT(ran.out, Catch::Contains("nothing is dispersed"));
+      CHECK_THAT(ran.error, Catch::Contains("deployed") && Catch::Contains("undecided") &&
+                                Catch::Contains("No probability is shown"));
+      CHECK(ran.error.find("--until") == std::string::npos); // more of the same run decide nothing
+      const Json summary = parse_json_file(std::filesystem::path(out) / summary_file);
+      CHECK(summary["warnings"][0].get<std::string>().starts_with(one_run_warning));
+      const Json& requirements = summary["requirements"];
+      CHECK(requirements[0]["verdict"] == "undecided");
+      CHECK(requirements[0]["guaranteed"]["share"].is_null());
+      CHECK(requirements[1]["verdict"] == "undecided");
+      CHECK(requirements[1]["margin"].is_null());
+      CHECK(requirements[2]["verdict"] == "fail"); // one run is enough to break it
+    }
+    CHECK(run_program(folder, {"report", with_rows}).code == 0);
+    const Json set = page_data(with_rows + "/report.html")["sets"][0];
+    CHECK(set["warnings"][0].get<std::string>().starts_with(one_run_warning));
+    CHECK(set["requirements"][0]["verdict"] == "open");
+    CHECK(set["requirements"][0]["guaranteed"].is_null());
+  }
+}
+
+TEST_CASE("a law with any spread, in the campaign or in a case, is not warned of") {
+  const Folder folder;
+  Json json = undispersed(Json::array(
+      {stowed_torque_by(parse_json(R"({ "type": "normal", "mean": 1, "std": 0.01 })"))}));
+  const auto error = [&] {
+    return run_program(folder, {"check", folder.write("c.json", json.dump())}).error;
+  };
+  CHECK(error().find("the same run") == std::string::npos);
+  json["dispersions"][0]["distribution"] = parse_json(R"({ "type": "constant", "value": 1 })");
+  json["cases"] = parse_json(R"([ { "name": "worn", "distributions": {
+    "s": { "type": "normal", "mean": 1, "std": 0.01 } } } ])");
+  CHECK(error().find("the same run") == std::string::npos);
+}
+
+TEST_CASE("check names correlated dispersions that a stratified design does not stratify") {
+  const Folder folder;
+  Json json = quick_campaign(40);
+  json["correlations"] =
+      parse_json(R"([ { "between": ["root_spring", "mass.panel_1"], "spearman": 0.5 } ])");
+  const auto told = [&](const char* design) {
+    json["sampling"]["design"] = design;
+    return run_program(folder, {"check", folder.write("c.json", json.dump())}).out;
+  };
+  CHECK_THAT(told("latin_hypercube"), Catch::Contains("root_spring is not stratified"));
+  CHECK_THAT(told("sobol"), Catch::Contains("root_spring is not stratified"));
+  CHECK_THAT(told("random"), !Catch::Contains("not stratified"));
+}

@@ -1,0 +1,241 @@
+#include "distributions/copula.hpp"
+#include "montecarlo/analyses/rare/rare_event.hpp"
+#include "montecarlo/analyses/rare/rare_report.hpp"
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+const auto nothing_told = [](const StudyProgress&) {};
+
+/// A lid: a constant spring of 1.2 N·m turns it through 1.5 rad in √(2·1.5/1.2) s, for an inertia of 1 kg·m².
+Json lid() {
+  return parse_json(R"({
+    "scene": { "name": "lid", "base": { "motion": "fixed" },
+      "bodies": [ { "name": "lid", "mass": 3, "inertia": 0.25 } ],
+      "hinges": [ { "name": "h", "parent": "base", "child": "lid", "parent_point": [0, 0],
+                    "child_point": [-0.5, 0], "angle": { "stowed": 0, "latched": 1.5 },
+                    "spring": { "torque_stowed": 1.2, "torque_latched": 1.2 },
+                    "latch": { "stiffness": 2000, "dissipation": 0.3 }, "release": { "time": 0 } } ] },
+    "sampling": { "runs": 400, "seed": 3 } })");
+}
+
+Json discrete_law(const std::string& name, const std::vector<double>& values,
+                  const std::vector<double>& weights, const std::string& apply,
+                  const std::string& to) {
+  return {{"name", name},
+          {"distribution", {{"type", "discrete"}, {"values", values}, {"weights", weights}}},
+          {"apply", apply},
+          {"to", {to}}};
+}
+
+Json normal_law(const std::string& name, double mean, double std, const std::string& apply,
+                const std::string& to) {
+  return {{"name", name},
+          {"distribution", {{"type", "normal"}, {"mean", mean}, {"std", std}}},
+          {"apply", apply},
+          {"to", {to}}};
+}
+
+/// A release that fails with this probability, after a delay of 5 ± 0.4 s.
+Json failing_lid(double probability) {
+  Json json = lid();
+  json["dispersions"] = {discrete_law("nofire", {0, 1}, {1 - probability, probability}, "set",
+                                      "hinges.h.release.fails"),
+                         normal_law("D", 5, 0.4, "set", "hinges.h.release.delay")};
+  return json;
+}
+
+RareResult estimate_of(const Json& campaign, RareOptions options) {
+  ThreadEvaluator evaluator({.threads = 2}, never);
+  return estimate_rare_event(campaign_of(campaign), options, evaluator, nothing_told);
+}
+
+double upper_tail(double beta) { return std::erfc(beta / std::sqrt(2)) / 2; }
+
+/// How many of the seeds' bounds cover the probability.
+int covered(Json campaign, RareOptions options, double exact, int seeds) {
+  int count = 0;
+  for (int seed = 0; seed < seeds; ++seed) {
+    campaign["sampling"]["seed"] = seed;
+    const RareEstimate found = estimate_of(campaign, options).estimate;
+    INFO("seed " << seed << ": " << found.interval.lower << " … " << found.interval.upper);
+    CHECK(found.interval.lower > 0);
+    CHECK(found.interval.upper < 3 * exact);
+    count +=
+        found.interval.lower <= exact * (1 + 1e-12) && exact <= found.interval.upper * (1 + 1e-12);
+  }
+  return count;
+}
+
+double sum_of_probabilities(const Strata& strata) {
+  double sum = strata.left_out;
+  for (const Stratum& stratum : strata.list) sum += stratum.probability;
+  return sum;
+}
+
+/// n discrete dispersions whose last value has this probability.
+Json rare_values(int count, double probability) {
+  Json json = lid();
+  json["dispersions"] = Json::array();
+  for (int k = 0; k < count; ++k)
+    json["dispersions"].push_back(discrete_law("d" + std::to_string(k), {1, 1.001},
+                                               {1 - probability, probability}, "scale",
+                                               "bodies.lid.inertia"));
+  return json;
+}
+
+} // namespace
+
+TEST_CASE("a release that fails once in 100,000: bounds of 12 seeds cover it", "[rare][long]") {
+  constexpr int seeds = 12;
+  const RareOptions options{.samples = 100, .repeats = 2};
+  CHECK(covered(failing_lid(1e-5), options, 1e-5, seeds) == seeds); // certain within the stratum
+  CHECK(covered(failing_lid(5e-4), options, 5e-4, seeds) == seeds);
+}
+
+TEST_CASE("a rare stiffness among common ones, and a rare failure beside late deployments",
+          "[rare][long]") {
+  constexpr int seeds = 12;
+  Json island = lid();
+  island["scene"]["hinges"][0].erase("release");
+  island["dispersions"] = {
+      discrete_law("k", {2000, 9000}, {0.9997, 0.0003}, "set", "hinges.h.latch.stiffness"),
+      normal_law("s", 1, 0.05, "scale", "hinges.h.spring.scale")};
+  CHECK(covered(island, {.event = {"h.peak_moment", 120, true}, .samples = 100, .repeats = 2}, 3e-4,
+                seeds) >= 10);
+  // it latches later than 8 s: never, or after a delay of 8 s less the travel's time
+  const double late = upper_tail((8 - std::sqrt(2 * 1.5 / 1.2) - 5) / 0.4);
+  const double exact = 5e-4 + (1 - 5e-4) * late;
+  CHECK(covered(failing_lid(5e-4),
+                {.event = {"h.latch_time", 8, true}, .samples = 500, .repeats = 5}, exact,
+                seeds) >= 10);
+}
+
+TEST_CASE("two rare values that only together stall the wing: one in a million", "[rare]") {
+  Json json = lid();
+  json["scene"]["hinges"][0]["friction"] = {{"coulomb", 0.1}, {"model", "exact"}};
+  const std::string friction = "hinges.h.friction.coulomb";
+  json["dispersions"] = {discrete_law("a", {0, 0.7}, {0.999, 0.001}, "add", friction),
+                         discrete_law("b", {0, 0.7}, {0.999, 0.001}, "add", friction),
+                         normal_law("s", 1, 0.01, "scale", "hinges.h.spring.scale")};
+  const RareResult found = estimate_of(json, {.samples = 500, .repeats = 3});
+  CHECK(found.strata.size() == 4);
+  CHECK(found.estimate.probability == Approx(1e-6).epsilon(0.01));
+  CHECK(found.estimate.interval.lower <= 1e-6);
+  CHECK(found.estimate.interval.upper >= 1e-6);
+  REQUIRE(found.likeliest);
+  CHECK(found.likeliest->draws[0] == 0.7);
+  CHECK(found.likeliest->draws[1] == 0.7);
+}
+
+TEST_CASE("strata share all probability, and are one without rare values", "[rare]") {
+  const auto strata = [](const Json& json, long samples = 2000) {
+    return strata_of(campaign_of(json), {.samples = samples});
+  };
+  CHECK(strata(rare_values(1, 0.3)).list.size() == 1);
+  CHECK(strata(rare_values(1, 0.3)).unseen.empty());
+  CHECK(strata(rare_values(1, 0.016)).list.size() == 1); // 32 runs of a level have it
+  CHECK(strata(rare_values(1, 0.014)).list.size() == 2);
+  const Strata ten = strata(rare_values(10, 1e-3));
+  CHECK(ten.list.size() == 64); // none, one or two of ten are 56; three have 1e-9 each
+  CHECK(ten.list[55].rare.size() == 2);
+  CHECK(ten.list.front().rare.empty());
+  CHECK(ten.list.front().probability == Approx(std::pow(0.999, 10)));
+  CHECK(sum_of_probabilities(ten) == Approx(1).epsilon(1e-12));
+  CHECK(ten.left_out < 2e-6);
+  Json doubled = lid(); // equal values of an empirical law are one
+  std::vector<double> values(999, 1.0);
+  values.push_back(1.5);
+  doubled["dispersions"] = {{{"name", "e"},
+                             {"distribution", {{"type", "empirical"}, {"values", values}}},
+                             {"apply", "scale"},
+                             {"to", {"bodies.lid.inertia"}}}};
+  REQUIRE(strata(doubled).list.size() == 2);
+  CHECK(strata(doubled).list[1].probability == Approx(1e-3));
+  CHECK(describe(strata(doubled).list[1]) == "e = 1.5");
+}
+
+TEST_CASE("draws of a stratum have its value, and correlated draws their conditional law",
+          "[rare]") {
+  constexpr double p = 1e-4, rho = 0.7;
+  Json json = lid();
+  json["dispersions"] = {
+      discrete_law("z_rare", {1, 2, 3}, {0.5, p, 0.5 - p}, "scale", "bodies.lid.inertia"),
+      normal_law("a_normal", 1, 1e-3, "scale", "hinges.h.spring.scale")};
+  json["correlations"] = {{{"between", {"a_normal", "z_rare"}}, {"spearman", rho}}};
+  const Campaign campaign = campaign_of(json);
+  const Strata strata = strata_of(campaign, {});
+  REQUIRE(strata.list.size() == 2);
+  const Stratum& rare = strata.list[1];
+  CHECK(rare.probability == Approx(p).epsilon(1e-12));
+  constexpr long runs = 4000;
+  std::vector<NormalPoint> points;
+  RandomStream random(1, 0, stream_name("strata"));
+  const auto normal_draw = [&] {
+    return inverse(Normal{}, tails_of_uniform(open_uniform(random())));
+  };
+  for (long k = 0; k < runs; ++k) points.push_back(within(rare, {normal_draw(), normal_draw()}));
+  const RunPlan plan(campaign, [&](long k, std::span<Tails> u) {
+    for (std::size_t i = 0; i < u.size(); ++i)
+      u[i] = unit_point(points[static_cast<std::size_t>(k)][i]);
+  });
+  double sum = 0, square = 0;
+  for (long k = 0; k < runs; ++k) {
+    std::vector<double> draws(2);
+    plan.draw(k, draws);
+    CHECK(draws[0] == 2);
+    const double z = (draws[1] - 1) / 1e-3;
+    sum += z, square += z * z;
+  }
+  // between Φ⁻¹(0.5) and Φ⁻¹(0.5001) the discrete law's normal variable is 1.25e-4: the other one is
+  // normal about r times that, with the variance 1 − r²
+  const double r = normal_correlation(rho), variance = 1 - r * r;
+  CHECK(std::abs(sum / runs - r * 1.25e-4) < 4 * std::sqrt(variance / runs));
+  CHECK(std::abs(square / runs - variance) < 4 * variance * std::sqrt(2.0 / runs));
+}
+
+TEST_CASE("values that no first level may draw keep the upper bound at that of plain sampling",
+          "[rare]") {
+  Json json = lid();
+  std::vector<double> values;
+  for (int k = 0; k < 5000; ++k) values.push_back(1 + 1e-6 * k);
+  json["dispersions"] = {{{"name", "measured"},
+                          {"distribution", {{"type", "empirical"}, {"values", values}}},
+                          {"apply", "scale"},
+                          {"to", {"hinges.h.spring.scale"}}},
+                         normal_law("J", 1, 0.02, "scale", "bodies.lid.inertia")};
+  const RareOptions options{.event = {"h.latch_time", 1.75, true}, .samples = 200, .repeats = 2};
+  const RareResult found = estimate_of(json, options);
+  REQUIRE(found.unseen.size() == 1);
+  CHECK(found.unseen[0].first == "measured");
+  CHECK(found.unseen[0].second == Approx(400.0 / 5000));
+  CHECK(found.estimate.interval.upper >= clopper_pearson(0, 400, 0.95).upper);
+  CHECK(doubts_of(found).back().find("\"measured\"") != std::string::npos);
+  values.resize(20); // each is drawn 20 times
+  json["dispersions"][0]["distribution"]["values"] = values;
+  CHECK(estimate_of(json, options).unseen.empty());
+}
+
+TEST_CASE("the report of strata has each one's probability, and the sum", "[rare]") {
+  const RareOptions options{.samples = 200, .repeats = 2};
+  const Json campaign = failing_lid(1e-5);
+  const RareResult found = estimate_of(campaign, options);
+  const std::string text = rare_text(found, options, campaign_of(campaign));
+  CHECK_THAT(text, Catch::Contains("P(not deployed) = 1e-05, 95 % bounds") &&
+                       Catch::Contains("nofire = 1") && Catch::Contains("no rare value"));
+  const Json json = rare_json(found, options, campaign_of(campaign), {});
+  CHECK(json["method"] == "stratified_subset_simulation");
+  REQUIRE(json["strata"].size() == 2);
+  CHECK(json["strata"][1]["rare_values"]["nofire"] == 1);
+  CHECK(json["strata"][1]["probability"].get<double>() == Approx(1e-5));
+  CHECK(json["strata"][1]["event"] == 1);
+  CHECK(json["warnings"].empty());
+}
