@@ -255,54 +255,6 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
   Json by_status = Json::object();
   for (const Status status : statuses)
     by_status[to_string(status)] = result.statuses[static_cast<std::size_t>(status)];
-<<<<<<< HEAD
-  for (const SubsetEstimate& estimate : result.estimates)
-    repeats.push_back(estimate_json(estimate, options.event));
-  return {{stamp_key, about},
-          {"event", describe(options.event)},
-          {"beyond", event_json(options.event)},
-          {"case", campaign.of_case.empty() ? Json(nullptr) : Json(campaign.of_case)},
-          {"probability", all.probability},
-          {"reached", all.reached},
-          {"method", all.plain ? "plain_sampling" : "subset_simulation"},
-          {"first_levels", {{"runs", all.draws}, {"with_event", all.hits}}},
-          {"confidence", options.confidence},
-          {"lower", all.interval.lower},
-          {"upper", all.interval.upper},
-          {"variation",
-           {{"value", json_number(all.variation)},
-            {"from_chains", json_number(all.from_chains)},
-            {"from_repeats", json_number(all.from_spread)}}},
-          {"runs", all.evaluations},
-          {"bias", all.bias},
-          {"plain_runs", json_number(all.plain_runs)},
-          {"plain_sampling_is_enough", all.plain_is_enough()},
-          {"definitions",
-           {{"probability",
-             "mean of independent subset simulations; of those that did not reach the event, the "
-             "estimated probability of the last level that they did: more than the event's, but "
-             "an estimate; 0 of one whose runs are all equally far from the event; by "
-             "plain_sampling: with_event of the runs of the first_levels"},
-            {"bias", "by how much the probability is too large on average, in units of it: 0.4 of "
-                     "a repeat's squared variation, as measured on events of known probability; "
-                     "not taken off, and not in the bounds"},
-            {"variation", "coefficient of variation of the mean: by the correlation along chains, "
-                          "by the repeats' spread, and the larger of the two"},
-            {"bounds", "probability exp(+- q variation), q normal or Student's, the wider; no "
-                       "lower one where a repeat did not reach the event; by plain_sampling: "
-                       "Clopper-Pearson, two-sided"},
-            {"plain_runs", "runs of plain sampling for the same variation"},
-            {"distance", "of the likeliest run: length of the vector of its normal coordinates, "
-                         "of rows drawn together one coordinate"},
-            {"z", "normal coordinate of a draw: standard normal and independent of the others; 0 "
-                  "at the law's median, of a normal law (draw - mean)/std; of a correlated draw "
-                  "the part that draws before it, by name, do not explain"}}},
-          {"samples", options.samples},
-          {"repeats", repeats},
-          {"statuses", by_status},
-          {"likeliest",
-           result.likeliest ? likeliest_json(*result.likeliest, campaign) : Json(nullptr)}};
-=======
   return {
       {stamp_key, about},
       {"event", describe(options.event)},
@@ -338,6 +290,11 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
                    "lower one where a repeat did not reach the event; by plain_sampling: "
                    "Clopper-Pearson, two-sided"},
         {"plain_runs", "runs of plain sampling for the same variation"},
+        {"distance", "of the likeliest run: length of the vector of its normal coordinates, "
+                     "of rows drawn together one coordinate"},
+        {"z", "normal coordinate of a draw: standard normal and independent of the others; 0 "
+              "at the law's median, of a normal law (draw - mean)/std; of a correlated draw "
+              "the part that draws before it, by name, do not explain"},
         {"strata", "draws with rare values of discrete dispersions are simulated by themselves: "
                    "probability is that of the draws, exact; event is that of the event among "
                    "them; the sum of the products is the result; null without rare values"},
@@ -351,7 +308,6 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
       {"statuses", by_status},
       {"likeliest",
        result.likeliest ? likeliest_json(*result.likeliest, campaign) : Json(nullptr)}};
->>>>>>> stats
 }
 
 std::string rare_text(const RareResult& result, const RareOptions& options,
