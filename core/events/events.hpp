@@ -56,8 +56,10 @@ public:
 
   /// The earliest event in the step. The interpolant decides whether an event happens. Overwrites x and dxdt.
   /// @param kinks which kinks are events too; none: none is
+  /// @param releases whether a stuck hinge may let go
   [[nodiscard]] std::optional<Due<T>> first(const Step<T>& step, State<T>& x, State<T>& dxdt,
-                                            const std::optional<KinkLimit>& kinks = std::nullopt) {
+                                            const std::optional<KinkLimit>& kinks = std::nullopt,
+                                            bool releases = true) {
     std::optional<Due<T>> first;
     if (kinks && (system_.wing().is_real() || system_.layout().smoothed))
       if (const auto found = KinkSearch<T, AnySystem>(system_, step, *kinks).first())
@@ -76,7 +78,7 @@ public:
       if (latches_.may_open(i)) offer(Event::open, i, first_opening(system_, step, i), T(0));
       if (releases_.held() > 0) offer(Event::seen, i, releases_.first_passage(step, i), T(0));
     }
-    if (system_.work().stuck > 0) {
+    if (releases && system_.work().stuck > 0) {
       const auto release = holding_.first_release(system_, step, x, dxdt);
       if (release)
         offer(release->graze ? Event::graze : Event::release, release->hinge, release->s,

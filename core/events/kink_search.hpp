@@ -20,9 +20,7 @@ public:
   };
 
   [[nodiscard]] std::optional<Found> first() {
-    const int hinges = limit_.refused ? 0 : static_cast<int>(system_.wing().real.size());
-    for (int i = 1; i < hinges; ++i)
-      if (!system_.sticks(i)) search_hinge(i);
+    if (!limit_.refused) search_hinges();
     const int motors = static_cast<int>(system_.wing().motors.size());
     for (int i = 1; i < motors; ++i)
       if (!system_.sticks(i) && system_.motor_runs(i)) search_motor(i);
@@ -34,8 +32,22 @@ public:
     return first_;
   }
 
+  /// The fraction of the step at which the first kink of a hinge's own laws lies that matters.
+  [[nodiscard]] std::optional<T> first_of_hinges() {
+    counts_twists_ = true;
+    search_hinges();
+    if (!first_) return std::nullopt;
+    return first_->s;
+  }
+
 private:
   using Of = typename Kink<T>::Of;
+
+  void search_hinges() {
+    const int hinges = static_cast<int>(system_.wing().real.size());
+    for (int i = 1; i < hinges; ++i)
+      if (!system_.sticks(i)) search_hinge(i);
+  }
 
   void search_hinge(int i) {
     const RealHingeTerms<T>& real = system_.wing().real[i];
@@ -51,24 +63,20 @@ private:
   void search_rates(int i, const Quintic<T>& rate) {
     using std::abs;
     const RealHingeTerms<T>& real = system_.wing().real[i];
-    const HingeMode<T>& mode = system_.work().modes[i];
-    if (real.has_damper && real.damper.law == DamperLaw::power && mode.damper_acts > T(0)) {
-      const T turn = abs(T(1) - real.damper.exponent) * real.damper.near_zero;
-      for (const T& at : {T(-real.damper.rate), T(real.damper.rate)})
-        offer_passage({Of::rate, i, at, T(0)}, rate, {i, T(0), turn, T(0)});
-    }
-    search_stop(i, rate, real.stop, mode.in_contact);
-    search_stop(i, rate, real.far_stop, mode.in_far_contact);
+    for_each_kink_of_rate(
+        real, system_.work().modes[i], [&](const T& there, bool acts, const HingeStop<T>* stop) {
+          if (!acts) return;
+          const T turn = stop ? turn_of(*stop, i)
+                              : T(abs(T(1) - real.damper.exponent) * real.damper.near_zero);
+          offer_passage({Of::rate, i, there, T(0)}, rate, {i, T(0), turn, T(0)});
+        });
   }
 
-  void search_stop(int i, const Quintic<T>& rate, const StopTerms<T>& terms, const T& in_contact) {
-    if (!(in_contact > T(0) && terms.dissipation > T(0))) return;
-    const HingeStop<T> stop{terms, in_contact};
-    const T depth = larger(stop.depth(step_.x[system_.layout().angle(i)]),
-                           stop.depth(step_.x1[system_.layout().angle(i)]));
-    const T turn = terms.stiffness * terms.dissipation * larger(depth, T(0));
-    offer_passage({Of::rate, i, T(terms.sense / terms.dissipation), T(0)}, rate,
-                  {i, T(0), turn, T(0)});
+  /// Of the moment of a stop, at the rate at which it lets go.
+  [[nodiscard]] T turn_of(const HingeStop<T>& stop, int i) const {
+    const int angle = system_.layout().angle(i);
+    const T depth = larger(stop.depth(step_.x[angle]), stop.depth(step_.x1[angle]));
+    return stop.terms.stiffness * stop.terms.dissipation * larger(depth, T(0));
   }
 
   void search_motor(int i) {
@@ -85,9 +93,10 @@ private:
   void search_knots(const Curve& curve, const T& weight, int i, const Quintic<T>& angle) {
     using std::abs;
     if (limit_.leaps_only && !leaps_over(curve, angle)) return;
-    for_each_knot(curve, angle, [&](const T& knot, const T& turn, const T& bend) {
+    const T size = abs(weight);
+    for_each_knot(curve, angle, [&](const T& knot, const T& turn, const T& bend, const T& twist) {
       offer_passage({Of::angle, i, knot, T(0)}, angle,
-                    {i, T(0), abs(weight) * turn, abs(weight) * bend});
+                    {i, T(0), size * turn, size * bend, size * twist});
     });
   }
 
@@ -98,7 +107,8 @@ private:
                                       static_cast<double>(way.high));
   }
 
-  /// Calls visit(knot, jump of the slope, jump of half the second derivative) for the knots in the hull of u.
+  /// Calls visit(knot, jump of the slope, of half the second derivative and of a sixth of the third) for the knots in the
+  /// hull of u.
   template <class Visit>
   static void for_each_knot(const Curve& curve, const Quintic<T>& u, Visit&& visit) {
     using std::abs;
@@ -113,7 +123,8 @@ private:
       const double way = k > 0 ? knots[k] - knots[k - 1] : 0;
       const double slope = before[1] + way * (2 * before[2] + way * 3 * before[3]);
       const double half_bend = before[2] + way * 3 * before[3];
-      visit(knot, T(abs(T(after[1] - slope))), T(abs(T(after[2] - half_bend))));
+      visit(knot, T(abs(T(after[1] - slope))), T(abs(T(after[2] - half_bend))),
+            T(abs(T(after[3] - before[3]))));
     }
   }
 
@@ -143,16 +154,18 @@ private:
     Quintic<T> travel = angle;
     for (T& c : travel) c = loop.sense_a * (c - loop.stowed_a);
     if (limit_.leaps_only && !leaps_over(*loop.table, travel)) return;
-    for_each_knot(*loop.table, travel, [&](const T& knot, const T& turn, const T& bend) {
-      const T angle_there = fused(loop.sense_a, knot, loop.stowed_a);
-      const Kink<T> kink{Of::angle, loop.first, angle_there, T(0)};
-      const T gear = largest_gear(loop);
-      offer_passage(kink, angle,
-                    {loop.first, turn * elastic,
-                     fused(gear * loop.stiffness, turn, T(2) * bend * elastic),
-                     gear * loop.stiffness * bend});
-      offer_passage(kink, angle, {loop.second, T(0), loop.stiffness * turn, loop.stiffness * bend});
-    });
+    for_each_knot(
+        *loop.table, travel, [&](const T& knot, const T& turn, const T& bend, const T& /*twist*/) {
+          const T angle_there = fused(loop.sense_a, knot, loop.stowed_a);
+          const Kink<T> kink{Of::angle, loop.first, angle_there, T(0)};
+          const T gear = largest_gear(loop);
+          offer_passage(kink, angle,
+                        {loop.first, turn * elastic,
+                         fused(gear * loop.stiffness, turn, T(2) * bend * elastic),
+                         gear * loop.stiffness * bend});
+          offer_passage(kink, angle,
+                        {loop.second, T(0), loop.stiffness * turn, loop.stiffness * bend});
+        });
   }
 
   /// The ends of a latch's smooth steps h(u): h'' jumps there by 6. At S = 0 nothing is seen of it, for S rises from 0 as
@@ -167,7 +180,7 @@ private:
     const Quintic<T> angle = step_.coordinate(at.angle(i), at.freedoms());
     for (const T& beyond : {T(0), epsilon})
       offer_passage({Of::angle, i, fused(hinge.sense, beyond, hinge.latched), T(0)}, angle,
-                    {i, T(0), T(0), bend, true});
+                    {i, T(0), T(0), bend, T(0), true});
     const Quintic<T> rate = step_.rate_of(angle, at.angle(i), at.freedoms());
     offer_passage({Of::latch, i, epsilon, T(0)},
                   cubic_hermite(step_.h, step_.x[k], step_.dxdt[k], step_.x1[k], step_.dxdt1[k]),
@@ -214,8 +227,9 @@ private:
     const T mobility = change.of_latch ? T(1) : mobility_bound(system_, change.hinge);
     const T tau = limit_.refused ? step_.h : T(step_.h * smaller(s, T(T(1) - s)));
     const T way = speed * tau;
+    const T third = counts_twists_ ? T(way * change.twist / T(4)) : T(0);
     const T impulse =
-        tau * (change.jump + way * fused(T(0.5), change.turn, way * change.bend / T(3)));
+        tau * (change.jump + way * fused(T(0.5), change.turn, way * (change.bend / T(3) + third)));
     const T rate = larger(T(abs(step_.x[r])), T(abs(step_.x1[r])));
     return mobility * impulse > fused(T(limit_.rtol), rate, T(limit_.atol));
   }
@@ -223,6 +237,7 @@ private:
   const AnySystem& system_;
   const Step<T>& step_;
   const KinkLimit limit_;
+  bool counts_twists_ = false;
   std::optional<Found> first_;
 };
 

@@ -15,6 +15,9 @@
 ///
 /// (mobility_bound). Where (1) is below the tolerance of a step, the kink does not matter. The same holds of Ṡ, the rate of a
 /// smoothed latch's own state, with σ = 1.
+///
+/// At a knot of a table the third derivative jumps too: twist·abs(u − b)³ adds abs(u̇)³ twist τ⁴/4 to (1). It counts where an
+/// explicit method has refused a step, for it is then the likeliest cause. Steps that are accepted have it below the tolerance.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -50,6 +53,7 @@ template <class T> struct Kink {
 template <class T> struct KinkChange {
   int hinge;
   T jump, turn, bend;
+  T twist = T(0);        ///< counts in first_of_hinges alone
   bool of_latch = false; ///< of Ṡ of the hinge's smoothed latch, not of the moment
 };
 

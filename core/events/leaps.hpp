@@ -136,6 +136,29 @@ template <class T, class AnySystem>
   return found;
 }
 
+/// Whether a hinge may meet a kink of its own laws inside a step: the first test of KinkSearch::first_of_hinges. For a
+/// pack: in which lanes. @pre as of may_leap_over_tables
+template <class T, class AnySystem>
+[[nodiscard]] Truth<T> may_meet_kink(const AnySystem& system, const Step<T>& step) {
+  Truth<T> found{};
+  const Layout& at = system.layout();
+  for (int i = 1; i < static_cast<int>(system.wing().real.size()); ++i) {
+    const RealHingeTerms<T>& hinge = system.wing().real[i];
+    if (hinge.has_tables()) {
+      const ValueRange<T> way = hull(step.coordinate(at.angle(i), at.freedoms()));
+      const TablePiece<T>& piece = system.work().pieces[i];
+      found = found || !(way.low >= piece.low && way.high < piece.high);
+    }
+    for_each_kink_of_rate(hinge, system.work().modes[i],
+                          [&](const T& there, const Truth<T>& acts, const HingeStop<T>* /*stop*/) {
+                            if (!any(acts)) return;
+                            const ValueRange<T> rate = hull(step.rate(at.angle(i), at.freedoms()));
+                            found = found || (acts && !(rate.low > there) && !(rate.high < there));
+                          });
+  }
+  return found;
+}
+
 /// The same of what a loop's table is between two knots.
 template <class T, class AnySystem>
 [[nodiscard]] Truth<T> may_leap_over_gears(const AnySystem& system, const Step<T>& step) {

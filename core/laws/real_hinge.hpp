@@ -55,6 +55,23 @@ template <class T> struct RealHingeTerms {
   [[nodiscard]] bool has_tables() const { return spring.curve || harness.curve || friction.level; }
 };
 
+/// Calls visit(rate, acts, stop) for each rate at which the law of the damper or of a stop has a kink.
+/// @tparam Visit acts: whether the law acts now, for a pack in which lanes; stop: null for the damper
+template <class T, class Visit>
+void for_each_kink_of_rate(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode,
+                           Visit&& visit) {
+  if (hinge.has_damper && hinge.damper.law == DamperLaw::power)
+    for (const T& rate : {T(-hinge.damper.rate), hinge.damper.rate})
+      visit(rate, mode.damper_acts > T(0), static_cast<const HingeStop<T>*>(nullptr));
+  const auto offer = [&visit](const StopTerms<T>& terms, const T& in_contact) {
+    if (!terms.present) return;
+    const HingeStop<T> stop{terms, in_contact};
+    visit(T(terms.sense / terms.dissipation), in_contact > T(0) && terms.dissipation > T(0), &stop);
+  };
+  offer(hinge.stop, mode.in_contact);
+  offer(hinge.far_stop, mode.in_far_contact);
+}
+
 /// Calls visit(law) for each law of (1) that the hinge has and that has no table. A new law is a line here.
 template <class T, class Visit>
 void for_each_law_without_table(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode,

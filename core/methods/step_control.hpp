@@ -45,7 +45,7 @@ template <class P> struct StepMemory {
   static constexpr double longest_growth = 10;
 
   P log_error = P(least_log_error); ///< log2 of the last accepted step's scaled error
-  P most = P(longest_growth);       ///< of the next factor; 1 after a rejection
+  P most = P(longest_growth);       ///< of the next factor; 1 after a rejection for its error
   P h = P(0);                       ///< the last accepted step, s; 0 without `foresee`
 
   void accepted(const P& error, const P& step) {
@@ -54,6 +54,9 @@ template <class P> struct StepMemory {
     h = select(h > P(0), step, h);
   }
   void rejected() { most = P(1); }
+  /// The step is rejected for what it meets at this fraction of it, and made again to there: the one after may be as long
+  /// as this one was.
+  void cut(const P& fraction) { most = smaller(P(longest_growth), P(P(1) / fraction)); }
   /// Makes step_factor extrapolate the next step from now on.
   void foresee() { h = P(1e-300); }
 };

@@ -143,19 +143,32 @@ private:
       if (!any(rises)) continue;
       const Mask keeps = moment.keeps_direction();
       may_rise_[i] = may_rise_[i] || (rises && keeps);
-      const Mask turns = rises && !keeps;
-      if (any(turns)) {
-        const Mask near = turns && samples_come_near(moments_[i], moment);
+      Mask to_ends = rises && keeps;
+      if (const Mask turns = rises && !keeps; any(turns)) {
+        const std::array<P, 9> samples = moment_samples<P>(moment);
+        const Mask near = turns && !(most_by_samples(samples) <= moments_[i].value);
         may_rise_[i] = may_rise_[i] || near;
-        asks = asks || near;
+        const Mask to_end = near && rises_to_end(samples, moment, step);
+        to_ends = to_ends || to_end;
+        asks = asks || (near && !to_end);
       }
-      if (!any(rises && keeps)) continue;
+      if (!any(to_ends)) continue;
       begin_to_raise();
       PeakOf<P> peak = moments_[i];
       raise_to_ends(peak, moment, step);
-      assign_where(rises && keeps, raised_moments_[i], peak);
+      assign_where(to_ends, raised_moments_[i], peak);
     }
     return asks;
+  }
+
+  /// The lanes in which raise_moment finds the peak at the step's end, within rounding of the time too.
+  template <class Moment>
+  [[nodiscard]] static Mask rises_to_end(const std::array<P, 9>& samples, const Moment& moment,
+                                         const Step<P>& step) {
+    if (!any(samples.back() > samples.front())) return Mask{};
+    const P end = ((step.t + step.h) - step.t) / step.h;
+    return end > P(1 - next_to_an_end) &&
+           wingspread::rises_to_end(samples, [&](const P& s) { return P(abs(moment(s))); });
   }
 
   /// As raise_held_moment.

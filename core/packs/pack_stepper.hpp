@@ -108,7 +108,8 @@ public:
     peaks_.unload(lane, result, moved);
     holds_.unload(lane, result, M == BaseMotion::free, moved);
     result.evaluations = (result.trial_steps + 1) * Formula::evaluations + peaks_.evaluations(lane);
-    result.has_no_event = asks_after_[3].bits[lane] == 0;
+    result.none = {asks_after_[3].bits[lane] == 0, kinks_.bits[lane] == 0,
+                   releases_.bits[lane] == 0};
     result.peaks_searched = result.moments_may_rise && accepted_.bits[lane] != 0;
     if (result.peaks_searched) peaks_.unload_search(lane, result);
     if constexpr (M == BaseMotion::free) {
@@ -204,23 +205,30 @@ private:
     Mask asks = busy && (tried_enough || near_limit || (accepted && may_leave));
     asks_after_[0] = asks;
     asks = asks || (accepted && events_.lie_inside(system_, step_));
-    if (!wing_.motors.empty()) asks = asks || (accepted && motors_may_pass_limit());
+    kinks_ = Mask{};
+    if (!wing_.motors.empty()) kinks_ = accepted && motors_may_pass_limit();
     if (!wing_.loops.empty()) {
       const P tau = select(accepted, P(P(0.5) * step_.h), step_.h);
-      asks = asks || (busy && moments_may_jump(system_, step_, tau, rtol_, atol_));
-      asks = asks || (accepted && may_leap_over_gears(system_, step_));
+      kinks_ = kinks_ || (busy && moments_may_jump(system_, step_, tau, rtol_, atol_));
+      kinks_ = kinks_ || (accepted && may_leap_over_gears(system_, step_));
     }
-    if (!wing_.real.empty()) asks = asks || (accepted && may_leap_over_tables(system_, step_));
-    asks_after_[1] = asks;
-    if (work_.stuck > 0) asks = asks || (accepted && holds_.may_release(system_, step_));
-    asks_after_[2] = asks;
+    if (!wing_.real.empty()) {
+      const Mask refused = busy && !judgement.accepted;
+      kinks_ = kinks_ || (accepted && may_leap_over_tables(system_, step_));
+      if (any(refused)) kinks_ = kinks_ || (refused && may_meet_kink(system_, step_));
+    }
+    asks_after_[1] = asks = asks || kinks_;
+    releases_ = Mask{};
+    if (work_.stuck > 0) releases_ = accepted && holds_.may_release(system_, step_);
+    asks_after_[2] = asks = asks || releases_;
     if constexpr (M == BaseMotion::free) {
       free_.restore_momenta(system_, step_);
       if (work_.stuck > 0) holds_.keep_at_end(system_, step_);
     }
     if (M == BaseMotion::free &&
         !wing_.motors.empty()) // after the momenta too, which change the rates
-      asks = asks || (accepted && motors_may_pass_limit());
+      kinks_ = kinks_ || (accepted && motors_may_pass_limit());
+    asks = asks || kinks_;
     peaks_.keep_forces_at_end(system_);
     asks = asks || (accepted && may_turn_or_end_at_event());
     asks_after_[3] = asks;
@@ -315,7 +323,8 @@ private:
   std::vector<P> motor_energy_, motor_work_; ///< up to the step's start; over the step, J
   LaneEvents<W> events_;
   LaneHolds<W> holds_;
-  Mask accepted_{}; ///< lanes whose last trial step is accepted
+  Mask accepted_{};           ///< lanes whose last trial step is accepted
+  Mask kinks_{}, releases_{}; ///< lanes in whose last trial step there may be one
   /// Lanes that ask, after the tests of limits, events, releases, turns and peaks.
   std::array<Mask, 5> asks_after_{};
   std::vector<Lever<double>> levers_of_wing_; ///< scratch

@@ -18,6 +18,38 @@ namespace wingspread {
 /// ends beside the step's own end.
 inline constexpr double next_to_an_end = 1e-5;
 
+/// The parabola through three points, left to right.
+template <class T> struct Parabola {
+  Parabola(const Sampled<T>& left, const Sampled<T>& middle, const Sampled<T>& right) {
+    const T before = (middle.value - left.value) * (right.s - middle.s);
+    const T after = (middle.value - right.value) * (middle.s - left.s);
+    both = before + after;
+    way = (before * (right.s - middle.s) - after * (middle.s - left.s)) / (T(2) * both);
+    vertex = middle.s + way;
+  }
+  /// Whether it has a maximum between left and right.
+  [[nodiscard]] Truth<T> crests(const Sampled<T>& left, const Sampled<T>& right) const {
+    return both > T(0) && vertex > left.s && vertex < right.s;
+  }
+
+  T both;        ///< > 0: it bends downwards
+  T way, vertex; ///< from the middle to the vertex, and the vertex; a number if both > 0
+};
+
+/// Whether maximum_near, given these samples of f, finds nothing larger than the last of them: f rises there, and so does
+/// the parabola through the last two and a point between. For a pack: in which lanes.
+template <class T, std::size_t N, class Function>
+[[nodiscard]] Truth<T> rises_to_end(const std::array<T, N>& samples, Function f) {
+  const Sampled<T> next{T(1) - T(1) / T(static_cast<double>(N - 1)), samples[N - 2]};
+  const Sampled<T> end{T(1), samples[N - 1]};
+  Truth<T> rises = !(f(T(1 - next_to_an_end)) > end.value);
+  for (std::size_t k = 0; k + 1 < N; ++k) rises = rises && end.value > samples[k];
+  if (!any(rises)) return rises;
+  const T halfway = (end.s + next.s) / T(2);
+  const Sampled<T> middle{halfway, f(halfway)};
+  return rises && end.value > middle.value && !Parabola<T>(next, middle, end).crests(next, end);
+}
+
 /// The maximum of f near the largest of samples at the ends and at equal distances between them,
 /// by parabolas through the best three points, within a bracket [Brent 1973, 5]. Accurate to
 /// √ε where f is smooth; the value is accurate to ε, because f is flat there.
@@ -48,12 +80,10 @@ template <class T, std::size_t N, class Function>
   };
   T last(1), last_but_one(1); // distances between successive points
   for (int pass = 0; pass < 40; ++pass) {
-    const T before = (middle.value - left.value) * (right.s - middle.s);
-    const T after = (middle.value - right.value) * (middle.s - left.s), both = before + after;
-    if (!(both > T(0))) break; // no maximum inside, or a plateau
-    const T way = (before * (right.s - middle.s) - after * (middle.s - left.s)) / (T(2) * both);
-    T s = middle.s + way;
-    if (!(s > left.s && s < right.s)) break; // it rises to an end
+    const Parabola<T> parabola(left, middle, right);
+    if (!parabola.crests(left, right)) break; // a plateau, or it rises to an end
+    const T way = parabola.way;
+    T s = parabola.vertex;
     const T rightwards = right.s - middle.s, leftwards = middle.s - left.s;
     const T wider = rightwards > leftwards ? rightwards : T(-leftwards);
     if (abs(wider) < T(3) * close) return largest(s);

@@ -173,14 +173,6 @@ template <class T, class Moment>
   return samples;
 }
 
-/// Whether any sample comes so near the peak that raise_by_interpolant looks for a maximum beside it; for a pack: in
-/// which lanes.
-template <class T, class AnySystem>
-[[nodiscard]] Truth<T> samples_come_near(const PeakOf<T>& peak,
-                                         const MomentOverStep<T, AnySystem>& moment) {
-  return !(most_by_samples(moment_samples<T>(moment)) <= peak.value);
-}
-
 /// Raises `peak` to the largest |moment| that the dense output has over the step: samples the step, and refines
 /// the largest sample. @param moment moment(s), as MomentOverStep has it
 template <class T, class Moment>

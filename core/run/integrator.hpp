@@ -139,10 +139,10 @@ public:
     } else if (asked_.stage == Stage::step) {
       stepping_.fit(result.h);
     }
-    has_no_event_ = result.has_no_event;
+    none_ = result.none;
     by_lane_ = {result.peaks_searched, result.forces_may_rise};
     judge(asks_for_whole_step() ? result.judged : StepVerdict{result.error, 1});
-    has_no_event_ = false, by_lane_ = {};
+    none_ = {}, by_lane_ = {};
   }
 
 private:
@@ -250,9 +250,10 @@ private:
   void judge_step(const StepVerdict& verdict) {
     if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_))) return refuse_step();
     stepping_.choose_next_size();
-    if (has_no_event_)
+    if (none_.at_all)
       landing_.expect_no_event();
-    else if (landing_.cut_at_event(stepping_.kinks(), stepping_.rtol_of_landing()))
+    else if (landing_.cut_at_event(none_.kinks ? std::nullopt : stepping_.kinks(),
+                                   stepping_.rtol_of_landing(), !none_.releases))
       return ask_to_end(Stage::landing);
     accept();
   }
@@ -260,10 +261,12 @@ private:
   void refuse_step() {
     if (!stepping_.is_finite()) return ask_for_step(stepping_.plan_again());
     const T h = run_.step.h;
-    if (!landing_.cut_refused_step(stepping_.kinks(), stepping_.rtol_of_landing()))
-      return ask_for_step(stepping_.plan_again());
-    stepping_.plan_to_jump(h);
-    ask_to_end(Stage::landing);
+    if (landing_.cut_refused_step(stepping_.kinks(), stepping_.rtol_of_landing())) {
+      stepping_.plan_to_jump(h);
+      return ask_to_end(Stage::landing);
+    }
+    const std::optional<T> kink = stepping_.kink_inside();
+    ask_for_step(kink ? stepping_.plan_to_kink(*kink) : stepping_.plan_again());
   }
 
   void judge_landing(const StepVerdict& verdict) {
@@ -368,7 +371,7 @@ private:
   Ending<T, AnySystem> ending_;
   Try asked_;
   bool ended_ = false;
-  bool has_no_event_ = false; ///< a lane has found none in the step to be judged
+  NoEvents none_{}; ///< that a lane has found in the step to be judged
   typename PeakSearch<T, AnySystem>::LaneSearch by_lane_; ///< of the peaks of that step
   Conserved<T> kept_{};                                   ///< momenta of a free base
 };

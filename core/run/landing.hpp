@@ -21,11 +21,13 @@ public:
 
   /// Cuts a step just accepted at the first event inside. @param kinks which kinks are events
   /// @param rtol relative tolerance of the step, 0 where the method does not resolve accelerations
+  /// @param releases whether a stuck hinge may let go
   /// @return whether there is one: the step must then be made again, to the event
-  [[nodiscard]] bool cut_at_event(const std::optional<KinkLimit>& kinks, double rtol) {
+  [[nodiscard]] bool cut_at_event(const std::optional<KinkLimit>& kinks, double rtol,
+                                  bool releases) {
     nearest_ = nearest(rtol);
     missed_ = false, searches_ = 0;
-    due_ = events_.first(run_.step, run_.x, run_.dxdt, kinks);
+    due_ = events_.first(run_.step, run_.x, run_.dxdt, kinks, releases);
     if (due_) begin();
     return due_.has_value();
   }

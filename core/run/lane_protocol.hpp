@@ -11,7 +11,7 @@
 /// A lane accepts and rejects plain steps alone. A lane needs its run when the last trial step may
 /// hold an event or a peak, may end at t_end or at a knot of the base's table, or uses up what the task
 /// allows. The run then treats that trial step as one that it made itself. A lane says whether it has found
-/// that the step holds no event (LaneResult::has_no_event), and which peaks may rise over it
+/// that the step holds no event (LaneResult::none), and which peaks may rise over it
 /// (LaneResult::peaks_searched): the run does not search the others again. Lane and run use the same
 /// expressions, so every number has the same bits with and without a lane.
 #pragma once
@@ -62,6 +62,12 @@ struct LaneTask {
   StepHistory<double> history;
 };
 
+/// Events that a lane has excluded in a step.
+struct NoEvents {
+  bool at_all = false;
+  bool kinks = false, releases = false; ///< of stuck hinges
+};
+
 /// Lane → run: how far the run has come, and the last trial step, which the run has yet to judge.
 struct LaneResult {
   // storage of the run, which the lane writes to
@@ -91,7 +97,7 @@ struct LaneResult {
   StepHistory<double> history{};
   bool peaks_searched = false; ///< the last trial step is accepted, and its peaks are searched
   bool forces_may_rise = true; ///< over that step
-  bool has_no_event = false;   ///< that step is accepted, and the lane has found no event in it
+  NoEvents none{};             ///< that the lane has found in that step, if it is accepted
 };
 
 } // namespace wingspread

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/dense/friction_layer.hpp"
-#include "core/events/kinks.hpp"
+#include "core/events/kink_search.hpp"
 #include "core/events/standstill.hpp"
 #include "core/events/turning.hpp"
 #include "core/methods/method_choice.hpp"
@@ -211,6 +211,26 @@ public:
     return plan();
   }
 
+  /// Where a kink of a hinge's law lies in a step that was refused, and may be why: a fraction of the step. An explicit
+  /// formula's error hardly falls until the step ends before the kink.
+  [[nodiscard]] std::optional<T> kink_inside() const {
+    if (run_.system.wing().real.empty() || needs_smooth_laws(method()) || !has_memory())
+      return std::nullopt;
+    const KinkLimit limit{tolerance().rtol, tolerance().atol};
+    return KinkSearch<T, AnySystem>(run_.system, run_.step, limit).first_of_hinges();
+  }
+
+  /// Plans to make a refused step again, up to a kink at this fraction of it. @return why none is possible, if so
+  [[nodiscard]] std::optional<std::string> plan_to_kink(const T& fraction) {
+    constexpr double least =
+        1e-3; // heuristic: three steps, each ten times longer, lead back to this one's size
+    ++rejected_;
+    const double part = std::max(static_cast<double>(fraction), least);
+    memory().cut(part);
+    h_ = run_.step.h * T(part);
+    return plan();
+  }
+
   /// Counts a refused step that is made again up to a jump inside. The next one is tried as long as this.
   void plan_to_jump(const T& h) {
     ++rejected_;
@@ -321,7 +341,11 @@ private:
     return step + "misses the tolerance " + in_words(verdict_.error) + "-fold";
   }
 
-  /// The memory of step control. @pre the method is one that engines of packs have
+  [[nodiscard]] bool has_memory() const {
+    return method() == Method::cash_karp54 || has_lanes(method());
+  }
+
+  /// The memory of step control. @pre has_memory()
   [[nodiscard]] StepMemory<double>& memory() {
     return steppers_.with(method(), [](auto& stepper) -> StepMemory<double>& {
       if constexpr (requires { stepper.memory(); }) return stepper.memory();

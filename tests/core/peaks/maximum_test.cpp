@@ -79,3 +79,31 @@ TEST_CASE("a kink, a plateau and a number that is none end the search for a maxi
   const Found nothing = search([](double s) { return s > 0.3 ? std::nan("") : s; });
   CHECK(nothing.calls < 50);
 }
+
+TEST_CASE(
+    "where nine samples say that a function rises to the step's end, the search finds the end") {
+  oracle::Draws draws(8);
+  int risen = 0;
+  constexpr int trials = 4000;
+  for (int trial = 0; trial < trials; ++trial) {
+    const double where = draws.uniform(0.5, 1.5), quick = draws.uniform(0.3, 12);
+    const double ripple = draws.chance(0.5) ? draws.log_uniform(1e-9, 1e-1) : 0;
+    const Function f = [&](double s) {
+      const double z = s - where;
+      return 10 + std::cos(quick * z) + ripple * std::sin(40 * s);
+    };
+    std::array<double, 9> samples{};
+    std::size_t best = 0;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      samples[k] = f(static_cast<double>(k) / 8);
+      if (samples[k] > samples[best]) best = k;
+    }
+    const Sampled<double> found = maximum_near(samples, best, f).first;
+    const bool at_end = found.s == 1 && found.value == samples.back();
+    CAPTURE(where, quick, ripple, found.s);
+    CHECK(rises_to_end(samples, f) == at_end);
+    risen += at_end ? 1 : 0;
+  }
+  CHECK(risen > trials / 8);
+  CHECK(risen < trials / 2);
+}
