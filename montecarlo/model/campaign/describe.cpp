@@ -28,7 +28,8 @@ std::string describe_argument(const std::vector<double>& values) {
 }
 
 /// "nominal 2 N·m", or where the draws' medians change the value "2 N·m as written, nominal 5.4 N·m".
-std::string describe_value(const Scene& written, const Scene& nominal, const SceneParameter& what) {
+std::string value_of_parameter(const Scene& written, const Scene& nominal,
+                               const SceneParameter& what) {
   const std::string before = with_unit(what.in(written), unit_of(what)),
                     median = with_unit(what.in(nominal), unit_of(what));
   return (before == median ? "" : before + " as written, ") + "nominal " + median;
@@ -38,8 +39,8 @@ std::string describe_targets(const Scene& written, const Scene& nominal,
                              std::span<const SceneParameter> parameters) {
   std::vector<std::string> targets;
   for (const SceneParameter& target : parameters)
-    targets.push_back(
-        fmt::format("{} ({})", path_of(written, target), describe_value(written, nominal, target)));
+    targets.push_back(fmt::format("{} ({})", path_of(written, target),
+                                  value_of_parameter(written, nominal, target)));
   return fmt::format("{}", fmt::join(targets, ", "));
 }
 
