@@ -67,11 +67,12 @@ TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_setting
   CHECK(read("[]", default_outputs(), read_outputs).settings.empty());
   const auto [json, message] = GENERATE(values<OutputsCase>(
       {{"\"latch_time\"", "found string \"latch_time\", expected an array of output families"},
-       {R"(["latch_times"])",
-        "/0: found string \"latch_times\", expected \"latch_time\", "
-        "\"latch_rate\", \"peak_moment\", \"peak_force\", \"rate_at\", "
-        "\"overtravel\", \"peaks_final\", \"base_motion\", \"frequency\", "
-        "\"hold_moment\", \"captures\", \"held\", \"final_angle\" or \"motor_energy\""},
+       {R"(["latch_times"])", "/0: found string \"latch_times\", expected \"latch_time\", "
+                              "\"latch_rate\", \"peak_moment\", \"peak_force\", \"rate_at\", "
+                              "\"overtravel\", \"peaks_final\", \"base_motion\", \"frequency\", "
+                              "\"hold_moment\", \"captures\", \"held\", \"final_angle\" or "
+                              "\"motor_energy\" (did you mean "
+                              "\"latch_time\"?)"},
        {R"(["rate_at", "rate_at"])",
         "/1: found string \"rate_at\" a second time, expected each family once"}}));
   CHECK(facts_of(read(json, default_outputs(), read_outputs).problems) == facts_of(message));
