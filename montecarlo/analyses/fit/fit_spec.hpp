@@ -43,7 +43,7 @@ struct FitValue {
 
 struct FitTest {
   std::string name;
-  Campaign campaign{}; ///< with the test's case, changes and outputs; without cases
+  Campaign campaign; ///< with the test's case, changes and outputs; without cases
   std::vector<double> times;
   double time_offset_std = 0;
   bool correlated =

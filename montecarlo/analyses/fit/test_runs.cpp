@@ -71,7 +71,7 @@ struct TestRuns::Prepared {
         motion(campaign.scene, samples) {}
   const FitTest* test;
   std::size_t number, first; ///< of the test, and of its first number
-  Campaign campaign{};
+  Campaign campaign;
   RunPlan values; ///< for the test's values
   SampledColumns samples;
   RunPlan trace; ///< for its trace, if it has one

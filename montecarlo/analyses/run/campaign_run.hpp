@@ -21,7 +21,7 @@ namespace wingspread {
 
 /// Says which campaign to run, where and how.
 struct RunRequest {
-  Campaign campaign{}; ///< after all changes by options
+  Campaign campaign; ///< after all changes by options
   std::filesystem::path out;
   std::vector<std::string> cases{}; ///< names of the cases to run; empty: all
   std::optional<Shard> shard{};

@@ -25,7 +25,7 @@ inline constexpr const char* sensitivity_csv_file = "sensitivity.csv";
 
 /// A design: the campaign, its rows and its shard.
 struct SaltelliDesign {
-  Campaign campaign{};
+  Campaign campaign;
   long rows = 0;              ///< N
   std::optional<Shard> shard; ///< the part of the runs; none: all of them
 };

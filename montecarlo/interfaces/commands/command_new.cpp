@@ -19,7 +19,7 @@ namespace wingspread {
 namespace {
 
 struct NewOptions {
-  WingDesign design{};
+  WingDesign design;
   std::filesystem::path out;
   std::string example;
   bool designed = false; ///< whether an option gives a part of the design

@@ -20,7 +20,7 @@ namespace wingspread {
 /// One deployment to simulate.
 struct Task {
   Scene scene;
-  Integration integration{};
+  Integration integration;
 };
 
 /// The task for an input and settings. Settings that are not given come from the campaign, or for a scene from the

@@ -23,8 +23,6 @@ namespace wingspread {
 /// The key of the stamp in result files. A campaign's reader ignores its value.
 inline constexpr const char* stamp_key = "wingspread";
 
-/// Members of aggregate type have `{}`: without them GCC 12 destroys such a member twice where a Campaign is a member of
-/// an aggregate, one of whose later initialisers throws. The same holds for all aggregates that contain one.
 struct Campaign {
   Scene
       scene; ///< as written, before dispersion; nominal_scene() has the dispersions at their medians
@@ -34,9 +32,9 @@ struct Campaign {
   std::vector<RankCorrelation>
       wanted_correlations; ///< between dispersions; their matrix is positive definite
   Sampling sampling;
-  Integration integration{};
+  Integration integration;
   Outputs outputs = default_outputs();
-  StatisticsSpec statistics{};
+  StatisticsSpec statistics;
   ReportHeader report;
   std::vector<Requirement> requirements;
   StoppingRule until;               ///< empty: makes all runs

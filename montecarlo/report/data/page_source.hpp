@@ -22,7 +22,7 @@ struct PageSource {
   std::filesystem::path made_from;     ///< the folder whose campaign reproduces the rows
   std::vector<std::string> made_cases; ///< the cases made from it, if they are not all of its cases
   /// The campaign without its case's changes; the set's own campaign without cases.
-  Campaign before_case{};
+  Campaign before_case;
   Results results; ///< all rows; without rows (`streaming`) those of broken_runs.csv
   std::unique_ptr<StreamingStatistics> streaming; ///< of a folder made with --no-rows; else null
   Replication replication;

@@ -44,7 +44,7 @@ struct NumberedCampaign {
   std::vector<NumberedDispersion> dispersions;
   std::vector<RankCorrelation> correlations;
   Design design;
-  Integration integration{};
+  Integration integration;
   Goal goal;
 };
 

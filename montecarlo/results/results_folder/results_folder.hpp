@@ -37,7 +37,7 @@ inline constexpr const char* broken_runs_file = "broken_runs.csv";
 /// A campaign as stored in a folder.
 struct StoredCampaign {
   std::filesystem::path folder;
-  Campaign campaign{};
+  Campaign campaign;
   Stamp stamp;
   bool foreign = false; ///< without a stamp: its rows were not made by this program
   /// The campaign's own requirements, if it is judged by others (judge_by). Its stopping rule keeps to them.

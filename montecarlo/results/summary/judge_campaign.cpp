@@ -10,7 +10,7 @@ namespace {
 
 /// One required static margin and its column.
 struct Wanted {
-  RequiredMargin margin{};
+  RequiredMargin margin;
   std::vector<HingeDrive> drives;
   Column column;
 };

@@ -155,7 +155,7 @@ TEST_CASE("a model's rows are deployments of their own, in lanes or alone", "[pa
                           {.t_end = 20});
   std::vector<double> at_end(2);
   CHECK(of_end.evaluate(std::vector<double>{10}, at_end, 1));
-  CHECK(at_end[0] >= 0); // there is one
+  CHECK(at_end[0] >= 0);                                      // there is one
   CHECK(at_end[1] == Approx(nominal.angles[2]).margin(1e-9)); // latched at 0
 }
 
