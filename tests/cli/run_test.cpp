@@ -60,6 +60,22 @@ TEST_CASE("a run writes its folder, and its paths to a pipe", "[parallel]") {
   CHECK(timing["interrupted"] == false);
 }
 
+TEST_CASE("lanes that no processor has are refused, with cases and with --resume too") {
+  Json json = quick_campaign(4);
+  const RunSetting plain(json);
+  json["cases"] = parse_json(R"([ { "name": "as_it_is" } ])");
+  const RunSetting with_cases(json);
+  CHECK(plain.run(plain.out).code == 0);
+  const std::vector<std::string> asked{"--isa", "scalar", "--lanes", "8"},
+      resumed{"--isa", "scalar", "--lanes", "8", "--resume"};
+  for (const Finished& refused : {plain.run(plain.out + "2", asked), plain.run(plain.out, resumed),
+                                  with_cases.run(with_cases.out, asked)}) {
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.error, HasFacts({"--isa scalar --lanes 8", "processor", "scalar (1)"}));
+  }
+  CHECK_FALSE(std::filesystem::exists(plain.out + "2"));
+}
+
 TEST_CASE("the table and the histograms, when asked for") {
   const RunSetting setting(quick_campaign(20));
   const auto [code, out, error] = setting.run(setting.out, {"--histograms"});

@@ -43,14 +43,14 @@ std::string refuse_until(const std::string& text) {
 
 /// Reads the campaign, applies the options to it and prints its warnings.
 RunRequest request_of(const RunOptions& options) {
-  RunRequest request{.campaign = {},
+  // not `.campaign = {}`: GCC 12 destroys a nested aggregate twice where a later initialiser throws, as pool_of may
+  RunRequest request{.campaign = read_campaign_file(options.campaign),
                      .out = options.out,
                      .cases = options.cases,
                      .shard = parse_shard(options.shard),
                      .pool = pool_of(options.machine),
                      .resume = options.resume,
                      .streaming = options.no_rows};
-  request.campaign = read_campaign_file(options.campaign);
   change_scene(request.campaign, options.set);
   override_sampling(request.campaign, options.sampling.runs, options.sampling.seed);
   override_until(request.campaign, options.until);
