@@ -33,6 +33,7 @@ struct Goal {
   bool audit = true;             ///< watch how far the energy drifts up to the first latch
   bool end_state = true;         ///< fill Outcome::final and Outcome::energy
   bool final_angle = true;       ///< fill Outcome::final_angle
+  bool to_rest = false;          ///< end no sooner than all hinges are stuck for good, or at t_end
   bool to_t_end = false;         ///< integrate to t_end whatever happens
   bool first_latch_only = false; ///< end at the first latch
   bool mode_frequencies = false; ///< fill Outcome::mode_frequencies
@@ -41,10 +42,11 @@ struct Goal {
   bool sample_motion_only = false; ///< samples without moments and energies
 };
 
-/// `deployed`: every latch is engaged at the end. `stalled`: at least one is not, and it is proven that none will engage
-/// any more, though hinges may still swing, or a hinge with a latch is still held at the end. Outcome::reason names the
-/// proof: everything sticks, energy is missing, or a hinge was never released.
-/// A scene without latches ends `timed_out`.
+/// `deployed`: every latch is engaged at the end, and no hold still holds a hinge. Of a hinge without a latch nothing else
+/// is asked. `stalled`: at least one latch is not engaged, and it is proven that none will engage any more, though hinges
+/// may still swing; or a hinge, with a latch or without, is still held at the end. Outcome::reason names the proof:
+/// everything sticks, energy is missing, or a hinge was never released.
+/// A scene without latches ends `timed_out`, unless a hinge is still held.
 enum class Status { deployed, stalled, timed_out, invalid, failed };
 [[nodiscard]] const char* to_string(Status status);
 

@@ -105,7 +105,7 @@ public:
     return count;
   }
 
-  /// The held hinges with a latch to blame, in the scene's numbering: those whose hold waits for no other held hinge;
+  /// The held hinges to blame, in the scene's numbering: those whose hold waits for no other held hinge;
   /// all, where holds wait for each other.
   [[nodiscard]] std::vector<int> never_released() const {
     std::vector<int> first, all;

@@ -13,7 +13,8 @@
 /// |   … nor a peak of a free base's motion       | the modes and the angular momentum do     | final_peaks.hpp    |
 /// | … and no latch lets go                       | the energy left bounds its load           | energy_bounds.hpp  |
 ///
-/// No run ends early while a hold may still let go.
+/// No run ends early while a hold may still let go, or while an output of its end may still change: the angles of hinges
+/// that move (Goal::to_rest), and the energy of a motor on a hinge without an engaged latch.
 ///
 /// The proofs stand in the room proofs/ (standstill.hpp in events/), the last two called by final_peaks.hpp.
 /// They are functions of the state. `Ending` remembers the results, and proof_schedule.hpp says at which
@@ -93,11 +94,11 @@ public:
     End end;
     const bool is_cut_short = run_.goal.first_latch_only && diary_.any_latch();
     // when motion ended tells more than when its end was certain
-    if (goes_to_t_end() && is_stuck()) stall_.reset();
-    if (!latches_left())
-      end.status = diary_.any_latch() ? Status::deployed : Status::timed_out;
-    else if (!is_cut_short && (holds_a_latch() || prove_stall()))
+    if ((goes_to_t_end() || waits_for_rest()) && is_stuck()) stall_.reset();
+    if (!is_cut_short && (events_.releases().held() > 0 || (latches_left() && prove_stall())))
       end.status = Status::stalled, end.reason = stall_.value_or("");
+    else if (!latches_left())
+      end.status = diary_.any_latch() ? Status::deployed : Status::timed_out;
     if (!wants_peaks()) return end;
     end.peaks_final = peaks_are_proven_ || is_stuck() ||
                       ((latches_left() ? prove_stall() : diary_.any_latch()) && latches_stay() &&
@@ -124,9 +125,25 @@ private:
   [[nodiscard]] bool watches_base() const {
     return run_.goal.base_motion && AnySystem::base_motion == BaseMotion::free;
   }
-  /// A base turns on where no hinge moves, and only the modes of a latched wing bound how it turns.
+  /// Whether no proof may end the run from here. A base turns on where no hinge moves, and only the modes of a latched
+  /// wing bound how it turns.
   [[nodiscard]] bool goes_to_t_end() const {
-    return run_.goal.to_t_end || (watches_base() && (latches_left() || is_stuck()));
+    return run_.goal.to_t_end || (watches_base() && (latches_left() || is_stuck())) ||
+           may_release() || (waits_for_rest() && !is_stuck());
+  }
+  /// Whether all latches are engaged, and a hold may still let go. Where latches are left, the proof of a stall asks.
+  [[nodiscard]] bool may_release() const {
+    return !latches_left() && events_.releases().may_come(
+                                  T(run_.how.t_end), is_stuck_for_good(run_.system, run_.step.x));
+  }
+  /// Whether any motion changes an output. @see motor_energy.hpp for what counts as a motor's energy
+  [[nodiscard]] bool waits_for_rest() const {
+    if (run_.goal.to_rest) return true;
+    const auto& motors = run_.system.wing().motors;
+    for (int i = 1; run_.goal.motor_energy && i < static_cast<int>(motors.size()); ++i)
+      if (motors[i].present && !run_.system.work().engaged[i] && !events_.releases().is_held(i))
+        return true;
+    return false;
   }
 
   [[nodiscard]] bool is_stuck() const {
@@ -134,8 +151,6 @@ private:
            !events_.releases().may_come(T(run_.how.t_end), true);
   }
 
-  /// Whether a hinge that has a latch is held.
-  [[nodiscard]] bool holds_a_latch() const { return events_.releases().latches_held() > 0; }
   /// Whether an engaged latch may let go, as far as its holding moment tells.
   [[nodiscard]] bool may_open() const { return run_.system.wing().can_open; }
   /// Whether it is proven that no engaged latch lets go. @pre no open hinge will latch any more

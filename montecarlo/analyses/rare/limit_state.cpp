@@ -33,6 +33,9 @@ Goal goal_for(const std::optional<OutputColumn>& column) {
   goal.mode_frequencies = column && column->quantity == OutputColumn::Quantity::frequency;
   goal.peak_force = column && column->quantity == OutputColumn::Quantity::peak_force;
   goal.overtravel = column && column->quantity == OutputColumn::Quantity::overtravel;
+  goal.base_motion = column && (column->quantity == OutputColumn::Quantity::base_peak_angle ||
+                                column->quantity == OutputColumn::Quantity::base_peak_rate);
+  goal.to_rest = column && column->quantity == OutputColumn::Quantity::final_angle;
   return goal;
 }
 

@@ -67,6 +67,8 @@ Outputs families_of(const std::vector<OutputColumn>& columns) {
       families.insert(OutputFamily::peak_moment);
     else if (column.quantity == Quantity::peak_force)
       families.insert(OutputFamily::peak_force);
+    else if (column.quantity == Quantity::overtravel)
+      families.insert(OutputFamily::overtravel);
     else if (column.quantity == Quantity::hold_moment)
       families.insert(OutputFamily::hold_moment);
     else if (column.quantity == Quantity::captures)

@@ -224,7 +224,7 @@ Goal goal_of(const Outputs& outputs) {
   goal.overtravel = outputs.contains(OutputFamily::overtravel);
   goal.hold_moment = outputs.contains(OutputFamily::hold_moment);
   goal.motor_energy = outputs.contains(OutputFamily::motor_energy);
-  goal.final_angle = outputs.contains(OutputFamily::final_angle);
+  goal.final_angle = goal.to_rest = outputs.contains(OutputFamily::final_angle);
   goal.audit = goal.end_state = false;
   goal.base_motion = outputs.contains(OutputFamily::base_motion);
   goal.mode_frequencies = outputs.contains(OutputFamily::frequency);

@@ -35,7 +35,7 @@ enum class OutputFamily {
   hold_moment, ///< of hinges that are held
   captures,    ///< of latches that may miss or let go
   held,        ///< of the same latches
-  final_angle, ///< not a default
+  final_angle, ///< not a default: runs then go to t_end
   motor_energy ///< of hinges with motors
 };
 inline constexpr std::array<std::string_view, 14> output_family_names{
@@ -99,7 +99,8 @@ struct OutputColumn {
 /// other hinges' latching. A hinge has no rate_at its own latching: that is its latch_rate.
 [[nodiscard]] std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outputs);
 
-/// The goal of a run that has these outputs. Without peaks a run ends at the last latch.
+/// The goal of a run that has these outputs. Without peaks a run ends at the last latch. With final_angle it ends at
+/// t_end, or when all hinges are stuck for good.
 [[nodiscard]] Goal goal_of(const Outputs& outputs);
 
 /// The number; NaN if it is not finite.

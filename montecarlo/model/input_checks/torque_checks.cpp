@@ -44,7 +44,8 @@ bool check_spring(const std::string& at, const Hinge& hinge, InputWarnings& warn
 void check_latch(const std::string& at, const Hinge& hinge, InputWarnings& warnings) {
   if (!hinge.latch)
     warnings.add(at + "/latch", "no latch",
-                 "a latch: a hinge without one never counts as deployed, and nothing holds it");
+                 "a latch: `deployed` does not judge a hinge without one, wherever it stops, "
+                 "and nothing holds it");
   else if (hinge.latch->stiffness == 0)
     warnings.add(at + "/latch/stiffness", "0 N·m/rad",
                  "> 0: a latch without stiffness does not hold the hinge");

@@ -29,7 +29,7 @@ constexpr std::array outputs{
     Entry{"HINGE.hold_moment", "largest |moment| that the hold of the hinge bore before it let go"},
     Entry{"HINGE.captures", "how many times the latch engaged"},
     Entry{"HINGE.held", "1 if the latch holds at the end of the run, else 0"},
-    Entry{"HINGE.final_angle", "the hinge's angle at the end of the run, from its latched angle"},
+    Entry{"HINGE.final_angle", "the hinge's angle at t_end, from its latched angle"},
     Entry{
         "HINGE.motor_energy",
         "work of the hinge's motor on the wing while the hinge's latch is not engaged; below 0 of "
@@ -43,8 +43,9 @@ constexpr std::array outputs{
     Entry{"deployment_time", "latch time of the last hinge with a latch"}};
 
 constexpr std::array terms{
-    Entry{"deployed", "every latch engaged"},
-    Entry{"stalled", "a latch is proven never to engage"},
+    Entry{"deployed",
+          "every latch engaged, no hinge still held; a hinge without a latch is not judged"},
+    Entry{"stalled", "a latch is proven never to engage, or a hinge was never released"},
     Entry{"timed_out", "t_end was reached before every latch engaged"},
     Entry{"invalid", "the draw is unphysical, e.g. a mass below 0"},
     Entry{"failed", "the integration could not continue"},

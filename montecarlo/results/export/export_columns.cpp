@@ -29,7 +29,7 @@ constexpr std::array descriptions{
     Description{"hold_moment", "the largest magnitude of the moment that the hold of {0} bore"},
     Description{"captures", "how many times the latch of {0} engaged"},
     Description{"held", "1 if the latch of {0} holds at the end of the run, else 0"},
-    Description{"final_angle", "the angle of {0} at the end of the run, from its latched angle"},
+    Description{"final_angle", "the angle of {0} at t_end, from its latched angle"},
     Description{"motor_energy", "the work of the motor of {0} until its latch engaged"},
     Description{"rate_at", "the relative rate of {0} when {1} latches, signed"},
     Description{"peak_angle", "the largest change of the base's angle from the start"},

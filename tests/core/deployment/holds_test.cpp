@@ -234,6 +234,36 @@ TEST_CASE("a hold whose time is after t_end has stalled the run at t_end") {
   CHECK(Deployment().run(scene, within(1e-10, 10), {}).status == Status::deployed);
 }
 
+TEST_CASE("a hinge without a latch that is never released stalls the run too") {
+  Scene scene = two_panels();
+  scene.hinges[1].latch.reset();
+  scene.hinges[1].release = at_time(1);
+  scene.hinges[1].release->fails = 1;
+  CHECK(run_stalled(scene, 60).reason == "other was never released");
+  const Goal latches = {.peak_moment = false, .peak_force = false, .hold_moment = false};
+  CHECK(Deployment().run(scene, within(1e-10, 60), latches).status == Status::stalled);
+  require_equal_bits({scene, scene, scene}, within(1e-10, 60), latches);
+  scene.hinges[1].release = at_time(80); // after t_end
+  CHECK(run_stalled(scene, 60).reason == "other was never released");
+  scene.hinges[0].latch.reset();
+  CHECK(run_stalled(scene, 60).reason == "other was never released");
+}
+
+TEST_CASE("without peaks too a run waits for the release of a hinge without a latch") {
+  Scene scene = two_panels();
+  scene.hinges[1].latch.reset();
+  const Goal latches = {.peak_moment = false, .peak_force = false, .hold_moment = false};
+  for (const double T : {10., 20.}) {
+    scene.hinges[1].release = at_time(T);
+    const Outcome out = Deployment().run(scene, within(1e-10, 60), latches);
+    CHECK(out.status == Status::deployed);
+    REQUIRE(out.releases.size() == 1);
+    CHECK(out.releases[0].time == T);
+    CHECK(out.t_end < 60);
+    require_equal_bits({scene, scene, scene}, within(1e-10, 60), latches);
+  }
+}
+
 TEST_CASE("no run ends early while a release is still to come") {
   Scene scene = two_panels();
   rub(scene.hinges[0], 3); // sticks for good

@@ -164,6 +164,29 @@ TEST_CASE("a run whose motors have constant commands ends early with its peaks")
   }
 }
 
+TEST_CASE("the energy of a motor on a hinge without a latch is that up to t_end") {
+  Scene scene = latching_panel();
+  scene.bodies.push_back({"other_panel", 10, 0.5});
+  Hinge other = scene.hinges[0];
+  other.name = "other", other.child = 1, other.parent_point = {3, 1};
+  other.latch.reset();
+  other.spring = {0, 0};
+  other.motor = at_rate(0.01, 40, 3);
+  other.friction.viscous = 2;
+  scene.hinges.push_back(other);
+  const Goal latches{.peak_moment = false, .peak_force = false, .audit = false};
+  // I ẍ = c (r₀ − ẋ) − b ẋ: ẋ = r (1 − e^(−at)) with r = r₀ c/(c + b) and a = (c + b)/I
+  const double t_end = 40, r = 0.01 * 40 / (40 + 2), share = (40 + 2) / I;
+  const Outcome out = Deployment().run(scene, within(1e-11, t_end), latches);
+  CHECK(out.status == Status::deployed);
+  CHECK(out.t_end == t_end);
+  const double rate = -r * std::expm1(-share * t_end);
+  const double friction = 2 * r * r *
+                          (t_end + 2 * std::expm1(-share * t_end) / share -
+                           0.5 * std::expm1(-2 * share * t_end) / share);
+  CHECK(relative(out.motor_energy[1], 0.5 * I * rate * rate + friction) < 1e-8);
+}
+
 TEST_CASE("no run ends before the last knot of its motors' tables") {
   Scene scene = latching_panel();
   scene.hinges[0].motor = by_table({0, 40}, {0.3, -0.3}, 4, 3);

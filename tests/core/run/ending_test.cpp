@@ -49,6 +49,24 @@ TEST_CASE("without peaks a run ends at its last latch") {
   CHECK(out.peak_force.empty());
 }
 
+TEST_CASE(
+    "a run whose final angles are asked for ends at t_end, or when all hinges stick for good") {
+  Goal goal{.peak_moment = false, .peak_force = false, .audit = false, .to_rest = true};
+  Integration how;
+  how.t_end = 30;
+  const Outcome rings = Deployment().run(oracle::seed_scene(), how, goal);
+  CHECK(rings.status == Status::deployed);
+  CHECK(rings.t_end == 30);
+  Scene scene = oracle::latching_panel();
+  rub(scene.hinges[0], 3); // more than its spring
+  const Outcome sticks = Deployment().run(scene, how, goal);
+  CHECK(sticks.status == Status::stalled);
+  CHECK(sticks.t_end < 30);
+  goal.to_rest = false, goal.to_t_end = true;
+  CHECK(sticks.final_angle == Deployment().run(scene, how, goal).final_angle);
+  CHECK(rings.final_angle == Deployment().run(oracle::seed_scene(), how, goal).final_angle);
+}
+
 TEST_CASE("a campaign's run may stop early: no peak is lost by it") {
   const oracle::ReferenceOutcome exact = reference(oracle::seed_scene(), 12);
   const Outcome whole = run(oracle::seed_scene(), 1e-9, 60),

@@ -128,6 +128,16 @@ TEST_CASE("a wing that its spring barely breaks loose is near to staying stowed"
   CHECK(at(2.01) == -1);
 }
 
+TEST_CASE("a limit state on an output of the run's end has runs that go there") {
+  Json json = one_panel(0.5);
+  json["scene"]["base"] = parse_json(R"({ "motion": "free", "mass": 100, "inertia": 50,
+    "position": [0, 0], "angle": 0, "velocity": [0, 0], "rate": 0 })");
+  const Campaign campaign = campaign_of(json);
+  CHECK(LimitState(campaign, {"root.final_angle", 1, true}).goal().to_rest);
+  CHECK(LimitState(campaign, {"base.peak_angle", 1, true}).goal().base_motion);
+  CHECK_FALSE(LimitState(campaign, {"root.latch_time", 1, true}).goal().to_rest);
+}
+
 TEST_CASE("an output beyond a limit, above and below, agrees with its own quantiles",
           "[parallel]") {
   Json json = one_panel(0.5);

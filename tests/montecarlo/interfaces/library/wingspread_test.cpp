@@ -151,6 +151,12 @@ TEST_CASE("a model's rows are deployments of their own, in lanes or alone", "[pa
   CHECK(y[0] == nominal.latches.back().time);
   const std::atomic<bool> now = true;
   CHECK_FALSE(model.evaluate(x, y, 1, &now));
+  const api::Model of_end(input, {"bodies.panel_1.mass"}, {"tip.overtravel", "tip.final_angle"},
+                          {.t_end = 20});
+  std::vector<double> at_end(2);
+  CHECK(of_end.evaluate(std::vector<double>{10}, at_end, 1));
+  CHECK(at_end[0] >= 0);                                      // there is one
+  CHECK(at_end[1] == Approx(nominal.angles[2]).margin(1e-9)); // latched at 0
 }
 
 TEST_CASE("what the library is asked and cannot do is refused with every problem") {

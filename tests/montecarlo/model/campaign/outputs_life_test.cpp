@@ -91,3 +91,25 @@ TEST_CASE("A latch that let go has the time of the engagement that holds, or non
   for (const char* name : {"root.held", "root.captures", "tip.hold_moment", "tip.final_angle"})
     CHECK(std::isnan(value(scene, outcome, name)));
 }
+
+TEST_CASE("A final angle is that of the wing at t_end: at rest where its latch bears its spring") {
+  // J φ̈ = τ − k (φ − φ_latched) − d φ̇ with J = 1, τ = 1.2, k = 200, d = 0.2: at rest at τ/k; at 200 s the swing has
+  // fallen to e^(−0.1 · 198) of its first amplitude, 1e-10 rad.
+  Json document = parse_json(R"({
+    "scene": { "name": "lid", "base": { "motion": "fixed" },
+               "bodies": [ { "name": "lid", "mass": 3, "inertia": 0.25 } ],
+               "hinges": [ { "name": "h", "parent": "base", "child": "lid",
+                             "parent_point": [0, 0], "child_point": [-0.5, 0],
+                             "angle": { "stowed": 0, "latched": 1.5 },
+                             "spring": { "torque_stowed": 1.2, "torque_latched": 1.2 },
+                             "latch": { "stiffness": 200, "damping": 0.2 } } ] },
+    "sampling": { "runs": 1 }, "integration": { "t_end": 200 },
+    "outputs": ["latch_time", "final_angle"] })");
+  for (const bool peaks : {false, true}) {
+    if (peaks) document["outputs"].push_back("peak_moment");
+    const Campaign campaign = read_campaign(document.dump(), "");
+    const Outcome out =
+        Deployment().run(campaign.scene, campaign.integration, goal_of(campaign.outputs));
+    CHECK(value(campaign.scene, out, "h.final_angle") == Approx(0.006).margin(1e-8));
+  }
+}
