@@ -83,10 +83,11 @@ long steps_allowed(const Campaign& campaign, std::span<const long> runs) {
   return std::max(allowed(0), allowed(runs.size() / 2));
 }
 
-/// The runs in which an output moved. A difference below rtol times the output's largest value is not resolved either.
-std::vector<long> moved_runs(const ResultNames& names,
-                             std::span<const std::pair<const ResultRow*, const ResultRow*>> pairs,
-                             const Integration& integration) {
+/// Notes the runs in which an output moved, and these outputs. A difference below rtol times the output's largest value
+/// is not resolved either.
+void note_moved(const ResultNames& names,
+                std::span<const std::pair<const ResultRow*, const ResultRow*>> pairs,
+                const Integration& integration, Accuracy& accuracy) {
   std::vector<bool> has_moved(pairs.size(), false);
   for (std::size_t column = 0; column < names.outputs.size(); ++column) {
     double largest = 0;
@@ -94,14 +95,14 @@ std::vector<long> moved_runs(const ResultNames& names,
       largest = std::fmax(largest, std::abs(reference->outputs[column]));
     const double least =
         std::max(unresolved(names.outputs[column], integration), integration.rtol * largest);
+    bool any = false;
     for (std::size_t i = 0; i < pairs.size(); ++i)
       if (moved(pairs[i].first->outputs[column], pairs[i].second->outputs[column], least))
-        has_moved[i] = true;
+        any = has_moved[i] = true;
+    if (any) accuracy.moved_outputs.push_back(names.outputs[column]);
   }
-  std::vector<long> runs;
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (has_moved[i]) runs.push_back(pairs[i].first->run);
-  return runs;
+    if (has_moved[i]) accuracy.moved.push_back(pairs[i].first->run);
 }
 
 } // namespace
@@ -156,7 +157,7 @@ Accuracy compare_rows(const ResultNames& names, std::span<const ResultRow> rows,
   }
   for (std::size_t column = 0; column < names.outputs.size(); ++column)
     accuracy.outputs.push_back(error_of(names.outputs[column], column, pairs));
-  accuracy.moved = moved_runs(names, pairs, integration);
+  note_moved(names, pairs, integration, accuracy);
   return accuracy;
 }
 

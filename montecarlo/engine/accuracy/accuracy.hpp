@@ -31,7 +31,9 @@ struct Accuracy {
   /// decide them, so they have no error.
   std::vector<long> in_doubt;
   std::vector<long> moved; ///< other runs in which an output moved (see moved())
-  long unreached = 0;      ///< runs that the reference could not finish; not among `runs`
+  std::vector<std::string>
+      moved_outputs{}; ///< the outputs that moved in them, in the columns' order
+  long unreached = 0;  ///< runs that the reference could not finish; not among `runs`
   std::vector<OutputAccuracy> outputs; ///< in the columns' order
   double seconds = 0;                  ///< time taken; not part of the results
 };

@@ -25,10 +25,23 @@ std::string warn_of_far_limit(const Verdict& verdict) {
                      verdict.requirement.absolute ? "" : "; \"abs\": true limits the magnitude");
 }
 
+/// "a, b and 3 more outputs".
+std::string first_names(std::span<const std::string> names) {
+  constexpr std::size_t most = 3;
+  const std::size_t shown = names.size() > most + 1 ? most : names.size();
+  std::string text = fmt::format("{}", fmt::join(names.first(shown), ", "));
+  if (shown < names.size()) text += fmt::format(" and {} more outputs", names.size() - shown);
+  return text;
+}
+
 std::string warn_of_moved_runs(const Accuracy& accuracy) {
-  return fmt::format("in {} of the {} runs repeated at a tighter tolerance an output moves by more "
-                     "than 1 %: the tolerance does not decide it; try a smaller rtol",
-                     accuracy.moved.size(), accuracy.runs);
+  const bool one = accuracy.moved_outputs.size() == 1;
+  return fmt::format("in {} of the {} runs repeated at a tighter tolerance {} {} by more than 1 %: "
+                     "the tolerance does not decide {} there. Try a smaller rtol and atol; if {} "
+                     "still, the motion is too sensitive for a value of a single run",
+                     accuracy.moved.size(), accuracy.runs, first_names(accuracy.moved_outputs),
+                     one ? "moves" : "move", one ? "its value" : "their values",
+                     one ? "it moves" : "they move");
 }
 
 /// The text without the digits of its numbers: equal for warnings of the same kind about the same parts.

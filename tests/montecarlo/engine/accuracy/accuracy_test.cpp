@@ -147,6 +147,7 @@ TEST_CASE("an output moves by more than 1 %, unless the tolerance takes it for z
                                          row_of(3, {2e-6, 1}), row_of(4, {100, 0})};
   const Accuracy found = compare_rows(names, rows, reference, integration);
   CHECK(found.moved == std::vector<long>{2});
+  CHECK(found.moved_outputs == std::vector<std::string>{"a.peak_moment"});
 }
 
 TEST_CASE("the share of runs beyond is Clopper and Pearson's, with what is unknown beyond",

@@ -58,6 +58,22 @@ TEST_CASE("where nothing is wrong nothing is warned of") {
   CHECK(warnings(summary).empty());
 }
 
+TEST_CASE("outputs that the tolerance does not decide are named") {
+  Summary summary = summarize(four_runs(), {});
+  summary.accuracy = Accuracy{};
+  summary.accuracy->runs = 10;
+  CHECK(warnings(summary).empty());
+  summary.accuracy->moved = {3, 5};
+  summary.accuracy->moved_outputs = {"root.final_angle"};
+  CHECK_THAT(
+      warnings(summary).at(0),
+      Catch::StartsWith("in 2 of the 10 runs repeated at a tighter tolerance root.final_angle "
+                        "moves by more than 1 %") &&
+          Catch::Contains("smaller rtol and atol; if it moves still"));
+  summary.accuracy->moved_outputs = {"a", "b", "c", "d", "e"};
+  CHECK_THAT(warnings(summary).at(0), Catch::Contains("a, b, c and 2 more outputs move by more"));
+}
+
 TEST_CASE("a warning of several cases is told once, with its cases") {
   const auto of_case = [](const std::string& name, std::vector<LatchJump> jumps) {
     CaseSummary made{name, summarize(four_runs(), {})};
