@@ -13,14 +13,14 @@ TABLES = {  # by kind of page: the heads below each caption
               "Identifier, source and rationale of each requirement": "Identifier|Requirement|Source|Rationale", "Outputs of mock_wing": OUTPUTS,
               "Quantiles of root peak moment": "Quantile|Value N·m|95 % two-sided bounds", "Statistics of root peak moment": "Statistic|Value",
               "Hinges at the cursor's time": "Hinge|Angle deg|Rate deg/s|Moment N·m|State", "Least static margins": STATIC, "Most likely run of the event": "Dispersion|Value|Deviation σ",
-              "Scene of mock_wing": "Parameter|Value|Unit|In degrees|Path", "Dispersions of mock_wing": "Dispersion|Law|Nominal parameter|Draw, 1 % … 99 %|Acts on",
+              "Scene of mock_wing": "Parameter|Value|Unit|In degrees|Path", "Dispersions of mock_wing": "Dispersion|Law|As written|Draw, 1 % … 99 %|Acts on",
               "Integration settings": "Setting|Value", "Meaning, unit and sign of every name": "Name|Unit|Meaning"},
     "cases": {"Verdict and distance to the limit by case": "Requirement|cold|ambient|hot", "Requirements, the worst first": REQUIREMENTS.replace("Verdict|", "Verdict|Case|"),
               "Outcomes by case, with 95 % two-sided bounds": "Case|Runs|deployed|stalled", "root peak moment by case": "Case|Nominal N·m|Mean|1 % quantile|Median|99 % quantile",
               "Between the cases and inside them: root peak moment": "Case|Mean N·m|Shift of the mean|Std inside|99 % quantile|Shift of the 99 % quantile",
               f"Differences of the means: {DIFFERENCES}": "Output|Unit|Difference|Bounds|Relative|Runs", f"Differences of the outcomes: {DIFFERENCES}": "Outcome|Difference|Bounds, percentage points",
               "Verdicts and margins side by side": "Requirement|cold|hot", "Changes of the nominal scene by case": "Parameter|Unit|Nominal|cold|ambient|hot", "Scene of cold": "Parameter|Value|Unit|In degrees|In cold|Path"},
-    "odd": {"Dispersions of mock_wing": "Dispersion|Law|Unit|Nominal parameter|Draw, 1 % … 99 %|In degrees|Acts on", "Outcomes of the runs": "Outcome|Runs|Share|90 % two-sided bounds"}}
+    "odd": {"Dispersions of mock_wing": "Dispersion|Law|Unit|As written|Draw, 1 % … 99 %|In degrees|Acts on", "Outcomes of the runs": "Outcome|Runs|Share|90 % two-sided bounds"}}
 ORDERS = "root › mid › tip|mid › root › tip|root › tip › mid|mid › tip › root|tip › root › mid|tip › mid › root"
 PICTURES = {  # of the page "plain" in degrees, by class: titles of the axes, legend, exported columns, and the tags of the legend's samples
     "histogram": ("root peak moment (N·m)|runs in each bin", ORDERS, "from N·m|to N·m|runs|" + ORDERS, "rect"),

@@ -163,7 +163,7 @@ TEST_CASE("analyze takes the runs of another tool, with a campaign beside them")
   for (int run = 0; run < 30; ++run) {
     csv += '\n';
     csv += std::to_string(run);
-    csv += run == 7 ? ",,,,,,stalled" : ",5,6,7,7,a>b,deployed";
+    csv += run == 7 ? ",,,,,,stalled" : ",5,6,7,7,root>mid>tip,deployed";
   }
   std::ofstream(there / runs_file) << csv; // without a last line feed
   CHECK(program({"analyze", program.out}).code == 1);
@@ -171,6 +171,15 @@ TEST_CASE("analyze takes the runs of another tool, with a campaign beside them")
   CHECK(verdict["runs"] == 30);
   CHECK(verdict["broken"] == Json::parse("[7]"));
   CHECK(verdict["verdict"] == "fail");
+  std::string contradictory = csv;
+  contradictory.replace(csv.find("5,6,7,7,root"), 1, "");
+  std::ofstream(there / runs_file) << contradictory;
+  const auto contradicted = program({"analyze", program.out});
+  CHECK(contradicted.code == 2);
+  CHECK(contradicted.error ==
+        "error: " + (there / runs_file).string() +
+            ": line 2, column 'root.latch_time': found nothing in a deployed "
+            "run, expected a time: every latch of a deployed run is engaged\n");
   std::ofstream(there / runs_file) << csv.substr(0, csv.rfind('\n'));
   const auto refused = program({"analyze", program.out});
   CHECK(refused.code == 2);

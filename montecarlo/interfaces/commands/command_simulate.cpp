@@ -152,7 +152,9 @@ void add_simulate_options(CLI::App& command, SimulateOptions& options) {
       ->type_name("event|smoothed:EPS")
       ->check(refuse_latch);
   command.footer(
-      R"(Settings that are not given are the campaign's, or for a scene the defaults of a campaign.
+      R"(Settings that are not given are the campaign's, or for a scene the defaults of a campaign. The
+nominal scene of a campaign has every dispersion at the median of its law, tables included: where a
+median changes a value, `check` prints both, "1 as written, nominal 2.718".
 
 --check warns of every output that moves by more than 1 %: the tolerance does not decide its value.
 
@@ -269,7 +271,7 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
   command.add_option("--out", options.out, "Write to this file; default: standard output");
   command.footer(
       R"(These are the draws that `run` uses, to the last bit. With --applied there is a column for each
-parameter of the scene that a draw changes, named by its path, in SI units: the nominal value, set,
+parameter of the scene that a draw changes, named by its path, in SI units: the scene's value, set,
 scaled and added to by all draws of the run, tables included.
 
 Example:

@@ -25,11 +25,20 @@ std::string describe_argument(const std::vector<double>& values) {
                             : fmt::format("{} numbers", values.size());
 }
 
-std::string describe_targets(const Scene& scene, std::span<const SceneParameter> parameters) {
+/// "nominal 2 N·m", or where the draws' medians change the value "2 N·m as written, nominal 5.4 N·m".
+std::string value_of_parameter(const Scene& written, const Scene& nominal,
+                               const SceneParameter& what) {
+  const std::string before = with_unit(what.in(written), unit_of(what)),
+                    median = with_unit(what.in(nominal), unit_of(what));
+  return (before == median ? "" : before + " as written, ") + "nominal " + median;
+}
+
+std::string describe_targets(const Scene& written, const Scene& nominal,
+                             std::span<const SceneParameter> parameters) {
   std::vector<std::string> targets;
   for (const SceneParameter& target : parameters)
-    targets.push_back(fmt::format("{} (nominal {})", path_of(scene, target),
-                                  with_unit(target.in(scene), unit_of(target))));
+    targets.push_back(fmt::format("{} ({})", path_of(written, target),
+                                  value_of_parameter(written, nominal, target)));
   return fmt::format("{}", fmt::join(targets, ", "));
 }
 
@@ -42,14 +51,15 @@ std::string describe_table(const Curve& table) {
 }
 
 /// One line, and one more for each entry of a `through`.
-std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion) {
+std::string describe_dispersion(const Scene& written, const Scene& nominal,
+                                const Dispersion& dispersion) {
   std::string text = fmt::format("{}: {}", dispersion.name, describe(dispersion.distribution));
   if (!dispersion.rows.empty()) text += fmt::format(", a column of the rows {}", dispersion.rows);
   for_each_effect(dispersion, [&](Apply how, const auto& targets, const Curve* table) {
     const std::string_view verb = apply_names[static_cast<std::size_t>(how)];
     text += table ? fmt::format("\n    {} by {}: {}", verb, describe_table(*table),
-                                describe_targets(scene, targets))
-                  : fmt::format(", {} {}", verb, describe_targets(scene, targets));
+                                describe_targets(written, nominal, targets))
+                  : fmt::format(", {} {}", verb, describe_targets(written, nominal, targets));
   });
   return text;
 }
@@ -67,7 +77,7 @@ std::string describe_case(const Campaign& campaign, const CaseSpec& spec) {
   for (const auto& [how, target, value] : spec.changes) {
     const std::string_view unit = unit_of(target);
     changes.push_back(fmt::format(
-        "{} {} {} (nominal {})", apply_names[static_cast<std::size_t>(how)],
+        "{} {} {} ({} as written)", apply_names[static_cast<std::size_t>(how)],
         path_of(campaign.scene, target), with_unit(value, how == Apply::scale ? "" : unit),
         with_unit(target.in(campaign.scene), unit)));
   }
@@ -129,7 +139,12 @@ std::string describe_outputs(const Outputs& outputs) {
   std::vector<std::string_view> names;
   for (const OutputFamily family : outputs)
     names.push_back(output_family_names[static_cast<std::size_t>(family)]);
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+  if (names.empty()) return "none";
+  return fmt::format(
+      "{}{}", fmt::join(names, ", "),
+      outputs.contains(OutputFamily::final_angle)
+          ? "; for final_angle every run goes to t_end, unless all hinges stick before"
+          : "");
 }
 
 std::string describe_statistics(const StatisticsSpec& statistics) {
@@ -202,8 +217,9 @@ std::string describe(const Distribution& distribution) {
 std::string describe(const Campaign& campaign) {
   std::string text = "campaign\n" + describe(campaign.scene) +
                      counted(std::ssize(campaign.dispersions), "dispersion", "dispersions") + "\n";
+  const Scene nominal = nominal_scene(campaign);
   for (const Dispersion& dispersion : campaign.dispersions)
-    text += fmt::format("  {}\n", describe_dispersion(campaign.scene, dispersion));
+    text += fmt::format("  {}\n", describe_dispersion(campaign.scene, nominal, dispersion));
   text += describe_shared(campaign) + describe_cases(campaign);
   if (!campaign.wanted_correlations.empty())
     text += counted(std::ssize(campaign.wanted_correlations), "correlation", "correlations") + "\n";

@@ -84,6 +84,7 @@ std::vector<InputWarning> check_input(const Campaign& campaign, const std::files
   check_cases(campaign, scene, rest);
   check_dispersions(campaign, rest);
   check_correlations(campaign, rest);
+  check_outputs(campaign, rest);
   check_requirements(campaign, nominal, rest);
   std::vector<InputWarning> all = scene.list();
   all.insert(all.end(), rest.list().begin(), rest.list().end());

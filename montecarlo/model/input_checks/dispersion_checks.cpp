@@ -103,7 +103,7 @@ private:
     return warn(fmt::format("{} on average, up to {}, added to {}, {}", target_.text(spread_.mean),
                             target_.text(spread_.furthest()), target_.path,
                             target_.text(target_.nominal)),
-                "draws about 0, below the nominal value (\"scale\" applies a factor)");
+                "draws about 0, below the scene's value (\"scale\" applies a factor)");
   }
 
   [[nodiscard]] bool far_set() const {
@@ -111,9 +111,9 @@ private:
     if (apply_ != Apply::set || size == 0 || target_.is_angle()) return false;
     const double ratio = spread_.median / target_.nominal;
     if (ratio > 1 / far && ratio < far) return sets_factor();
-    return warn(fmt::format("a median of {} for {}, nominally {}", target_.text(spread_.median),
+    return warn(fmt::format("a median of {} for {}, {} in the scene", target_.text(spread_.median),
                             target_.path, target_.text(target_.nominal)),
-                fmt::format("a median of 1/{0} to {0} times the nominal value", far));
+                fmt::format("a median of 1/{0} to {0} times the scene's value", far));
   }
 
   /// Warns of draws about 1 that replace a nominal factor other than 1, or a nominal value far from all draws.
@@ -123,9 +123,9 @@ private:
     const double from_nominal = std::abs(spread_.median - target_.nominal);
     const bool about_1 = from_1 < 0.02 && from_nominal > 3 * spread_.half_width();
     if (is_factor ? from_1 >= from_nominal : !about_1) return false;
-    return warn(fmt::format("a median of {:.4g} that replaces {}, nominally {}", spread_.median,
+    return warn(fmt::format("a median of {:.4g} that replaces {}, {} in the scene", spread_.median,
                             target_.path, target_.text(target_.nominal)),
-                "draws about the nominal value (\"scale\" multiplies it by draws about 1)");
+                "draws about the scene's value (\"scale\" multiplies it by draws about 1)");
   }
 
   [[nodiscard]] bool wide_angle() const {
@@ -266,6 +266,25 @@ bool looks_converted(double limit, double nominal, const std::string& unit) {
          is_about(1 / ratio, degrees_per_radian);
 }
 
+/// The wings that have outputs of a family; empty for families that every wing with a latch has.
+std::string_view wings_with(OutputFamily family) {
+  switch (family) {
+  case OutputFamily::rate_at:
+    return "a wing of two hinges or more, with latches";
+  case OutputFamily::base_motion:
+    return "a wing on a free base";
+  case OutputFamily::hold_moment:
+    return "a wing with a hinge that has a \"release\"";
+  case OutputFamily::captures:
+  case OutputFamily::held:
+    return "a wing with a latch that has a \"capture_rate\" or a \"holding_moment\"";
+  case OutputFamily::motor_energy:
+    return "a wing with a hinge that has a \"motor\"";
+  default:
+    return "";
+  }
+}
+
 void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& nominal,
                        InputWarnings& warnings) {
   const Requirement& own = campaign.requirements[k];
@@ -325,6 +344,17 @@ void check_correlations(const Campaign& campaign, InputWarnings& warnings) {
                  fmt::format("{}, {} and {}, each correlated with the others", name((*three)[0]),
                              name((*three)[1]), name((*three)[2])),
                  usual_cause);
+}
+
+void check_outputs(const Campaign& campaign, InputWarnings& warnings) {
+  const std::size_t always = output_columns(campaign.scene, {}).size();
+  for (const OutputFamily family : campaign.outputs)
+    if (const std::string_view wings = wings_with(family);
+        !wings.empty() && output_columns(campaign.scene, {family}).size() == always)
+      warnings.add("/outputs",
+                   fmt::format("\"{}\", of which this wing has no column",
+                               output_family_names[static_cast<std::size_t>(family)]),
+                   std::string(wings));
 }
 
 void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings) {

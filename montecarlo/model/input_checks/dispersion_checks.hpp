@@ -24,6 +24,9 @@ void check_dispersions(const Campaign& campaign, InputWarnings& warnings);
 /// correlated as the fit left it.
 void check_correlations(const Campaign& campaign, InputWarnings& warnings);
 
+/// Warns of families of outputs that the wing does not have: their columns are missing in runs.csv.
+void check_outputs(const Campaign& campaign, InputWarnings& warnings);
+
 /// Warns of requirements that no run or every run meets: a limit on the other side of zero than the nominal value, a
 /// negative limit of a magnitude, a limit on an angle or a rate that is in degrees or has been converted twice (by about
 /// 57.3 from the nominal value), and a limit on a peak while the base's rate grows (no peak is then proven final).

@@ -144,7 +144,7 @@
               "Dispersion",
               "Law",
               "Unit",
-              number("Nominal parameter"),
+              number("As written"),
               number("Draw, 1 % … 99 %"),
               number("In degrees"),
               "Acts on",

@@ -6,6 +6,7 @@
 #include "montecarlo/foundation/formats/input_file.hpp"
 #include "montecarlo/foundation/formats/json_reader.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/results_folder/row_check.hpp"
 #include "montecarlo/results/summary/judge_campaign.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "montecarlo/results/summary/warnings.hpp"
@@ -191,10 +192,14 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
   refuse_rowless(stored.folder);
   if (!std::filesystem::exists(path)) return {};
   InputFile in(path);
-  RowReader reader(in, path.string(), RunPlan(stored.campaign).names(),
+  const ResultNames names = RunPlan(stored.campaign).names();
+  RowReader reader(in, path.string(), names,
                    stored.foreign ? UnterminatedRow::read : UnterminatedRow::drop);
+  const RowCheck check(names, stored.campaign.integration.t_end);
   const auto [first, last] = stored.runs();
   while (reader.next()) {
+    if (const auto fault = stored.foreign ? check.fault_in(reader.row()) : std::nullopt)
+      throw reader.error(fault->column, fault->found, fault->expected);
     if (const long run = reader.row().run; run < first || run >= last)
       throw SpecError({{path.string(), "", fmt::format("run {}", run),
                         fmt::format("runs from {} up to {}, those of {}", first, last - 1,

@@ -52,9 +52,14 @@ std::string compact_outcomes(CompactCases cases) {
   if (!none.empty())
     text += compact_line(fmt::format("  {}", fmt::join(none, ", ")), cases,
                          [](const CaseSummary&) { return std::string("0"); });
-  return text + compact_line("  the nominal wing", cases, [](const CaseSummary& each) {
-           return each.summary.nominal ? spaced(to_string(each.summary.nominal->status)) : "–";
-         });
+  text += compact_line("  the nominal wing", cases, [](const CaseSummary& each) {
+    return each.summary.nominal ? spaced(to_string(each.summary.nominal->status)) : "–";
+  });
+  for (const CaseSummary& each : cases)
+    if (each.summary.nominal && !each.summary.nominal->reason.empty())
+      text += fmt::format(
+          "    {}\n", wrapped(fmt::format("{}: {}", each.name, each.summary.nominal->reason), 4));
+  return text;
 }
 
 std::string four_digits(double value) {

@@ -70,8 +70,7 @@ Json definitions(const Summary& summary) {
         "for p < 0.5 where a requirement has a min; null where such a run has the rank; "
         "among_runs_with_value: over the others alone";
   if (summary.nominal)
-    json["nominal"] =
-        "of the run with nothing dispersed; what drives others by tables is at its median";
+    json["nominal"] = "of the run with every dispersion at the median of its law, tables included";
   if (summary.without_rows) {
     json["quantile"] = "order statistic of rank ceil(n p): exact among the extremes that are kept, "
                        "else by counts: within `within`, its rank off by rank_error at most";
@@ -337,7 +336,8 @@ Json accuracy_json(const Summary& summary) {
             {"beyond_largest", share_json(summary, 0)},
             {"moved", share_json(summary, accuracy.moved.size())},
             {"outputs", std::move(outputs)}};
-  if (!accuracy.moved.empty()) json["moved"]["which"] = accuracy.moved;
+  if (!accuracy.moved.empty())
+    json["moved"].update({{"which", accuracy.moved}, {"outputs", accuracy.moved_outputs}});
   if (!accuracy.in_doubt.empty()) json["in_doubt"] = accuracy.in_doubt;
   if (accuracy.unreached > 0) json["unreached"] = accuracy.unreached;
   return json;

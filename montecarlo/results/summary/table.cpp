@@ -52,6 +52,8 @@ std::string outcomes(const Summary& summary, bool all) {
   if (summary.nominal)
     text +=
         fmt::format("  {:<48}{}\n", "the nominal wing", spaced(to_string(summary.nominal->status)));
+  if (summary.nominal && !summary.nominal->reason.empty())
+    text += fmt::format("    {}\n", wrapped(summary.nominal->reason, 4));
   if (summary.replicates == 1) text += fmt::format("  {}\n", one_replicate);
   return text;
 }

@@ -16,21 +16,24 @@ TEST_CASE("A campaign is described with what varies and how it is run", "[descri
            "distribution": { "type": "exponential", "rate": 9, "truncate": { "upper": 0.1 } } })"));
   const std::string text = describe(read_campaign(document.dump(), ""));
   CHECK_THAT(text, Catch::StartsWith("campaign\nscene small\n"));
-  CHECK(text.substr(text.find("5 dispersions")) ==
-        "5 dispersions\n"
-        "  spring: normal (mean 1, std 0.05), scale hinges.root.spring.torque_stowed (nominal 2 "
-        "N·m), "
-        "hinges.root.spring.torque_latched (nominal 1.4 N·m)\n"
-        "  mass.inner: uniform (lower 7, upper 9), set bodies.inner.mass (nominal 10 kg)\n"
-        "  mass.outer: uniform (lower 7, upper 9), set bodies.outer.mass (nominal 8 kg)\n"
-        "  rate: empirical (values 5 numbers), add hinges.root.initial_rate (nominal -0.1 rad/s)\n"
-        "  stop: exponential (rate 9) within [-inf, 0.1], add hinges.root.angle.latched (nominal 0 "
-        "deg)\n"
-        "sampling: random, 1000 runs, seed 1\n"
-        "integration: method auto, rtol 1e-08, atol 1e-10, latch event, up to 60 s and 1000000 "
-        "steps\n"
-        "outputs: latch_time, latch_rate, peak_moment, peak_force, overtravel, peaks_final\n"
-        "statistics: quantiles 0.01 0.5 0.99, confidence 0.95, bins auto\n");
+  CHECK(
+      text.substr(text.find("5 dispersions")) ==
+      "5 dispersions\n"
+      "  spring: normal (mean 1, std 0.05), scale hinges.root.spring.torque_stowed (nominal 2 "
+      "N·m), "
+      "hinges.root.spring.torque_latched (nominal 1.4 N·m)\n"
+      "  mass.inner: uniform (lower 7, upper 9), set bodies.inner.mass (10 kg as written, "
+      "nominal 8 kg)\n"
+      "  mass.outer: uniform (lower 7, upper 9), set bodies.outer.mass (nominal 8 kg)\n"
+      "  rate: empirical (values 5 numbers), add hinges.root.initial_rate (-0.1 rad/s as written, "
+      "nominal 2.9 rad/s)\n"
+      "  stop: exponential (rate 9) within [-inf, 0.1], add hinges.root.angle.latched (0 deg "
+      "as written, nominal 2.241 deg)\n"
+      "sampling: random, 1000 runs, seed 1\n"
+      "integration: method auto, rtol 1e-08, atol 1e-10, latch event, up to 60 s and 1000000 "
+      "steps\n"
+      "outputs: latch_time, latch_rate, peak_moment, peak_force, overtravel, peaks_final\n"
+      "statistics: quantiles 0.01 0.5 0.99, confidence 0.95, bins auto\n");
 }
 
 TEST_CASE("A fixed step is described with its method", "[describe]") {
@@ -120,6 +123,15 @@ TEST_CASE("Causes, cases and draws that act on one parameter are described", "[d
       "3 cases\n"
       "  cold: temperature: constant (value -60)\n"
       "  ambient: as it is\n"
-      "  old: scale bodies.inner.mass 1.5 (nominal 10 kg), scale bodies.outer.mass 1.5 (nominal 8 "
-      "kg), add hinges.mid.spring.offset 0.001 N·m (nominal 0 N·m)\n");
+      "  old: scale bodies.inner.mass 1.5 (10 kg as written), scale bodies.outer.mass 1.5 (8 kg as "
+      "written), add hinges.mid.spring.offset 0.001 N·m (0 N·m as written)\n");
+}
+
+TEST_CASE("The description says that final angles take every run to t_end", "[describe]") {
+  Json document = test::small_campaign();
+  document["outputs"] = {"latch_time", "final_angle"};
+  CHECK_THAT(
+      describe(read_campaign(document.dump(), "")),
+      Catch::Contains("outputs: latch_time, overtravel, final_angle; for final_angle every run "
+                      "goes to t_end"));
 }

@@ -132,6 +132,8 @@ const std::vector<Mistake> mistakes{
          "/hinges/3/spring/scale": 0.1, "/hinges/4/spring/scale": 0.1})",
      "/hinges/0/spring", "net static torque|root+h1+h2+h3+h4|-"},
     {"a forgotten latch", flight, R"({"/hinges/1/latch": null})", "/hinges/1/latch", "no latch"},
+    {"outputs that no latch has", seed, R"({"/outputs": ["latch_time", "captures"]})", "/outputs",
+     "captures"},
     {"a latch that holds nothing", flight, R"({"/hinges/1/latch/stiffness": 0})",
      "/hinges/1/latch/stiffness", "0 N·m/rad"},
     // the whole life
@@ -214,7 +216,7 @@ const std::vector<Mistake> mistakes{
      R"({"/scene/hinges/1/spring/scale": 0.8,
          "/dispersions/3": {"name": "k", "distribution": {"type": "normal", "mean": 1.01, "std": 0.03},
          "apply": "set", "to": ["hinges.mid.spring.scale"]}})",
-     "/dispersions/3", "a median of 1.01|replaces hinges.mid.spring.scale|nominally 0.8"},
+     "/dispersions/3", "a median of 1.01|replaces hinges.mid.spring.scale|0.8 in the scene"},
     {"a factor that is set", seed,
      R"({"/dispersions/0/apply": "set", "/dispersions/0/to": ["hinges.root.spring.torque_latched"]})",
      "/dispersions/0", "a median of 1 |hinges.root.spring.torque_latched|1.4 N·m"},

@@ -51,6 +51,14 @@ TEST_CASE("cases have a line for each output, with its outermost quantiles, and 
         "statistic\n");
 }
 
+TEST_CASE("a nominal wing that does not deploy has its case and its reason") {
+  std::vector<CaseSummary> cases{compact_case("hot", 0), compact_case("cold", 4)};
+  for (CaseSummary& each : cases) each.summary.nominal = NominalRun{Status::deployed, "root", ""};
+  cases[1].summary.nominal = NominalRun{Status::stalled, "", "root was never released"};
+  CHECK_THAT(compact_cases_table(cases, "title", "out"),
+             Catch::Contains("deployed             stalled\n    cold: root was never released\n"));
+}
+
 TEST_CASE("the accuracy of cases is that of the worst one") {
   std::vector<CaseSummary> cases{compact_case("hot", 0), compact_case("cold", 4)};
   CHECK(compact_cases_table(cases, "title", "out").find("ACCURACY") == std::string::npos);

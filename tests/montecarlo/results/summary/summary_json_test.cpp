@@ -99,6 +99,8 @@ TEST_CASE("summary.json says why the nominal run does not deploy") {
   summary.nominal = NominalRun{Status::stalled, "root", "friction"};
   CHECK(summary_json(summary, {})["nominal"] ==
         Json{{"status", "stalled"}, {"latch_order", "root"}, {"reason", "friction"}});
+  CHECK(summary_json(summary, {})["definitions"]["nominal"] ==
+        "of the run with every dispersion at the median of its law, tables included");
 }
 
 TEST_CASE("summary.json says why a bound is null") {

@@ -124,7 +124,8 @@ TEST_CASE("the nominal run stands beside the statistics") {
   for (OutputSummary& output : summary.outputs) output.nominal = none;
   summary.outputs[0].nominal = 10.5;
   const std::string table = summary_table(summary, "", "");
-  CHECK(contains(table, "\n  the nominal wing" + std::string(32, ' ') + "timed out\n"));
+  CHECK(contains(table, "\n  the nominal wing" + std::string(32, ' ') +
+                            "timed out\n    t_end came first\n"));
   CHECK(contains(table, "OUTPUT             unit       runs    nominal       mean"));
   CHECK(contains(table, "  latch time       s            90     10.500     10.490"));
   CHECK(contains(table, "  deployment time  s            90          –     12.000"));

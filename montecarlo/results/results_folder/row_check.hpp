@@ -1,0 +1,53 @@
+/// Checks that the cells of a row of runs.csv, written by another tool, do not contradict each other. Rows of this
+/// program never do.
+#pragma once
+
+#include "montecarlo/engine/runs/results.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+/// A cell that cannot be right.
+struct RowFault {
+  std::string column, found, expected;
+};
+
+/// Checks, as far as the columns exist:
+/// - magnitudes, counts and times are ≥ 0, and no time is beyond t_end;
+/// - a deployed run has all latch times and a deployment time, and no other run has a deployment time;
+/// - the latch order names hinges, each once, by ascending latch times.
+class RowCheck {
+public:
+  /// @param names  of the campaign's columns
+  /// @param t_end of its runs, s
+  RowCheck(const ResultNames& names, double t_end);
+
+  /// The first fault of a row; nothing if there is none. @pre the row has the columns of the names
+  [[nodiscard]] std::optional<RowFault> fault_in(const ResultRow& row) const;
+
+private:
+  struct Latch {
+    std::string hinge;
+    std::size_t column;
+  };
+  struct Output {
+    std::string name;
+    std::size_t column;
+    bool is_time;
+  };
+
+  [[nodiscard]] std::optional<RowFault> fault_of_size(const ResultRow& row) const;
+  [[nodiscard]] std::optional<RowFault> fault_of_status(const ResultRow& row) const;
+  [[nodiscard]] std::optional<RowFault> fault_of_order(const ResultRow& row) const;
+
+  double t_end_;
+  std::vector<Output> not_negative_;
+  std::vector<Latch> latches_; ///< the hinges with a column latch_time
+  std::optional<std::size_t> deployment_time_;
+};
+
+} // namespace wingspread

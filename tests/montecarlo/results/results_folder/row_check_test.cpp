@@ -1,0 +1,57 @@
+#include "montecarlo/results/results_folder/row_check.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <limits>
+
+using namespace wingspread;
+
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double last_time = 60;
+const ResultNames columns_to_check{
+    {},
+    {"root.latch_time", "tip.latch_time", "root.peak_moment", "tip.latch_rate", "deployment_time"}};
+
+/// "column: found" of a row's fault; empty without one.
+std::string fault_of(Status status, const std::vector<double>& outputs, const std::string& order) {
+  ResultRow row;
+  row.status = status, row.outputs = outputs, row.latch_order = order;
+  const auto fault = RowCheck(columns_to_check, last_time).fault_in(row);
+  return fault ? fault->column + ": " + fault->found : "";
+}
+
+} // namespace
+
+TEST_CASE("rows that do not contradict themselves have no fault") {
+  CHECK(fault_of(Status::deployed, {1, 2, 5, -3, 2}, "root>tip") == "");
+  CHECK(fault_of(Status::deployed, {2, 2, 5, -3, 2}, "tip>root") == "");
+  CHECK(fault_of(Status::deployed, {2, 1, 0, -3, 2}, "") == ""); // another tool knows no order
+  CHECK(fault_of(Status::stalled, {1, missing, 5, missing, missing}, "root") == "");
+  CHECK(fault_of(Status::timed_out, {1, 2, 5, missing, missing}, "root>tip") ==
+        ""); // a hold held a hinge
+  CHECK(fault_of(Status::invalid, {missing, missing, missing, missing, missing}, "") == "");
+  CHECK(fault_of(Status::deployed, {1, last_time * (1 + 1e-12), 5, 0, last_time}, "root>tip") ==
+        "");
+}
+
+TEST_CASE("a row that contradicts itself has a fault, in its column") {
+  CHECK(fault_of(Status::deployed, {1, missing, 5, 0, 1}, "root") ==
+        "tip.latch_time: nothing in a deployed run");
+  CHECK(fault_of(Status::deployed, {1, 2, 5, 0, missing}, "root>tip") ==
+        "deployment_time: nothing in a deployed run");
+  CHECK(fault_of(Status::timed_out, {1, missing, 5, 0, 1}, "root") ==
+        "deployment_time: 1 s in a run that is timed_out");
+  CHECK(fault_of(Status::deployed, {1, 2, 5, 0, 2}, "root>top") ==
+        "latch_order: 'root>top', in which no hinge with a latch is named 'top'");
+  CHECK(fault_of(Status::deployed, {1, 2, 5, 0, 2}, "root>root") ==
+        "latch_order: 'root>root', with 'root' more than once");
+  CHECK(fault_of(Status::stalled, {1, missing, 5, 0, missing}, "root>tip") ==
+        "latch_order: 'root>tip', but tip.latch_time is empty");
+  CHECK(fault_of(Status::deployed, {1, 2, 5, 0, 2}, "tip>root") ==
+        "latch_order: 'tip>root', but root latched earlier, at 1 s");
+  CHECK(fault_of(Status::deployed, {1, 2, -5, 0, 2}, "root>tip") == "root.peak_moment: -5");
+  CHECK(fault_of(Status::deployed, {-1, 2, 5, 0, 2}, "root>tip") == "root.latch_time: -1");
+  CHECK(fault_of(Status::deployed, {1, 1e308, 5, 0, 2}, "root>tip") == "tip.latch_time: 1e+308 s");
+}
