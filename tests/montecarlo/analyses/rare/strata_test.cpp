@@ -96,7 +96,7 @@ Json rare_values(int count, double probability) {
 
 TEST_CASE("a release that fails once in 100,000: bounds of 12 seeds cover it", "[rare][long]") {
   constexpr int seeds = 12;
-  const RareOptions options{.samples = 100, .repeats = 2};
+  const RareOptions options{.samples = 200, .repeats = 3};
   CHECK(covered(failing_lid(1e-5), options, 1e-5, seeds) == seeds); // certain within the stratum
   CHECK(covered(failing_lid(5e-4), options, 5e-4, seeds) == seeds);
 }
@@ -109,7 +109,7 @@ TEST_CASE("a rare stiffness among common ones, and a rare failure beside late de
   island["dispersions"] = {
       discrete_law("k", {2000, 9000}, {0.9997, 0.0003}, "set", "hinges.h.latch.stiffness"),
       normal_law("s", 1, 0.05, "scale", "hinges.h.spring.scale")};
-  CHECK(covered(island, {.event = {"h.peak_moment", 120, true}, .samples = 100, .repeats = 2}, 3e-4,
+  CHECK(covered(island, {.event = {"h.peak_moment", 120, true}, .samples = 200, .repeats = 3}, 3e-4,
                 seeds) >= 10);
   // it latches later than 8 s: never, or after a delay of 8 s less the travel's time
   const double late = upper_tail((8 - std::sqrt(2 * 1.5 / 1.2) - 5) / 0.4);
