@@ -30,6 +30,14 @@ template <class T> struct Due {
   Kink<T> kink{};         ///< of a kink
 };
 
+/// Which events are searched in a step.
+struct EventSearch {
+  std::optional<KinkLimit> kinks{}; ///< which kinks are events too; none: none is
+  bool releases = true;             ///< whether a stuck hinge may let go
+  const std::vector<char>* hinges =
+      nullptr; ///< 1 … n: whether it may have another event; null: any may
+};
+
 /// Finds the events of one run and applies them.
 template <class T, class AnySystem> class Events {
 public:
@@ -55,30 +63,29 @@ public:
   [[nodiscard]] std::vector<T>& excess_before() { return holding_.before(); }
 
   /// The earliest event in the step. The interpolant decides whether an event happens. Overwrites x and dxdt.
-  /// @param kinks which kinks are events too; none: none is
-  /// @param releases whether a stuck hinge may let go
   [[nodiscard]] std::optional<Due<T>> first(const Step<T>& step, State<T>& x, State<T>& dxdt,
-                                            const std::optional<KinkLimit>& kinks = std::nullopt,
-                                            bool releases = true) {
+                                            const EventSearch& search = {}) {
     std::optional<Due<T>> first;
-    if (kinks && (system_.wing().is_real() || system_.layout().smoothed))
-      if (const auto found = KinkSearch<T, AnySystem>(system_, step, *kinks).first())
+    if (search.kinks && (system_.wing().is_real() || system_.layout().smoothed))
+      if (const auto found = KinkSearch<T, AnySystem>(system_, step, *search.kinks).first())
         first = Due<T>{Event::kink, 0, found->s, T(0), Edge::stop, found->kink};
     const auto offer = [&](Event event, int i, const std::optional<T>& s, const T& slope) {
       if (s && (!first || *s < first->s)) first = Due<T>{event, i, *s, slope};
     };
+    const auto may_happen = [&](int i) { return !search.hinges || (*search.hinges)[i] != 0; };
     for_each_edge(system_, [&](int i, Edge edge) {
-      if (system_.sticks(i)) return;
+      if (system_.sticks(i) || !may_happen(i)) return;
       const std::optional<T> s = first_crossing(system_, step, i, edge);
       if (s && (!first || *s < first->s)) first = Due<T>{Event::edge, i, *s, T(0), edge};
     });
     for (int i = 1; i <= system_.layout().bodies; ++i) {
+      if (!may_happen(i)) continue;
       if (latches_.may_engage(i)) offer(Event::latch, i, latches_.first_engagement(step, i), T(0));
       if (sliding_sense(system_, i) != 0) offer(Event::rest, i, first_rest(system_, step, i), T(0));
       if (latches_.may_open(i)) offer(Event::open, i, first_opening(system_, step, i), T(0));
       if (releases_.held() > 0) offer(Event::seen, i, releases_.first_passage(step, i), T(0));
     }
-    if (releases && system_.work().stuck > 0) {
+    if (search.releases && system_.work().stuck > 0) {
       const auto release = holding_.first_release(system_, step, x, dxdt);
       if (release)
         offer(release->graze ? Event::graze : Event::release, release->hinge, release->s,

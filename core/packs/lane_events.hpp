@@ -25,6 +25,7 @@ public:
     const P none(0.0);
     for (std::vector<P>* v : {&waits_, &slides_, &watches_}) v->assign(at.bodies + 1, none);
     for (std::vector<P>& ways : ways_) ways.assign(real, none);
+    may_happen_.assign(at.bodies + 1, Mask{});
   }
 
   /// Copies the states of the run's latches, contacts and holds, and on which side of its edges each hinge is.
@@ -44,10 +45,11 @@ public:
 
   /// @return lanes in which an event may lie inside the step
   template <class AnySystem>
-  [[nodiscard]] Mask lie_inside(const AnySystem& system, const Step<P>& step) const {
+  [[nodiscard]] Mask lie_inside(const AnySystem& system, const Step<P>& step) {
     const auto& wing = system.wing();
-    Mask found{};
+    Mask any{};
     for (int i = 1; i <= wing.size(); ++i) {
+      Mask found{};
       const HingeTerms<P>& hinge = wing.hinges[i];
       if (hinge.has_latch && !has_capture(wing, i))
         found = found || (waits(i) && may_engage(system, step, i));
@@ -56,8 +58,16 @@ public:
         found = found || (!system.is_locked(i) && may_pass_edge(system, step, i));
       if (wing.can_stick) found = found || (slides(i) && may_come_to_rest(system, step, i));
       if (waits_for_hinge(wing, i)) found = found || (watches(i) && may_be_seen(system, step, i));
+      may_happen_[i] = found;
+      any = any || found;
     }
-    return found;
+    return any;
+  }
+
+  /// Copies which hinges may have events in the last step out of a lane.
+  void unload(int lane, LaneResult& result) const {
+    for (std::size_t i = 1; i < may_happen_.size(); ++i)
+      result.may_happen[i] = may_happen_[i].bits[lane] != 0 ? 1 : 0;
   }
 
   /// @return lanes in which an event of hinge i lies within an instant of the step's end
@@ -171,6 +181,8 @@ private:
     return rests_at(P(step.t + step.h), rate, P(-(slides_[i] * step.dxdt1[r])));
   }
 
+  std::vector<Mask>
+      may_happen_; ///< 1 … n: lanes in which an event of the hinge may lie inside the last step
   std::vector<P> waits_;   ///< 1: the latch is not engaged, else 0
   std::vector<P> slides_;  ///< sense in which a hinge slides against exact friction; 0: it does not
   std::vector<P> watches_; ///< 1: the hinge's hold waits for another hinge's angle, else 0

@@ -108,6 +108,7 @@ public:
     peaks_.unload(lane, result, moved);
     holds_.unload(lane, result, M == BaseMotion::free, moved);
     result.evaluations = (result.trial_steps + 1) * Formula::evaluations + peaks_.evaluations(lane);
+    events_.unload(lane, result);
     result.none = {asks_after_[3].bits[lane] == 0, kinks_.bits[lane] == 0,
                    releases_.bits[lane] == 0};
     result.peaks_searched = result.moments_may_rise && accepted_.bits[lane] != 0;

@@ -120,7 +120,8 @@ public:
             events_.excess_before(),
             run_.system.made_elsewhere().holding,
             peaks_.base(),
-            asked_.stage == Stage::step ? &peaks_.moments_may_rise() : nullptr};
+            asked_.stage == Stage::step ? &peaks_.moments_may_rise() : nullptr,
+            may_happen_};
   }
 
   /// Whether the step asked for is part of one under way: to an event, or to a peak in doubt.
@@ -142,7 +143,7 @@ public:
     none_ = result.none;
     by_lane_ = {result.peaks_searched, result.forces_may_rise};
     judge(asks_for_whole_step() ? result.judged : StepVerdict{result.error, 1});
-    none_ = {}, by_lane_ = {};
+    none_.reset(), by_lane_ = {};
   }
 
 private:
@@ -188,6 +189,7 @@ private:
   void start() {
     AnySystem& system = run_.system;
     ended_ = false;
+    may_happen_.assign(run_.at.bodies + 1, true);
     run_.step.t = T(0);
     system.reset();
     system.made_elsewhere().least_motion = T(run_.how.atol);
@@ -250,12 +252,16 @@ private:
   void judge_step(const StepVerdict& verdict) {
     if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_))) return refuse_step();
     stepping_.choose_next_size();
-    if (none_.at_all)
+    if (none_ && none_->at_all)
       landing_.expect_no_event();
-    else if (landing_.cut_at_event(none_.kinks ? std::nullopt : stepping_.kinks(),
-                                   stepping_.rtol_of_landing(), !none_.releases))
+    else if (landing_.cut_at_event(events_to_search(), stepping_.rtol_of_landing()))
       return ask_to_end(Stage::landing);
     accept();
+  }
+
+  [[nodiscard]] EventSearch events_to_search() const {
+    if (!none_) return {stepping_.kinks()};
+    return {none_->kinks ? std::nullopt : stepping_.kinks(), !none_->releases, &may_happen_};
   }
 
   void refuse_step() {
@@ -371,7 +377,10 @@ private:
   Ending<T, AnySystem> ending_;
   Try asked_;
   bool ended_ = false;
-  NoEvents none_{}; ///< that a lane has found in the step to be judged
+  std::optional<NoEvents>
+      none_; ///< if a lane has made the step to be judged: what it has found in it
+  std::vector<char>
+      may_happen_; ///< 1 … n: if so, the hinges that may have events; for the lane to write to
   typename PeakSearch<T, AnySystem>::LaneSearch by_lane_; ///< of the peaks of that step
   Conserved<T> kept_{};                                   ///< momenta of a free base
 };

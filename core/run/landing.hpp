@@ -19,15 +19,13 @@ template <class T, class AnySystem> class Landing {
 public:
   Landing(Underway<T, AnySystem>& run, Events<T, AnySystem>& events) : run_(run), events_(events) {}
 
-  /// Cuts a step just accepted at the first event inside. @param kinks which kinks are events
+  /// Cuts a step just accepted at the first event inside.
   /// @param rtol relative tolerance of the step, 0 where the method does not resolve accelerations
-  /// @param releases whether a stuck hinge may let go
   /// @return whether there is one: the step must then be made again, to the event
-  [[nodiscard]] bool cut_at_event(const std::optional<KinkLimit>& kinks, double rtol,
-                                  bool releases) {
+  [[nodiscard]] bool cut_at_event(const EventSearch& search, double rtol) {
     nearest_ = nearest(rtol);
     missed_ = false, searches_ = 0;
-    due_ = events_.first(run_.step, run_.x, run_.dxdt, kinks, releases);
+    due_ = events_.first(run_.step, run_.x, run_.dxdt, search);
     if (due_) begin();
     return due_.has_value();
   }
@@ -78,7 +76,7 @@ public:
   [[nodiscard]] bool cut_at_earlier_event(const std::optional<KinkLimit>& kinks) {
     constexpr int most_searches = 8; // heuristic: a kink that the landing misses is found anew
     if (due_->event != Event::kink || ++searches_ > most_searches) return false;
-    const std::optional<Due<T>> seen = events_.first(run_.step, run_.x, run_.dxdt, kinks);
+    const std::optional<Due<T>> seen = events_.first(run_.step, run_.x, run_.dxdt, {kinks});
     if (!seen) return false;
     due_ = seen;
     begin();

@@ -64,7 +64,7 @@ struct LaneTask {
 
 /// Events that a lane has excluded in a step.
 struct NoEvents {
-  bool at_all = false;
+  bool at_all = false;                  ///< if not, LaneResult::may_happen says of which hinges
   bool kinks = false, releases = false; ///< of stuck hinges
 };
 
@@ -88,6 +88,8 @@ struct LaneResult {
   BaseExcursion<double>& base;      ///< of a free base, up to the start of that step
   /// 1 … n: over that step; written only if `peaks_searched`. Null: a step inside another one, whose peaks count.
   std::vector<char>* moments_may_rise;
+  std::vector<char>&
+      may_happen; ///< 1 … n: whether a hinge may have an event of its own in the last trial step, if accepted
   // values
   long trial_steps = 0;     ///< before the last one; 0: the state is the task's, and not written
   double h = 0;             ///< the last trial step, s

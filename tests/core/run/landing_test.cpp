@@ -67,7 +67,7 @@ struct Arriving : LandingRun {
 TEST_CASE(
     "a step that ends a little late is moved back to its event: state, accelerations, forces") {
   Arriving at(Goal{});
-  REQUIRE(at.landing.cut_at_event({}, 1e-8, true));
+  REQUIRE(at.landing.cut_at_event({}, 1e-8));
   const double exact = at.run.step.h;
   CHECK(at.run.step.x1[0] < 0); // of the whole step: beyond the latch
   const double late = at.overshoot();
@@ -87,7 +87,7 @@ TEST_CASE(
 
 TEST_CASE("where nobody asks for peaks, a step is moved to its event without an evaluation") {
   Arriving at(latches_only);
-  REQUIRE(at.landing.cut_at_event({}, 1e-8, true));
+  REQUIRE(at.landing.cut_at_event({}, 1e-8));
   at.overshoot();
   const long before = at.work.evaluations;
   CHECK_FALSE(at.landing.correct_end());
@@ -97,7 +97,7 @@ TEST_CASE("where nobody asks for peaks, a step is moved to its event without an 
 
 TEST_CASE("a step that ends much too late is made again") {
   Arriving at(Goal{});
-  REQUIRE(at.landing.cut_at_event({}, 1e-8, true));
+  REQUIRE(at.landing.cut_at_event({}, 1e-8));
   const double exact = at.run.step.h;
   at.run.step.h *= 1.001;
   at.run.step.x1 = at.state_after(at.run.step.h);
@@ -113,7 +113,7 @@ TEST_CASE("how far a step may be moved to its event depends on the tolerance, if
     for (const double share : {0.9 * most, 1.1 * most}) {
       CAPTURE(rtol, share);
       Arriving at(latches_only);
-      REQUIRE(at.landing.cut_at_event({}, rtol, true));
+      REQUIRE(at.landing.cut_at_event({}, rtol));
       at.overshoot(share);
       CHECK(at.landing.correct_end() == (share > most));
     }
@@ -133,7 +133,7 @@ TEST_CASE("a step is moved along a curved way: the state stays that of the motio
   for (const double share : {-1e-4, 1e-4, 1e-6}) {
     CAPTURE(share);
     Arriving at(latches_only);
-    REQUIRE(at.landing.cut_at_event({}, 1e-4, true));
+    REQUIRE(at.landing.cut_at_event({}, 1e-4));
     Step<double>& step = at.run.step;
     const auto first = state(-h), last = state(share * h);
     step.h = h * (1 + share);
@@ -153,7 +153,7 @@ TEST_CASE(
     "made again") {
   // past the latch by 1 nrad, at 20 µrad/s, and turning back at 1 rad/s²: the slope is lost within the way
   Arriving at(latches_only);
-  REQUIRE(at.landing.cut_at_event({}, 1e-6, true));
+  REQUIRE(at.landing.cut_at_event({}, 1e-6));
   Step<double>& step = at.run.step;
   const auto arrives = [&step](double rate) {
     step.h = 1;
