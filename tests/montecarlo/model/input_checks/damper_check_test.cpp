@@ -13,9 +13,11 @@ namespace {
 
 /// The warnings of the flight scene with these hinges damped, one line each.
 std::string warnings_of(std::initializer_list<int> damped, double t_end) {
-  const std::filesystem::path studies = std::filesystem::path(source_folder) / "studies";
-  Scene scene = read_scene_file(studies / "scenes/three_panel_flight.json");
-  for (const int hinge : damped) scene.hinges[hinge].damper = Damper{.coefficient = 120};
+  const std::filesystem::path folder = std::filesystem::path(source_folder) / "studies/scenes";
+  Scene scene = read_scene_file(folder / "three_panel_flight.json");
+  Damper damper;
+  damper.coefficient = 120;
+  for (const int hinge : damped) scene.hinges[hinge].damper = damper;
   Integration integration;
   integration.t_end = t_end;
   std::string text;
