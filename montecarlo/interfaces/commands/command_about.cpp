@@ -35,7 +35,8 @@ int print_schema(const SchemaOptions& options) {
 }
 
 void add_schema_options(CLI::App& command, SchemaOptions& options) {
-  one_of(command.add_option("of", options.of, "scene or campaign"), {"scene", "campaign"})
+  one_of(command.add_option("of", options.of, "Which schema"), {"scene", "campaign"})
+      ->type_name("scene|campaign")
       ->required();
   command.footer(
       R"(An editor with this schema completes keys, describes them, and marks unknown keys and wrong types.

@@ -193,8 +193,9 @@ the one before. A probability of one in a million takes some ten thousand runs.
 independent repeats show it too. The estimate is biased high by 0.4 of one repeat's squared
 coefficient of variation: more --samples reduce the bias, more --repeats do not. Draws are
 independent, whatever the campaign's design. A value of a discrete dispersion that is too rare to be
-drawn (a release that fails, one in 100,000) is simulated by itself, with its exact probability. If the simulation does not reach the event, it prints
-the estimated probability of the last level: an estimated upper bound, not guaranteed.
+drawn (a release that fails, one in 100,000) is simulated by itself, with its exact probability.
+  If the simulation does not reach the event, it prints the estimated probability of the last level:
+an estimated upper bound, not guaranteed.
   A run without the output (it stalled before, or failed) counts as the event.
 
 With --out the folder has looks.log, a checkpoint of all runs, until the study is finished: after an

@@ -19,7 +19,6 @@ _wingspread() {
       compopt -o filenames 2>/dev/null
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return ;;
-    *{*}*) words=${type#*\{} words=${words%%\}*} ;; # TEXT:{scene,campaign}
     *\|*) words=$(tr '|' '\n' <<<"$type" | grep -v '[A-Z]') ;; # event|smoothed:EPS
   esac
   mapfile -t COMPREPLY < <(compgen -W "${words//,/ }" -- "$word")

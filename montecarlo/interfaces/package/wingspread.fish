@@ -20,8 +20,6 @@ function __wingspread_candidates
     switch "$type"
         case TEXT 'FILE*' 'DIR*'
             __fish_complete_path $word
-        case '*{*}*' # TEXT:{scene,campaign}
-            string replace -r '.*\{(.*)\}' '$1' $type | string split ,
         case '*|*' # event|smoothed:EPS
             string split '|' $type | string match -v -r '[A-Z]'
     end

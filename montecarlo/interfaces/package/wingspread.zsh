@@ -20,7 +20,6 @@ _wingspread() {
       found=(${(f)"$(sed -n '/^Options:/,/^$/s/^  \(-[a-z],\)\?\(--[a-z-]*\)\(.*  \)\?/\2:/p' <<<"$help")"})
       [[ $PREFIX == -* ]] && _describe option found ;;
     TEXT|FILE*|DIR*) _files ;;
-    *\{*\}*) found=(${(s:,:)${type#*\{}%%\}*}); compadd -a found ;; # TEXT:{scene,campaign}
     *\|*) found=(${(s:|:)type}); compadd -- ${found:#*[A-Z]*} ;; # event|smoothed:EPS
   esac
 }
