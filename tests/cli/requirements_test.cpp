@@ -341,3 +341,19 @@ TEST_CASE("what holds for independent draws is refused with Sobol' points, by it
   CHECK(refused.error == "error: " + required + ": /requirements: found requirements" + reason);
   CHECK_FALSE(std::filesystem::exists(program.out + "2"));
 }
+
+TEST_CASE("analyze says that runs are missing, and that rows with gaps look selected") {
+  const RequirementsPlace run;
+  REQUIRE(run({"run", run.file(requiring({6})), "--out", run.out}).code == 0);
+  const std::filesystem::path rows = std::filesystem::path(run.out) / "runs.csv";
+  const std::string whole = read_text(rows).value();
+  CHECK(run({"analyze", run.out}).error.empty());
+  const std::size_t last = whole.rfind("\n59,") + 1, middle = whole.find("\n30,") + 1;
+  REQUIRE((last > middle && middle > 1));
+  write_file(rows, whole.substr(0, last));
+  CHECK_THAT(run({"analyze", run.out}).error,
+             Catch::Contains("warning: incomplete: 59 of 60 runs; the verdicts are not final\n"));
+  write_file(rows, whole.substr(0, middle) + whole.substr(whole.find('\n', middle) + 1));
+  CHECK_THAT(run({"analyze", run.out}).error,
+             Catch::Contains("warning: 59 of 60 runs, with gaps that no interruption leaves"));
+}

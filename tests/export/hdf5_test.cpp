@@ -133,7 +133,9 @@ TEST_CASE("exported columns say what they are, and the file where they are from"
                     spring = in.openDataSet("root_spring");
   CHECK(attribute(time, "name") == "root.latch_time");
   CHECK(attribute(time, "unit") == "s");
-  CHECK(attribute(time, "description") == "when root reaches its latched angle for the first time");
+  CHECK(attribute(time, "description") ==
+        "when root reaches its latched angle for the first time; of a latch that may miss or let "
+        "go, when it engaged for good");
   CHECK(attribute(mass, "unit") == "kg");
   CHECK(attribute(mass, "description") ==
         "drawn: uniform (lower 9, upper 11); set bodies.panel_1.mass");

@@ -100,6 +100,14 @@ std::vector<std::string> names_of(std::span<const Command> commands) {
   return names;
 }
 
+/// " (write --until before each of its values)", of the first option given that takes one value at a time.
+std::string repeated_option(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && option->get_expected_max() > 1 && !option->get_allow_extra_args())
+      return fmt::format(" (write {} before each of its values)", option->get_name());
+  return "";
+}
+
 /// One line for each argument that no command or option takes: the unknown options, else the first word.
 std::string unknown_text(const CLI::App& app, std::span<const Command> commands) {
   const std::vector<std::string> left = app.remaining(true);
@@ -114,10 +122,11 @@ std::string unknown_text(const CLI::App& app, std::span<const Command> commands)
     }
   if (!text.empty() || left.empty()) return text;
   const bool is_command = given.empty();
+  const std::string repeated = is_command ? "" : repeated_option(*given.front());
   return fmt::format("found {} \"{}\", expected {}{}\n",
                      is_command ? "the unknown command" : "the argument", left.front(),
                      is_command ? "a command of wingspread" : "no further argument",
-                     is_command ? did_you_mean(left.front(), names_of(commands)) : "");
+                     is_command ? did_you_mean(left.front(), names_of(commands)) : repeated);
 }
 
 /// What is wrong with the command line, a line for each problem. A misspelt option comes before the one that is missed.

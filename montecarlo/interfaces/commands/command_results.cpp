@@ -107,6 +107,19 @@ StoredCampaign as_asked(StoredCampaign stored, const AnalyzeOptions& options) {
   return stored;
 }
 
+/// Says that planned runs are missing, and whether the rows look selected: an interruption leaves no gaps.
+void print_missing_runs(const StoredCampaign& stored, const Summary& summary, long last_run) {
+  const RunRange planned = stored.runs();
+  if (summary.stopped || stored.stamp.preview || summary.runs >= planned.size()) return;
+  const bool has_gaps = last_run >= planned.first + summary.runs;
+  fmt::print(stderr, "warning: {}{} of {} runs{}{}\n", has_gaps ? "" : "incomplete: ", summary.runs,
+             planned.size(),
+             stored.campaign.of_case.empty() ? "" : " of case " + stored.campaign.of_case,
+             has_gaps ? ", with gaps that no interruption leaves: of selected runs no verdict and "
+                        "no bound holds"
+                      : "; the verdicts are not final");
+}
+
 /// Computes the statistics again and writes them to the folder `to`, which gets a copy of the campaign and its rows if it
 /// is another folder. The campaign's folder is then `to`.
 Summary summarize_again(StoredCampaign& stored, const std::filesystem::path& to) {
@@ -115,7 +128,11 @@ Summary summarize_again(StoredCampaign& stored, const std::filesystem::path& to)
   const StatisticsSpec& spec = stored.campaign.statistics;
   if (is_streaming_folder(to))
     return write_streaming_statistics(stored, read_streaming_statistics(stored).statistics, spec);
-  return write_statistics(stored, read_stored_results(stored).results, spec);
+  const Results results = read_stored_results(stored).results;
+  const long last_run = results.size() == 0 ? -1 : results.runs[results.size() - 1];
+  Summary summary = write_statistics(stored, results, spec);
+  print_missing_runs(stored, summary, last_run);
+  return summary;
 }
 
 constexpr const char* statistics_elsewhere =

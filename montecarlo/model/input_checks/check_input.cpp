@@ -2,6 +2,7 @@
 
 #include "montecarlo/foundation/formats/json_parse.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/input_checks/bending_check.hpp"
 #include "montecarlo/model/input_checks/clearance_check.hpp"
 #include "montecarlo/model/input_checks/damper_check.hpp"
 #include "montecarlo/model/input_checks/dispersion_checks.hpp"
@@ -22,6 +23,7 @@ void check_numbers(const Scene& scene, InputWarnings& warnings) {
   check_sizes(scene, warnings);
   check_torques(scene, warnings);
   check_shape(scene, warnings);
+  check_bending(scene, warnings);
 }
 
 /// Deploys the nominal wing.

@@ -13,7 +13,8 @@ struct Entry {
 };
 
 constexpr std::array outputs{
-    Entry{"HINGE.latch_time", "when the hinge reaches its latched angle for the first time"},
+    Entry{"HINGE.latch_time", "when the hinge reaches its latched angle for the first time; of a "
+                              "latch that may miss or let go, when it engaged for good"},
     Entry{"HINGE.latch_rate",
           "the hinge's relative rate at that instant; the sign is the sense of rotation, "
           "counter-clockwise positive"},

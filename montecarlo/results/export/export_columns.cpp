@@ -21,7 +21,8 @@ struct Description {
 };
 
 constexpr std::array descriptions{
-    Description{"latch_time", "when {0} reaches its latched angle for the first time"},
+    Description{"latch_time", "when {0} reaches its latched angle for the first time; of a latch "
+                              "that may miss or let go, when it engaged for good"},
     Description{"latch_rate", "the relative rate of {0} when it latches, signed"},
     Description{"peak_moment", "the largest magnitude of the moment about {0}"},
     Description{"peak_force", "the largest magnitude of the force across {0}"},

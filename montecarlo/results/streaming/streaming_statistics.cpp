@@ -79,7 +79,7 @@ StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultN
       return each.output == requirement.output && each.absolute == requirement.absolute;
     });
     population_of_.push_back(static_cast<std::size_t>(found - required_.begin()));
-    requirement_counts_.push_back({0, 0, Extremes(Extremes::End::highest, most_broken)});
+    requirement_counts_.push_back({0, 0, 0, Extremes(Extremes::End::highest, most_broken)});
   }
   if (names.draws.size() * (names.outputs.size() + 1) <= most_streaming_pairs)
     correlations_.emplace(names.draws.size(), names.outputs.size() + 1);
@@ -157,9 +157,9 @@ bool StreamingStatistics::add_requirements(const ResultRow& row, std::span<const
     breaks = true;
     ++requirement_counts_[r].failures;
     requirement_counts_[r].worst.add(badness, row.run);
-    const bool of_peak = q < required_.size() && is_peak_[q];
-    if (badness == infinity && row.status == Status::deployed && of_peak && is_cut)
-      ++requirement_counts_[r].cut;
+    if (badness != infinity || q >= required_.size()) continue;
+    const bool cut = row.status == Status::deployed && is_peak_[q] && is_cut;
+    ++(cut ? requirement_counts_[r].cut : requirement_counts_[r].absent);
   }
   return breaks;
 }
@@ -204,6 +204,7 @@ void StreamingStatistics::add(const StreamingStatistics& other) {
   for (std::size_t r = 0; r < requirement_counts_.size(); ++r) {
     requirement_counts_[r].failures += other.requirement_counts_[r].failures;
     requirement_counts_[r].cut += other.requirement_counts_[r].cut;
+    requirement_counts_[r].absent += other.requirement_counts_[r].absent;
     requirement_counts_[r].worst.add(other.requirement_counts_[r].worst);
   }
   if (correlations_) correlations_->add(*other.correlations_);

@@ -44,6 +44,7 @@ struct RequiredOutput {
 /// The runs that break a requirement.
 struct RequirementCounts {
   long failures = 0, cut = 0; ///< `cut`: deployed runs among them whose peak t_end cut
+  long absent = 0;            ///< runs among them that did not deploy or lack the output
   Extremes worst;             ///< the worst runs; a value worse than any number is infinite
 };
 

@@ -49,9 +49,10 @@ void StreamingStatistics::write(StateWriter& to) const {
     values.write(to);
     put_count(to, worse);
   }
-  for (const auto& [failures, cut, worst] : requirement_counts_) {
+  for (const auto& [failures, cut, absent, worst] : requirement_counts_) {
     put_count(to, failures);
     put_count(to, cut);
+    put_count(to, absent);
     worst.write(to);
   }
   for (const Scale& scale : draw_scales_) put_scale(to, scale);
@@ -95,9 +96,10 @@ StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultN
     get_count(from, population.worse);
     populations_.push_back(std::move(population));
   }
-  for (auto& [failures, cut, worst] : requirement_counts_) {
+  for (auto& [failures, cut, absent, worst] : requirement_counts_) {
     get_count(from, failures);
     get_count(from, cut);
+    get_count(from, absent);
     worst.read(from);
   }
   for (std::size_t i = 0; i < names.draws.size(); ++i) draw_scales_.push_back(get_scale(from));

@@ -166,7 +166,7 @@ std::vector<Verdict> verdicts_of(const Campaign& campaign, const StreamingStatis
     verdict.runs = statistics.runs();
     for (const RunValue& worst : counted.worst.sorted()) verdict.broken.push_back(worst.run);
     verdict.not_listed = counted.failures - std::ssize(verdict.broken);
-    verdict.cut = counted.cut;
+    verdict.cut = counted.cut, verdict.absent = counted.absent;
     decide(confidence_alone(campaign.requirements, requirement), {}, verdict);
     const auto found = std::ranges::find_if(statistics.required(), [&](const RequiredOutput& each) {
       return each.output == requirement.output && each.absolute == requirement.absolute;

@@ -15,7 +15,6 @@
 #include <optional>
 
 namespace wingspread {
-
 namespace {
 
 constexpr std::string_view replicates_agree =
@@ -247,6 +246,7 @@ Json verdict_json(const Summary& summary, const Verdict& verdict) {
   if (!verdict.allowed && verdict.least_runs) json["least_runs"] = *verdict.least_runs;
   if (!verdict.requirement.group.empty()) json["confidence_alone"] = verdict.confidence_alone;
   if (verdict.cut > 0) json["failures"]["peaks_cut"] = verdict.cut;
+  if (verdict.absent > 0) json["failures"]["without_value"] = verdict.absent;
   if (summary.interim.count() > 1) json["confidence_at_this_analysis"] = verdict.confidence;
   if (const auto& joint = verdict.joint) {
     json["risk_of_wrong_pass"] = joint->risk;

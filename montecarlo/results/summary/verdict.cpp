@@ -62,18 +62,19 @@ double value_or_infinite(const Results& results, std::size_t row, double value,
   return how.absolute ? std::abs(value) : value;
 }
 
-/// The runs that break the requirement, the worst first; ties by run number.
-Spilled<long> breaking(const Requirement& requirement, const Results& results, const Column* column,
-                       long& cut) {
+/// Sets the runs that break the requirement, the worst first, ties by run number; and why they do.
+void add_breaking(const Results& results, const Column* column, Verdict& verdict) {
+  const Requirement& requirement = verdict.requirement;
   const double sign = sign_of(requirement), limit = limit_of(requirement);
   const Reading how = reading_of(column, requirement.absolute);
-  Spilled<long> broken; // begins with the runs that are worse than any number, by run number
+  Spilled<long>& broken = verdict.broken; // begins with the runs that are worse than any number
   std::vector<Badness> beyond;
   for (std::size_t row = 0; row < results.size(); ++row) {
     const double value = value_or_infinite(results, row, column ? column->values[row] : 0, how);
     if (value == infinity) {
       broken.push_back(results.runs[row]);
-      cut += results.status[row] == Status::deployed && is_cut(results, row, how) ? 1 : 0;
+      const bool cut = results.status[row] == Status::deployed && is_cut(results, row, how);
+      if (column) ++(cut ? verdict.cut : verdict.absent);
     } else if (sign * value > limit) {
       beyond.push_back({results.runs[row], sign * value});
     }
@@ -83,7 +84,6 @@ Spilled<long> breaking(const Requirement& requirement, const Results& results, c
     return a.value != b.value ? a.value > b.value : a.run < b.run;
   });
   for (const auto& [run, value] : beyond) broken.push_back(run);
-  return broken;
 }
 
 Decision decision_of(const Verdict& verdict) {
@@ -119,7 +119,7 @@ Verdict judge_one(const Requirement& requirement, const Results& results, const 
   Verdict verdict;
   verdict.requirement = requirement;
   verdict.runs = static_cast<long>(results.size());
-  verdict.broken = breaking(requirement, results, column, verdict.cut);
+  add_breaking(results, column, verdict);
   decide(confidence, interim, verdict);
   if (ranks)
     add_values(*ranks, verdict);
@@ -263,9 +263,15 @@ std::string evidence(const Verdict& verdict) {
   std::string found =
       fmt::format("{} of {} {} {} it", broken, verdict.runs, verdict.runs == 1 ? "run" : "runs",
                   broken == 1 ? "breaks" : "break");
+  std::vector<std::string> causes;
   if (verdict.cut > 0)
-    found += fmt::format(" ({} of them because t_end cut {})", verdict.cut,
-                         verdict.cut == 1 ? "its peaks" : "their peaks");
+    causes.push_back(fmt::format("{} of them because t_end cut {}", verdict.cut,
+                                 verdict.cut == 1 ? "its peaks" : "their peaks"));
+  if (verdict.absent > 0)
+    causes.push_back(fmt::format("{} of them because {}", verdict.absent,
+                                 verdict.absent == 1 ? "it did not deploy or has no value"
+                                                     : "they did not deploy or have no value"));
+  if (!causes.empty()) found += fmt::format(" ({})", fmt::join(causes, ", "));
   if (verdict.allowed) {
     const bool open = verdict.decision == Decision::fail && !verdict.disproved;
     return fmt::format("{}; at most {} may{}{}", found, *verdict.allowed,

@@ -337,6 +337,26 @@ TEST_CASE("a group fails if any member fails, else is undecided if any is, in wh
   }
 }
 
+TEST_CASE("evidence counts the runs that break an output's limit for they have no value") {
+  Results results(ResultNames{{}, {"root.latch_time"}, true});
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (long run = 0; run < 1000; ++run)
+    results.append({run,
+                    run < 2 ? Status::stalled : Status::deployed,
+                    {},
+                    {run < 3 ? none : static_cast<double>(run)},
+                    "",
+                    "",
+                    PeaksFinal::yes});
+  const Requirement late{"", "root.latch_time", 998.5, {}, .99, .9};
+  CHECK(judge(late, results).absent == 3);
+  CHECK(evidence(judge(late, results)) ==
+        "4 of 1000 runs break it (3 of them because they did not deploy or have no value); at most "
+        "5 may");
+  const Requirement deployed{"", "deployed", {}, {}, .99, .9}; // says so itself
+  CHECK((judge(deployed, results).failures() == 2 && judge(deployed, results).absent == 0));
+}
+
 TEST_CASE("a peak that t_end cut breaks every requirement on it, whatever it had come to") {
   Results results(ResultNames{{}, {"root.peak_moment", "root.latch_time"}, true});
   for (long run = 0; run < 1000; ++run) {

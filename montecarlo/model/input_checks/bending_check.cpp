@@ -1,0 +1,81 @@
+#include "montecarlo/model/input_checks/bending_check.hpp"
+
+#include "core/scene/segments.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace wingspread {
+namespace {
+
+// Two joints are 6 % off, one is 39 % off: the engineer is to choose the first, and to know of the other.
+constexpr double most_off = 0.1;
+// As a share of m L²/12; heuristic: rounded numbers are nearer, and 2 % lower the fourth frequency by some 10 %.
+constexpr double most_beyond_rod = 0.02;
+
+double length_of(const Body& body) { return (body.plate->to - body.plate->from).norm(); }
+
+/// Of the panel without segments, from its stiffness [core/scene/segments.hpp, (4)], Hz.
+double beam_frequency(const Body& body) {
+  constexpr double beta = 1.8751040687119612;
+  const double L = length_of(body);
+  return beta * beta * std::sqrt(bending_stiffness(body) / (body.mass * L * L * L)) /
+         (2 * std::numbers::pi);
+}
+
+} // namespace
+
+double clamped_frequency(const Body& body) {
+  Scene alone;
+  alone.bodies = {body};
+  alone.hinges.resize(1);
+  alone.hinges[0].child = 0, alone.hinges[0].child_point = body.plate->from;
+  const SegmentedScene made = with_segments(alone);
+  const std::vector<int>& segments = made.segments[0];
+  const Eigen::Index n = std::ssize(segments) - 1;
+  const double element = length_of(body) / static_cast<double>(n);
+  // joint a at (a + ½) of an element; segment j is clamped for j = 0, and the last one is half as long
+  const auto joint = [&](Eigen::Index a) { return (static_cast<double>(a) + 0.5) * element; };
+  const auto center = [&](Eigen::Index j) {
+    return (static_cast<double>(j) - (j == n ? 0.25 : 0.0)) * element;
+  };
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index j = 1; j <= n; ++j) {
+    const Body& segment = made.scene.bodies[segments[static_cast<std::size_t>(j)]];
+    for (Eigen::Index a = 0; a < j; ++a)
+      for (Eigen::Index b = 0; b < j; ++b)
+        M(a, b) += segment.inertia + segment.mass * (center(j) - joint(a)) * (center(j) - joint(b));
+  }
+  const double k = static_cast<double>(n) * bending_stiffness(body) / length_of(body);
+  const double most = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly)
+                          .eigenvalues()[n - 1];
+  return std::sqrt(k / most) / (2 * std::numbers::pi);
+}
+
+void check_bending(const Scene& scene, InputWarnings& warnings) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    if (!body.flexible || !body.plate || !can_be_cut(body)) continue;
+    const std::string at = fmt::format("/bodies/{}", b);
+    const double cut = clamped_frequency(body), whole = beam_frequency(body);
+    if (std::abs(cut / whole - 1) > most_off)
+      warnings.add(at + "/flexible/joints",
+                   fmt::format("{}: clamped, the panel vibrates at {:.4g} Hz as its segments have "
+                               "it, and at {:.4g} Hz by its stiffness",
+                               body.flexible->joints, cut, whole),
+                   "more joints: the error falls as 1/joints²");
+    const double rod = body.mass * std::pow(length_of(body), 2) / 12;
+    if (body.inertia > (1 + most_beyond_rod) * rod)
+      warnings.add(
+          at + "/inertia",
+          fmt::format("{:.4g} kg·m², {:.3g} times m L²/12", body.inertia, body.inertia / rod),
+          "that of a uniform panel: what is beyond turns with the segments, and lowers "
+          "high frequencies");
+  }
+}
+
+} // namespace wingspread

@@ -1,0 +1,49 @@
+#include "montecarlo/model/input_checks/bending_check.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+namespace {
+
+/// A uniform panel of 8 kg and 2 m with a first frequency of 1.5 Hz.
+Scene bending_scene(int joints, double inertia = 8.0 * 4 / 12) {
+  Scene scene;
+  Body body{"panel", 8, inertia};
+  body.plate = Plate{{-1, 0}, {1, 0}, 1, 0};
+  Flexible& flexible = body.flexible.emplace();
+  flexible.joints = joints, flexible.frequency = 1.5, flexible.damping_ratio = 0.01;
+  scene.bodies = {body};
+  return scene;
+}
+
+std::string warnings_of(const Scene& scene) {
+  InputWarnings warnings(ScenePlace{"wing.json"});
+  check_bending(scene, warnings);
+  std::string text;
+  for (const InputWarning& warning : warnings.list())
+    text += warning.pointer + ": " + warning.found + '\n';
+  return text;
+}
+
+} // namespace
+
+// Source of the errors: studies/FLEXIBILITY.md, by the modes of a clamped rod.
+TEST_CASE("a clamped panel's first frequency converges with its segments", "[input_checks]") {
+  for (const auto& [joints, error] : {std::pair(4, 1.45e-2), {8, 3.60e-3}, {16, 8.97e-4}})
+    CHECK(clamped_frequency(bending_scene(joints).bodies[0]) / 1.5 - 1 ==
+          Approx(error).epsilon(5e-3));
+}
+
+TEST_CASE("a bending panel with one joint, or with more inertia than a uniform one, is warned of",
+          "[input_checks]") {
+  CHECK(warnings_of(bending_scene(2)).empty());
+  CHECK(warnings_of(bending_scene(1)) ==
+        "/bodies/0/flexible/joints: 1: clamped, the panel vibrates at 2.09 Hz as its segments have "
+        "it, and at 1.5 Hz by its stiffness\n");
+  CHECK(warnings_of(bending_scene(8, 3)) == "/bodies/0/inertia: 3 kg·m², 1.12 times m L²/12\n");
+  CHECK(warnings_of(bending_scene(8, 2.6)).empty()); // its mass is nearer to the middle
+  Scene rigid = bending_scene(1, 3);
+  rigid.bodies[0].flexible.reset();
+  CHECK(warnings_of(rigid).empty());
+}
