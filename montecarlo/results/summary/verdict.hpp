@@ -46,7 +46,8 @@ struct Verdict {
   bool disproved = false;         ///< P < p is shown at the same confidence
   bool one_run = false;           ///< all runs are the same run, so that none shows a probability
   long cut = 0;                   ///< deployed runs among those that break it, whose peak t_end cut
-  long absent = 0;                ///< those that break an output's limit for they did not deploy or lack the output
+  long absent =
+      0; ///< those that break an output's limit for they did not deploy or lack the output
   /// Least and largest value, if the limit lies on the other side of zero from all values.
   std::optional<std::array<double, 2>> beyond_zero{};
   double share = 0;            ///< share of the runs that meet it; NaN without runs

@@ -248,7 +248,8 @@ TEST_CASE("summary.json: requirements with their evidence, and the runs to be se
   REQUIRE(json.size() == 3);
   CHECK(json[0]["name"] == "T-1");
   CHECK(json[0]["verdict"] == "fail");
-  CHECK(json[0]["failures"] == Json::parse(R"({"seen": 3000, "allowed": 272, "without_value": 1200})"));
+  CHECK(json[0]["failures"] ==
+        Json::parse(R"({"seen": 3000, "allowed": 272, "without_value": 1200})"));
   CHECK((json[0]["margin"].is_null() && json[0]["guaranteed"]["value"].is_null()));
   CHECK((json[0]["broken"].size() == most_broken && json[0]["broken_omitted"] == 2000));
   CHECK(json[0]["replay"] == "wingspread replay DIR --run 0");
