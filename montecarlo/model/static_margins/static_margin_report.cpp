@@ -215,6 +215,11 @@ std::string nominal_margins_text(const std::vector<std::pair<std::string, Scene>
       text += fmt::format("  {:>{}}", margin_text(margins[kind], 3),
                           std::max<std::size_t>(7, margin_kind_texts[kind].size()));
   }
+  const bool is_pushed = std::ranges::any_of(wings, [](const auto& wing) {
+    const Scene& scene = wing.second;
+    return !scene.environment.gravity.isZero(0) || scene.base.motion == BaseMotion::prescribed;
+  });
+  if (is_pushed) text += "\n  without gravity and the base's accelerations";
   return text + '\n';
 }
 

@@ -195,7 +195,7 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
   const ResultNames names = RunPlan(stored.campaign).names();
   RowReader reader(in, path.string(), names,
                    stored.foreign ? UnterminatedRow::read : UnterminatedRow::drop);
-  const RowCheck check(names, stored.campaign.integration.t_end);
+  const RowCheck check(names);
   const auto [first, last] = stored.runs();
   while (reader.next()) {
     if (const auto fault = stored.foreign ? check.fault_in(reader.row()) : std::nullopt)

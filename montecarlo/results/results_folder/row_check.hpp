@@ -17,14 +17,13 @@ struct RowFault {
 };
 
 /// Checks, as far as the columns exist:
-/// - magnitudes, counts and times are ≥ 0, and no time is beyond t_end;
+/// - magnitudes, counts and times are ≥ 0;
 /// - a deployed run has all latch times and a deployment time, and no other run has a deployment time;
 /// - the latch order names hinges, each once, by ascending latch times.
 class RowCheck {
 public:
   /// @param names  of the campaign's columns
-  /// @param t_end of its runs, s
-  RowCheck(const ResultNames& names, double t_end);
+  explicit RowCheck(const ResultNames& names);
 
   /// The first fault of a row; nothing if there is none. @pre the row has the columns of the names
   [[nodiscard]] std::optional<RowFault> fault_in(const ResultRow& row) const;
@@ -44,7 +43,6 @@ private:
   [[nodiscard]] std::optional<RowFault> fault_of_status(const ResultRow& row) const;
   [[nodiscard]] std::optional<RowFault> fault_of_order(const ResultRow& row) const;
 
-  double t_end_;
   std::vector<Output> not_negative_;
   std::vector<Latch> latches_; ///< the hinges with a column latch_time
   std::optional<std::size_t> deployment_time_;

@@ -138,3 +138,19 @@ TEST_CASE("check, run and the study agree on one spring out", "[motorization]") 
   CHECK_THAT(nominal_margins_text({{"", nominal}}, campaign.motorization),
              Catch::Contains(fmt::format("{:+.3f}", judged)));
 }
+
+TEST_CASE("check says that static margins leave out gravity and the base's accelerations",
+          "[motorization]") {
+  const Campaign campaign = campaign_of(one_panel_margin(20));
+  const auto text = [&](const Scene& scene) {
+    return nominal_margins_text({{"", scene}}, campaign.motorization);
+  };
+  Scene scene = nominal_scene(campaign);
+  const auto left_out = Catch::Contains("\n  without gravity and the base's accelerations\n");
+  CHECK_THAT(text(scene), !left_out);
+  scene.environment.gravity.y() = 0.6;
+  CHECK_THAT(text(scene), left_out);
+  scene.environment.gravity.y() = 0;
+  scene.base.motion = BaseMotion::prescribed;
+  CHECK_THAT(text(scene), left_out);
+}

@@ -9,7 +9,6 @@ using namespace wingspread;
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-constexpr double last_time = 60;
 const ResultNames columns_to_check{
     {},
     {"root.latch_time", "tip.latch_time", "root.peak_moment", "tip.latch_rate", "deployment_time"}};
@@ -18,7 +17,7 @@ const ResultNames columns_to_check{
 std::string fault_of(Status status, const std::vector<double>& outputs, const std::string& order) {
   ResultRow row;
   row.status = status, row.outputs = outputs, row.latch_order = order;
-  const auto fault = RowCheck(columns_to_check, last_time).fault_in(row);
+  const auto fault = RowCheck(columns_to_check).fault_in(row);
   return fault ? fault->column + ": " + fault->found : "";
 }
 
@@ -32,8 +31,6 @@ TEST_CASE("rows that do not contradict themselves have no fault") {
   CHECK(fault_of(Status::timed_out, {1, 2, 5, missing, missing}, "root>tip") ==
         ""); // a hold held a hinge
   CHECK(fault_of(Status::invalid, {missing, missing, missing, missing, missing}, "") == "");
-  CHECK(fault_of(Status::deployed, {1, last_time * (1 + 1e-12), 5, 0, last_time}, "root>tip") ==
-        "");
 }
 
 TEST_CASE("a row that contradicts itself has a fault, in its column") {
@@ -53,5 +50,4 @@ TEST_CASE("a row that contradicts itself has a fault, in its column") {
         "latch_order: 'tip>root', but root latched earlier, at 1 s");
   CHECK(fault_of(Status::deployed, {1, 2, -5, 0, 2}, "root>tip") == "root.peak_moment: -5");
   CHECK(fault_of(Status::deployed, {-1, 2, 5, 0, 2}, "root>tip") == "root.latch_time: -1");
-  CHECK(fault_of(Status::deployed, {1, 1e308, 5, 0, 2}, "root>tip") == "tip.latch_time: 1e+308 s");
 }
