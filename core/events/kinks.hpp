@@ -16,8 +16,8 @@
 /// (mobility_bound). Where (1) is below the tolerance of a step, the kink does not matter. The same holds of Ṡ, the rate of a
 /// smoothed latch's own state, with σ = 1.
 ///
-/// At a knot of a table the third derivative jumps too: twist·abs(u − b)³ adds abs(u̇)³ twist τ⁴/4 to (1). It counts where an
-/// explicit method has refused a step, for it is then the likeliest cause. Steps that are accepted have it below the tolerance.
+/// At a knot of a table the third derivative jumps too: twist·abs(u − b)³ adds σ abs(u̇)³ twist τ⁴/4 to (1). It is looked
+/// at only where an explicit method has refused a step, for which it may be the cause.
 #pragma once
 
 #include "core/dense/step.hpp"

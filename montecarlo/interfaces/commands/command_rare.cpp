@@ -52,8 +52,10 @@ RareEvent event_of(const RareCommandOptions& options) {
   const int limits = int(!options.above.empty()) + int(!options.below.empty());
   if (limits != (options.output.empty() ? 0 : 1))
     throw SpecError({{"", "--output",
-                      fmt::format("{} with {} limits",
-                                  options.output.empty() ? "none" : options.output, limits),
+                      fmt::format("{} with {}", options.output.empty() ? "none" : options.output,
+                                  limits == 0   ? "no limit"
+                                  : limits == 1 ? "one limit"
+                                                : "two limits"),
                       "an output with either --above or --below; or none of the "
                       "three, and the event is that the wing does not deploy"}});
   return {options.output, limits == 0 ? 0 : limit_of(options), !options.above.empty()};

@@ -64,8 +64,8 @@ void check_bending(const Scene& scene, InputWarnings& warnings) {
     const double cut = clamped_frequency(body), whole = beam_frequency(body);
     if (std::abs(cut / whole - 1) > most_off)
       warnings.add(at + "/flexible/joints",
-                   fmt::format("{}: clamped, the panel vibrates at {:.4g} Hz as its segments have "
-                               "it, and at {:.4g} Hz by its stiffness",
+                   fmt::format("{}: the clamped panel vibrates at {:.4g} Hz with its segments, and "
+                               "at {:.4g} Hz uncut",
                                body.flexible->joints, cut, whole),
                    "more joints: the error falls as 1/joints²");
     const double rod = body.mass * std::pow(length_of(body), 2) / 12;

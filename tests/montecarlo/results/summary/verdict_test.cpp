@@ -340,14 +340,11 @@ TEST_CASE("a group fails if any member fails, else is undecided if any is, in wh
 TEST_CASE("evidence counts the runs that break an output's limit for they have no value") {
   Results results(ResultNames{{}, {"root.latch_time"}, true});
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (long run = 0; run < 1000; ++run)
-    results.append({run,
-                    run < 2 ? Status::stalled : Status::deployed,
-                    {},
-                    {run < 3 ? none : static_cast<double>(run)},
-                    "",
-                    "",
-                    PeaksFinal::yes});
+  for (long run = 0; run < 1000; ++run) {
+    const Status status = run < 2 ? Status::stalled : Status::deployed;
+    const double value = run < 3 ? none : static_cast<double>(run);
+    results.append({run, status, {}, {value}, "", "", PeaksFinal::yes});
+  }
   const Requirement late{"", "root.latch_time", 998.5, {}, .99, .9};
   CHECK(judge(late, results).absent == 3);
   CHECK(evidence(judge(late, results)) ==
