@@ -55,7 +55,7 @@ template <class T> [[nodiscard]] PieceAt<T> piece_at(const Curve& curve, const T
 
 namespace detail {
 
-/// Looks each lane's piece up by itself.
+/// Finds the piece of one lane after the other.
 template <int W>
 [[nodiscard]] inline PieceAt<Pack<W>> piece_lane_by_lane(const Curve& curve, const Pack<W>& x) {
   PieceAt<Pack<W>> found;
@@ -95,8 +95,8 @@ piece_of_columns(const Curve::Columns& columns, const std::vector<double>& knots
 
 } // namespace detail
 
-/// The pieces of all lanes: walks over all knots and lets each lane keep the last one before its x. With more than
-/// a dozen knots looking up lane by lane is faster (heuristic: either way is correct).
+/// The pieces of all lanes: passes over all knots, and each lane keeps the last piece that begins at or before its x.
+/// Heuristic: beyond 12 knots a search lane by lane is faster. A wrong number costs time only.
 template <int W>
 [[nodiscard]] inline PieceAt<Pack<W>> piece_at(const Curve& curve, const Pack<W>& x) {
   using P = Pack<W>;
@@ -131,7 +131,7 @@ template <class T> [[nodiscard]] T bend(const PieceAt<T>& p) {
   return fused(T(6) * p.c[3], p.u, T(2) * p.c[2]);
 }
 
-/// By how much a curve's slope may differ from `here` anywhere.
+/// Largest difference between the curve's slope, at any x, and `here`.
 [[nodiscard]] inline double most_change_of_slope(const Curve& curve, double here) {
   return std::max(curve.steepest_rise() - here, here - curve.steepest_fall());
 }
@@ -165,7 +165,8 @@ template <class T>
   return range;
 }
 
-/// Range of a curve's values over a range of x: extremes lie at its ends and at knots, within the overshoot.
+/// Range of a curve's values over a range of x: extremes lie at its ends and at knots. Widened by the
+/// curve's overshoot, its largest excess between knots.
 template <class T>
 [[nodiscard]] ValueRange<T> range_of(const Curve& curve, const ValueRange<T>& x) {
   const T first = value(curve, x.low), last = value(curve, x.high);

@@ -10,8 +10,8 @@
 ///     power law      −A |v|^p sign v for |v| ≥ w,  −A w^{p−1} v below                           (2)
 ///     eddy current   −2 T_p r/(1 + r²) = −2 T_p ω_p v/(ω_p² + v²),  r = v/ω_p: largest at r = 1  (3)
 ///
-/// A damper with a window acts between two angles only. A run keeps whether it acts as a mode, which changes at
-/// events (Edge::window_low, Edge::window_high).
+/// A damper with a window acts between two angles only. Whether it acts is a mode of the run, which changes at events
+/// (Edge::window_low, Edge::window_high).
 #pragma once
 
 #include "core/laws/hinge_law.hpp"
@@ -119,7 +119,8 @@ template <class T>
   return range;
 }
 
-/// The damping that fits a damper at the rate v: moment over rate.
+/// Secant damping at the rate v ≥ 0, N·m·s/rad: the moment over the rate, for a power law at no less than w.
+/// For the other laws the damping at rest.
 [[nodiscard]] inline double secant(const DamperTerms<double>& damper, double v) {
   if (damper.law != DamperLaw::power) return damper_damping(damper, 0.0);
   const double rate = std::max(v, damper.rate);
@@ -133,7 +134,7 @@ template <class T>
   switch (damper.law) {
   case DamperLaw::viscous:
     break;
-  case DamperLaw::power: { // linear, then a power: the difference from a line has one extreme
+  case DamperLaw::power: { // beyond w the difference from the line taken·v has one extreme
     double largest = left(most);
     if (most > damper.rate) largest = std::max(largest, left(damper.rate));
     const double p = damper.exponent, steep = damper.strength * p;
@@ -164,7 +165,7 @@ template <class T> struct HingeDamper {
                  const ValueRange<T>& rate) const {
     m = m + scaled(acts, damper_range(terms, rate));
   }
-  /// (3) has no bound of its slope here: a step in which it acts is searched.
+  /// Unknown while an eddy-current damper acts: the slope of (3) is not bounded here, so the peak search takes samples.
   [[nodiscard]] auto has_slopes(const ValueRange<T>& /*angle*/) const {
     return terms.law == DamperLaw::eddy_current ? !(acts > T(0)) : T(0) <= T(0);
   }

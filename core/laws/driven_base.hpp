@@ -6,8 +6,8 @@
 /// | a, α    | acceleration of its origin; angular: cubics in u         | m/s², rad/s²  |
 /// | v, Ω, θ | velocity, rate, angle: exact integrals of these          | m/s, rad/s, rad |
 ///
-/// A run keeps the current piece, as it keeps the modes of hinges. The piece changes at a knot, where a step ends:
-/// inside a step the motion is smooth, and no evaluation looks a piece up.
+/// The current piece is part of the run's state, as the modes of hinges are. It changes at a knot, where a step ends.
+/// So the motion is smooth inside a step, and an evaluation needs no search for the piece.
 #pragma once
 
 #include "core/number/planar.hpp"
@@ -40,7 +40,7 @@ template <class T> [[nodiscard]] std::array<T, 4> shifted(const std::array<T, 4>
 template <class T> [[nodiscard]] T cubic_at(const std::array<T, 4>& c, const T& u) {
   return fused(u, fused(u, fused(u, c[3], c[2]), c[1]), c[0]);
 }
-/// Its first and second derivative.
+/// First derivative of the cubic, and below its second.
 template <class T> [[nodiscard]] T cubic_slope(const std::array<T, 4>& c, const T& u) {
   return fused(u, fused(u, T(3) * c[3], T(2) * c[2]), c[1]);
 }
@@ -87,7 +87,7 @@ template <class T>
           fused(h, fused(h, T(3) * c3, T(2) * c2), c1), fused(T(6) * h, c3, T(2) * c2)};
 }
 
-/// Whether only the angle changes from this piece on.
+/// Whether acceleration and rate are constant from this piece on, so that only the angle changes.
 template <class T> [[nodiscard]] bool is_steady(const DrivenPiece<T>& base) {
   bool steady = !(base.until < T(never)) && base.turning[0] == T(0);
   for (int power = 1; power < 4; ++power)
@@ -154,12 +154,12 @@ template <class T> [[nodiscard]] DrivenPiece<T> driven_piece(const BaseTerms<T>&
   return piece;
 }
 
-/// Index of the piece that holds t. A knot too near for a step to it counts as reached.
+/// Index of the piece that holds t. A knot counts as reached if no step is short enough to end at it.
 /// @param before index of an earlier time's piece, where the search starts
 template <class T>
 [[nodiscard]] int number_of_piece(const BaseTable& table, const T& t, int before = 0) {
   const T epsilon =
-      std::numeric_limits<T>::epsilon(); // a quad's is none of the compiler's constants
+      std::numeric_limits<T>::epsilon(); // not constexpr: a quad's is computed at run time
   const T reached = t + larger(T(T(8) * epsilon * t), T(1e-12));
   int k = before;
   while (k + 1 < std::ssize(table.pieces()) && T(table.pieces()[k + 1].from) <= reached) ++k;

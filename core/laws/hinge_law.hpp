@@ -34,7 +34,7 @@ template <class T> [[nodiscard]] ValueRange<T> scaled(const T& by, const ValueRa
   return {smaller(a, b), larger(a, b)};
 }
 
-/// The products of a number of one range and a number of the other.
+/// The range of the products of a number of one range with a number of the other.
 template <class T>
 [[nodiscard]] ValueRange<T> operator*(const ValueRange<T>& a, const ValueRange<T>& b) {
   ValueRange<T> range = scaled(a.low, b);

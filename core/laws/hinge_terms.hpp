@@ -22,9 +22,9 @@ template <class T> struct HingeTerms {
   /// The largest level that a measured spring (torque test both ways) adds to either model, N·m; 0 without one.
   T more_regularized, more_exact;
   bool has_latch;
-  T stiffness; ///< k of the engaged latch, N·m/rad
-  T damping;   ///< d of the engaged latch, N·m·s/rad
-  T dissipation; ///< k c of the engaged latch, N·m·s/rad²; with an event latch a law of real_hinge.hpp
+  T stiffness;   ///< k of the engaged latch, N·m/rad
+  T damping;     ///< d of the engaged latch, N·m·s/rad
+  T dissipation; ///< k c of a smoothed latch, N·m·s/rad²; an event latch uses LatchDissipation
 
   /// Whether the friction is exact, so that the hinge can stick.
   [[nodiscard]] bool can_stick() const { return static_friction + more_exact > T(0); }

@@ -9,11 +9,12 @@
 ///
 ///     M = −k e − k c |e| φ̇ = −k e − k c σ e φ̇                                                   (1)
 ///
-/// −k e is linear_law.hpp's; this law adds the rest, which takes k c |e| φ̇² ≥ 0 of power. A run keeps σ as a mode,
-/// which changes at events (Edge::backlash_low, Edge::backlash_high): between two events (1) is smooth. Unlike a stop,
-/// the latch also pulls.
+/// linear_law.hpp has the term −k e. This law adds the other term, which dissipates the power k c |e| φ̇² ≥ 0. σ is a
+/// mode of the run, which changes at events (Edge::backlash_low, Edge::backlash_high): between two events (1) is
+/// smooth. Unlike a stop, the latch also pulls.
 ///
-/// Capture: whether a latch engages where the hinge passes its latched angle, and whether it lets go again.
+/// Capture: whether a latch engages where the hinge passes its latched angle, and whether it lets go again. Here e is
+/// counted along the travel and without the backlash:
 ///
 /// | symbol | meaning                                                            | unit              |
 /// |--------|--------------------------------------------------------------------|-------------------|
@@ -28,7 +29,7 @@
 ///
 ///     L = −k (e + β/2) − d ė + k c (e + β/2) ė                                                  (2)
 ///
-/// lets go where L reaches M_h. Passes are events (Edge::pass), and so is letting go.
+/// lets go where L reaches M_h. A pass is an event (Edge::pass), and letting go is one (Event::open).
 #pragma once
 
 #include "core/laws/hinge_law.hpp"
@@ -113,7 +114,7 @@ template <class T> struct CaptureTerms {
     return deflection(angle) < T(0) && excess(angle, rate) >= T(0);
   }
 
-  /// Upper bound of L − M_h where e ≤ −β/2, over ranges of angle and rate; −M_h where none of the angles is there.
+  /// Upper bound of L − M_h over ranges of angle and rate, as far as e ≤ −β/2; −M_h if e > −β/2 in the whole range.
   [[nodiscard]] T most_excess(const ValueRange<T>& angle, const ValueRange<T>& rate) const {
     const T first = deflection(angle.low), last = deflection(angle.high);
     const T back = smaller(smaller(first, last), T(0)); // e + β/2 within [back, front]
@@ -121,7 +122,7 @@ template <class T> struct CaptureTerms {
     const T v0 = sense * rate.low, v1 = sense * rate.high;
     const T least = smaller(v0, v1), most_rate = larger(v0, v1);
     const T of_damping = damping * larger(T(-least), T(0));
-    // k c e ė, e ≤ 0: largest at the ends
+    // k c (e + β/2) ė is bilinear: largest at a corner of the ranges
     T of_dissipation = larger(T(back * least), T(back * most_rate));
     of_dissipation = larger(of_dissipation, larger(T(front * least), T(front * most_rate)));
     const T most = fused(dissipation, of_dissipation, fused(-stiffness, back, of_damping));

@@ -119,8 +119,8 @@ template <class T>
 
 // ---- over a step of h, in which the hinges a and b move by two quintics, at the rates va and vb
 
-/// A range of (2) at hinge i: K e and D ė as polynomials, about the table's slope at the step's start. The
-/// table's bend adds at most half its largest second derivative times the square of the way.
+/// A range of (2) at hinge i, N·m. K e and D ė are polynomials of time if g is replaced by its tangent at the step's
+/// start. That neglects at most half of g's largest second derivative times the square of the travel of hinge a.
 template <class T>
 [[nodiscard]] ValueRange<T> loop_moment_range(const LoopTerms<T>& loop, int i, const Quintic<T>& a,
                                               const Quintic<T>& va, const Quintic<T>& b,
@@ -146,7 +146,7 @@ template <class T>
               damped.high + loop.damping * turns * fastest};
     gear = gear + turns;
   }
-  damped.include(T(0)); // a slack strand leaves half
+  damped.include(T(0)); // a slack strand halves D ė
   const ValueRange<T> torque{carried_by_strands(loop, carried.low) + damped.low,
                              carried_by_strands(loop, carried.high) + damped.high};
   if (loop.second == i) return scaled(loop.sense_b, torque);

@@ -4,16 +4,16 @@
 /// |---------|---------------------------------------------------------------------|-----------|
 /// | w       | commanded rate: s r(t − t_release), a cubic in time                 | rad/s     |
 /// | c, T    | gain; torque limit                                                  | N·m·s/rad, N·m |
-/// | M_0, D  | the moment at φ̇ = 0; the rest of it                                 | N·m       |
+/// | M_0, D  | the moment at φ̇ = 0; M − M_0                                        | N·m       |
 ///
 ///     M = clamp(c (w − φ̇), −T, T)                                                               (1)
 ///
-/// from the hinge's release on. M falls with φ̇ and nowhere faster than by c. While w is constant the motor is therefore
-/// a constant drive and a part that opposes the rate:
+/// from the hinge's release on. M falls as φ̇ rises, with a slope between −c and 0. While w is constant, the motor is
+/// therefore a constant drive and a part that opposes the rate:
 ///
 ///     M = M_0 + D,    M_0 = clamp(c w, −T, T),    D φ̇ ≤ 0,    |D| ≤ min(c |φ̇|, T + |M_0|)       (2)
 ///
-/// A run keeps the current piece of w, which changes at a knot of the rate's table, where a step ends.
+/// The current piece of w is part of the run's state. It changes at a knot of the rate's table, where a step ends.
 #pragma once
 
 #include "core/laws/driven_base.hpp"
@@ -36,9 +36,9 @@ template <class T> struct MotorTerms {
 /// The command from one knot to the next.
 template <class T> struct MotorPiece {
   int number; ///< of the table's pieces
-  T runs;     ///< 1 from the hinge's release on, before it 0
+  T runs;     ///< 1 from the hinge's release on, 0 before it and without a motor
   T release, from,
-      until; ///< the hinge's release; this piece, whose end is `never` after the last knot; s
+      until; ///< time of the hinge's release; start and end of this piece, `never` after the last knot; s
   std::array<T, 4> rate; ///< w in powers of t − from
   T now;                 ///< w at the last evaluation
 };
@@ -68,7 +68,8 @@ template <class T> [[nodiscard]] MotorPiece<T> last_motor_piece(const MotorTerms
   return motor_piece(terms, T(0), terms.table ? static_cast<int>(terms.table->knots().size()) : 0);
 }
 
-/// Sets `piece` to the one at t. A knot too near for a step to it counts as reached. @return whether it changed
+/// Sets `piece` to the one at t. A knot counts as reached if no step is short enough to end at it.
+/// @return whether the piece changed
 template <class T> bool enter_piece(const MotorTerms<T>& terms, const T& t, MotorPiece<T>& piece) {
   const int before = piece.number;
   const T reached = t + larger(T(T(8 * epsilon_of<T>) * t), T(1e-12));
@@ -90,7 +91,7 @@ template <class T> [[nodiscard]] T commanded_rate(const MotorPiece<T>& piece, co
   return cubic_at(piece.rate, T(t - piece.from));
 }
 
-/// Whether w stays as it is from this piece on.
+/// Whether w is constant from this piece on.
 template <class T> [[nodiscard]] bool is_steady(const MotorPiece<T>& piece) {
   return !(piece.until < T(never)) && piece.rate[1] == T(0) && piece.rate[2] == T(0) &&
          piece.rate[3] == T(0);
@@ -185,8 +186,8 @@ template <class T>
   return half * h * sum;
 }
 
-/// The same over a whole step in which the motor may reach its limit or leave it: over parts on one side of it. The part
-/// in which it passes the limit is 2⁻²⁰ of the step; its share of the error is the square of that.
+/// ∫ M φ̇ dt over a whole step, J. Where the motor may reach or leave its limit, the step is cut into parts without such
+/// a change. The part with the change is 2⁻²⁰ of the step: it neglects a kink of M, an error of the order 2⁻⁴⁰.
 template <class T>
 [[nodiscard]] T motor_work_by_parts(const MotorTerms<T>& terms, const MotorPiece<T>& piece,
                                     const Quintic<T>& excess, const Quintic<T>& rate, const T& h) {
@@ -216,12 +217,12 @@ template <class T>
   return smaller(T(terms.gain * most), T(terms.limit + abs(motor_drive(terms, piece))));
 }
 
-/// (2) about φ̇ = 0: D is −taken φ̇ up to |φ̇| = until, where the motor reaches its limit or leaves it.
+/// (2) near rest: D = −taken φ̇ for |φ̇| ≤ until. There the motor reaches its limit, or leaves it.
 struct MotorAtRest {
   double drive = 0;           ///< M_0, N·m
-  double taken = 0;           ///< c within the limit; beyond it 0, N·m·s/rad
+  double taken = 0;           ///< c if the motor at rest is within its limit, else 0, N·m·s/rad
   double until = 0, gain = 0; ///< rad/s; c
-  double most = 0;            ///< bounds |D + taken φ̇|, where taken is 0, N·m
+  double most = 0;            ///< bound of |D| if taken is 0, else infinite, N·m
 
   MotorAtRest() = default;
   /// @pre is_steady(piece)
@@ -243,7 +244,7 @@ struct MotorAtRest {
   }
 };
 
-/// The motor of hinge i; none where no hinge has one, or their commands are not known. @pre as of MotorAtRest
+/// The motor of hinge i at rest; without effect if `pieces` is empty. @pre is_steady(pieces[i])
 [[nodiscard]] inline MotorAtRest motor_at_rest(const std::vector<MotorTerms<double>>& terms,
                                                const std::vector<MotorPiece<double>>& pieces,
                                                int i) {

@@ -29,7 +29,7 @@
 
 namespace wingspread {
 
-/// What events change in a real hinge.
+/// The modes of a real hinge. They change at events only.
 template <class T> struct HingeMode {
   T in_contact;     ///< 1 while the stop is in contact, else 0
   T damper_acts;    ///< 1 or 0
@@ -55,8 +55,8 @@ template <class T> struct RealHingeTerms {
   [[nodiscard]] bool has_tables() const { return spring.curve || harness.curve || friction.level; }
 };
 
-/// Calls visit(rate, acts, stop) for each rate at which the law of the damper or of a stop has a kink.
-/// @tparam Visit acts: whether the law acts now, for a pack in which lanes; stop: null for the damper
+/// Calls visit(rate, acts, stop) for each rate at which the damper's law or a stop's has a kink. `acts`: whether the
+/// law acts now, for a pack in which lanes. `stop`: null for the damper.
 template <class T, class Visit>
 void for_each_kink_of_rate(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode,
                            Visit&& visit) {
@@ -83,7 +83,7 @@ void for_each_law_without_table(const RealHingeTerms<T>& hinge, const HingeMode<
   if (hinge.dissipation.present) offer(LatchDissipation<T>{hinge.dissipation, mode.bears});
 }
 
-/// The same for all laws, in the order of (1).
+/// Calls visit(law) for each law of (1) that the hinge has, in the order of (1).
 template <class T, class Visit>
 void for_each_law(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode, Visit&& visit) {
   const auto offer = [&visit](const HingeLaw<T> auto& law) { visit(law); };
@@ -93,7 +93,7 @@ void for_each_law(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode, Visi
   for_each_law_without_table(hinge, mode, visit);
 }
 
-/// Whether a hinge has any of the laws, or a latch with backlash or that may miss.
+/// Whether a hinge is real: it has a law of (1), or a latch that has backlash, may miss or may let go.
 [[nodiscard]] inline bool is_real(const Hinge& hinge) {
   return hinge.spring.table || hinge.harness.table || hinge.damper || hinge.stop ||
          hinge.far_stop ||
@@ -101,8 +101,8 @@ void for_each_law(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode, Visi
           (hinge.latch->backlash > 0 || hinge.latch->dissipation || hinge.latch->can_miss()));
 }
 
-/// The tables of a hinge over angles that no knot divides, as polynomials of u = φ − origin. A workspace keeps the
-/// last one: the next evaluation mostly lies in it too.
+/// The tables of a hinge between two neighbouring knots, as polynomials of u = φ − origin. The workspace keeps the
+/// piece of the last evaluation, because the next angle mostly lies in it too.
 template <class T> struct TablePiece {
   T low, high;            ///< it holds for low ≤ φ < high, rad
   T origin;               ///< rad
@@ -110,7 +110,7 @@ template <class T> struct TablePiece {
   std::array<T, 4> level; ///< coefficients of f F, N·m/radᵏ
 };
 
-/// One that holds for no angle.
+/// A piece that holds for no angle.
 template <class T> [[nodiscard]] TablePiece<T> no_table_piece() {
   const T none(0);
   return {none, none, none, {none, none, none, none}, {none, none, none, none}};
@@ -161,7 +161,7 @@ template <class T>
   return piece;
 }
 
-/// Sets the piece at an angle; of packs in the lanes `these`. A function of its own (noinline): knots are passed rarely.
+/// Sets the piece at an angle; of packs in the lanes `these`. Not inlined, because knots are passed rarely.
 template <class T>
 [[gnu::noinline]] void find_table_piece(TablePiece<T>& piece, const RealHingeTerms<T>& hinge,
                                         const T& angle, [[maybe_unused]] const Truth<T>& these) {
@@ -301,8 +301,8 @@ template <class T> void set_curves(RealHingeTerms<T>& terms, const Hinge& hinge,
   friction.most = friction.weight * largest_value<T>(*friction.level);
 }
 
-/// The hinge's stowed or latched angle, rad, where this angle of another law differs from it by no more than the rounding
-/// of a unit; else the angle. A window that ends at the latch ends exactly there.
+/// The angle, rad; but the hinge's stowed or latched angle if the two differ by the rounding of a unit only (90 deg has
+/// 1e-16). So a damper's window that is written to end at the latched angle ends exactly there.
 template <class T> [[nodiscard]] T without_rounding(const Hinge& hinge, double angle) {
   for (const double end : {hinge.stowed, hinge.latched})
     if (std::abs(angle - end) <= 1e-14) return T(end);

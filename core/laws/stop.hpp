@@ -8,7 +8,7 @@
 ///
 ///     M = s k δ max(0, 1 + c δ̇)                                                                 (1)
 ///
-/// in contact. A run keeps whether the hinge is in contact as a mode, which changes at an event (Edge::stop, far_stop).
+/// in contact. Whether the hinge is in contact is a mode of the run, which changes at events (Edge::stop, far_stop).
 #pragma once
 
 #include "core/laws/hinge_law.hpp"
@@ -57,7 +57,7 @@ template <class T> struct HingeStop {
       for (const T& v : {rate.low, rate.high}) corners.include(moment(a, v));
     m = m + scaled(in_contact, corners);
   }
-  /// No bound in contact: a step in which a stop pushes is searched.
+  /// Unknown in contact: the slope of (1) is not bounded here, so the peak search takes samples.
   [[nodiscard]] auto has_slopes(const ValueRange<T>& /*angle*/) const {
     return !(in_contact > T(0));
   }

@@ -1,4 +1,4 @@
-/// The O(n) recursion for (M + E) q̈ = τ: hinges that are locked or carry an inertia of their own, bodies without rates.
+/// The O(n) recursion for (M + E) q̈ = τ: hinges may be locked or carry an inertia E of their own; all rates are 0.
 ///
 /// A hinge with an added inertia E has the moment τ − E φ̈. A locked hinge is the limit E → ∞, for which locked.hpp has
 /// the equations of motion. The axis moment then depends on the parent's rotation, so that a moment crosses the hinge
@@ -16,7 +16,7 @@
 ///     f = K a + H α_p + b          K = A − h eᵀ      H = (1 − g) h   b = c + h u           (12)
 ///     n = Hᵀ a + N α_p + m         N = (1 − g) I     m = d + I u                          (13)
 ///
-/// with, for the children j of a body and without rates,
+/// with sums over the children j of a body, at rates 0,
 ///
 ///     h += K q + H     I += qᵀ K q + 2 qᵀ H + N                                           (14)
 ///     c += b           d += qᵀ b + m                                                      (15)

@@ -1,4 +1,4 @@
-/// Edges: angles at which a real hinge's law changes. A run keeps on which side of each edge the hinge is.
+/// Edges: angles at which a real hinge's law changes. The run's state has the hinge's side of each edge.
 #pragma once
 
 #include "core/mechanics/wing.hpp"
@@ -42,7 +42,7 @@ template <class T>
   return engaged && real.has_latch_edge();
 }
 
-/// Whether hinge i has a latch that it may pass without engaging, or that may let go again.
+/// Whether hinge i has a latch that may miss (the hinge passes too fast) or that may let go.
 template <class T> [[nodiscard]] bool has_capture(const Wing<T>& wing, int i) {
   return !wing.real.empty() && wing.real[i].capture.present;
 }
@@ -87,7 +87,8 @@ template <class T, class Sides>
           in_contact(wing.real[i].far_stop, Edge::far_stop)};
 }
 
-/// Where an engaged latch bears, less the latched angle: −β/2 or β/2, rad; 0 without backlash; none inside it.
+/// The angle at which an engaged latch bears, less the latched angle: −β/2 or β/2, rad; 0 without backlash; none inside
+/// the backlash, where it bears on neither side.
 template <class T, class Sides>
 [[nodiscard]] std::optional<T> side_of_backlash(const RealHingeTerms<T>& real, const Sides& sides) {
   if (!real.has_backlash) return T(0);

@@ -151,10 +151,10 @@ template <class T, class Topology>
           system.base_velocity(x, t) + scaled(T(1) / now.mass, now.linear), now.spin()};
 }
 
-/// Restores a free system's invariants at time t by moving the whole as one rigid body: the centre of mass onto its
-/// free fall, the momenta to their values there. Relative angles and rates stay. Projection onto invariants [Hairer,
-/// Lubich & Wanner, Geometric Numerical Integration,
-/// IV.4]: its size is the step's own error, so the order is kept.
+/// Restores a free system's invariants at time t: moves the whole system as one rigid body, so that its centre of mass
+/// falls freely and the angular momentum about it is conserved. Relative angles and rates stay. The change is as small
+/// as the step's own error, so the method keeps its order [projection onto invariants: Hairer, Lubich & Wanner,
+/// Geometric Numerical Integration, IV.4].
 template <class T, class Topology>
 void keep_momentum(System<T, Topology, BaseMotion::free>& system, const Conserved<T>& kept,
                    State<T>& x, const T& t) {

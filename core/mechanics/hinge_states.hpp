@@ -1,5 +1,5 @@
-/// The hinges of a wing in a run: their laws in the present state of latches, contacts and motors, and the moments that
-/// follow. The right-hand side is made of them: system.hpp.
+/// The hinges of a wing in a run: the laws that act in the present state of latches, contacts and motors, and their
+/// moments. system.hpp builds the right-hand side on them.
 #pragma once
 
 #include "core/mechanics/edges.hpp"
@@ -33,27 +33,27 @@ public:
   [[nodiscard]] const Wing<T>& wing() const { return wing_; }
   [[nodiscard]] const Workspace<T>& work() const { return work_; }
   [[nodiscard]] const T& epsilon() const { return epsilon_; }
-  /// The workspace, for the tolerances, and for evaluations made outside this object.
+  /// The workspace, to write: for tolerances, and for the results of evaluations made elsewhere (in a lane of a pack).
   [[nodiscard]] Workspace<T>& made_elsewhere() { return work_; }
 
   /// Engages the latch of hinge i, which has reached its latched angle.
   void engage(int i) {
     work_.engaged[i] = true;
-    if (wing_.is_real() && !wing_.real.empty()) { // inside its backlash
+    if (wing_.is_real() && !wing_.real.empty()) { // the latched angle lies inside the backlash
       work_.above[i][static_cast<int>(Edge::backlash_low)] = true;
       work_.above[i][static_cast<int>(Edge::backlash_high)] = false;
     }
     update_law(i);
   }
 
-  /// The latch of hinge i lets go at x.
+  /// Lets go the latch of hinge i at x.
   void disengage(int i, const State<T>& x) {
     work_.engaged[i] = false;
     work_.above[i][static_cast<int>(Edge::pass)] = x[layout_.angle(i)] > wing_.hinges[i].latched;
     update_law(i);
   }
 
-  /// Sets the state of hinge i.
+  /// Sets the state of hinge i's exact friction or rigid hold.
   void touch(int i, Contact contact) {
     work_.stuck += wingspread::is_locked(contact) - wingspread::is_locked(work_.contact[i]);
     work_.contact[i] = contact;
@@ -74,7 +74,7 @@ public:
     const T way = x[layout_.angle(i)] - wing_.hinges[i].stowed;
     return -fused(hold.stiffness, way, hold.damping * x[layout_.rate(i)]);
   }
-  /// Its energy, J; 0 for a hinge that none restrains.
+  /// Energy of the elastic hold of hinge i at x, J; 0 unless is_restrained(i).
   [[nodiscard]] T hold_energy(const State<T>& x, int i) const {
     if (!is_restrained(i)) return T(0);
     const T way = x[layout_.angle(i)] - wing_.hinges[i].stowed;
@@ -90,7 +90,7 @@ public:
   void command(const T& t) {
     for (int i = 1; i < motors_end(); ++i) work_.motors[i].now = commanded_rate(work_.motors[i], t);
   }
-  /// Whether no command changes any more; a motor whose hinge is held does not count.
+  /// Whether the commands of all motors are constant from now on. The motor of a held hinge counts as constant.
   [[nodiscard]] bool motors_are_steady() const {
     for (int i = 1; i < motors_end(); ++i)
       if (!is_steady(work_.motors[i])) return false;
@@ -100,21 +100,21 @@ public:
   [[nodiscard]] bool motor_runs(int i) const {
     return !wing_.motors.empty() && work_.motors[i].runs > T(0);
   }
-  /// What the motor of hinge i exerts at rest under its present command, N·m.
+  /// Moment of the motor of hinge i at φ̇ = 0 under its present command, N·m; 0 without a motor.
   [[nodiscard]] T drive_of_motor(int i) const {
     return wing_.motors.empty() ? T(0) : motor_drive(wing_.motors[i], work_.motors[i]);
   }
 
-  /// Whether hinge i is locked, by friction or by its hold.
+  /// Whether hinge i is locked: stuck by friction, or held by a rigid hold.
   [[nodiscard]] bool sticks(int i) const { return wingspread::is_locked(work_.contact[i]); }
-  /// Whether the hold of hinge i holds it; for a pack: in which lanes.
+  /// Whether hinge i is held by a rigid hold; for a pack: in which lanes.
   [[nodiscard]] Truth<T> is_held(int i) const {
     if constexpr (is_one_number<T>)
       return work_.contact[i] == Contact::held;
     else
       return work_.locks[i] > T(1);
   }
-  /// As sticks; for a pack: the lanes in which it does.
+  /// Whether hinge i is locked; for a pack: in which lanes.
   [[nodiscard]] Truth<T> is_locked(int i) const {
     if constexpr (is_one_number<T>)
       return sticks(i);
@@ -139,17 +139,19 @@ public:
     return T(0.5) * wing_.hinges[i].stiffness * y * y;
   }
 
-  /// Moment of hinge i, N·m; of a stuck hinge, the one that held it at the last evaluation.
+  /// Moment of hinge i, N·m; of a locked hinge, the moment on its axis at the last evaluation.
   [[nodiscard]] T moment(const State<T>& x, int i) const {
     return sticks(i) ? work_.holding[i] : sliding_moment(x, i);
   }
 
-  /// What locked hinge i at the last evaluation, which was at x, N·m: friction, or its hold.
+  /// Moment of the friction, or of the hold, that keeps hinge i at rest, N·m.
+  /// @pre hinge i is locked, and the last evaluation was at x
   [[nodiscard]] T holding_friction(const State<T>& x, int i) const {
     return work_.holding[i] - sliding_moment(x, i);
   }
 
-  /// Moment of hinge i without the friction that holds it, N·m; of a motor by its command at the last evaluation.
+  /// Moment of hinge i, N·m, without the friction or the hold that locks it. A motor has its command of the last
+  /// evaluation.
   [[nodiscard]] T sliding_moment(const State<T>& x, int i) const {
     const T linear = linear_moment(work_.laws[i], x[layout_.angle(i)], x[layout_.rate(i)]);
     return wing_.is_nonlinear() || layout_.smoothed
@@ -162,7 +164,7 @@ public:
     return real_moment(wing_.real[i], work_.modes[i], work_.pieces[i], angle, rate);
   }
 
-  /// Largest moment that locks hinge i at x, N·m: by exact friction; by a hold, without limit.
+  /// Largest moment that exact friction holds at hinge i, N·m; 1e300 for a held hinge, because a hold has no limit.
   [[nodiscard]] T static_limit(const State<T>& x, int i) const {
     const bool tested = !wing_.real.empty() && !wing_.real[i].friction.regularized;
     T most = wing_.hinges[i].static_friction;
@@ -191,7 +193,7 @@ protected:
     if (is_restrained(i)) add_elastic_hold(i);
   }
 
-  /// −k (φ − φ_stowed) − d φ̇ about the latched angle, as a LinearLaw has it.
+  /// Adds the hold's −k (φ − φ_stowed) − d φ̇ to the hinge's linear law, which counts from the latched angle.
   void add_elastic_hold(int i) {
     LinearLaw<T>& law = work_.laws[i];
     const ReleaseTerms<T>& hold = wing_.releases[i];
@@ -204,7 +206,7 @@ protected:
     return side_of_backlash(wing_.real[i], work_.above[i]);
   }
 
-  /// Nonlinear moments. A function of its own (noinline), so that the frames stay in registers.
+  /// Sets the nonlinear moments. Not inlined, so that the caller's frames stay in registers.
   [[gnu::noinline]] void find_nonlinear_moments(const State<T>& x) {
     for (int i = 1; i <= layout_.bodies; ++i) work_.nonlinear[i] = smooth_moment(x, i);
     if (wing_.is_real()) add_real_moments(x);

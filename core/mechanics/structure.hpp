@@ -10,7 +10,7 @@ namespace wingspread {
 template <class Topology, BaseMotion M> struct Structure {};
 
 /// Calls function(Structure<Topology, M>{}) for the kind of this wing and returns its result.
-/// Chains whose length the compiler knows pay on bases that do not move (measured: Chain<N>).
+/// Chain<N> serves fixed bases only, where it is faster than Tree (figures: Chain<N> in tree.hpp).
 template <class Function> auto with_structure(const Wing<double>& wing, Function function) {
   constexpr BaseMotion fixed = BaseMotion::fixed;
   static_assert(longest_static_chain == 4, "a case for each length");

@@ -80,7 +80,7 @@ namespace detail {
 
 [[nodiscard]] inline bool has_plate(const Body& body) { return body.plate.has_value(); }
 [[nodiscard]] inline bool has_motor(const Hinge& hinge) { return hinge.motor.has_value(); }
-/// Whether air acts on plates. Without air a plate is an outline: its wing has all proofs of a wing without plates.
+/// Whether air acts on plates. Without air a plate has no effect on a run: the wing is treated as one without plates.
 [[nodiscard]] inline bool feels_air(const Scene& scene) {
   return scene.environment.air_density != 0 &&
          std::any_of(scene.bodies.begin(), scene.bodies.end(), has_plate);
@@ -225,9 +225,9 @@ void set_loop(const Wing<T>& wing, const Synchronisation& loop, LoopTerms<T>& te
 
 } // namespace detail
 
-/// Whether a wing made for another scene with this tree has exactly this scene's features. A draw may add or remove a
-/// backlash or the air. Methods, peak searches and proofs depend on what a wing has room for, so that a wing with more room
-/// than its scene needs would give a run other bits than one made for the scene.
+/// Whether a wing made for another scene with this tree has exactly this scene's features; if not, make a new wing. A
+/// draw may add or remove a backlash or the air. Methods, peak searches and proofs depend on which lists of the wing
+/// are empty, so a wing with a list that its scene does not need would give a run other bits.
 template <class T> [[nodiscard]] bool has_features_of(const Wing<T>& wing, const Scene& scene) {
   const auto is_of = [&](const LoopTerms<T>& terms, const Synchronisation& loop) {
     return wing.hinge_of[terms.first] == loop.first && wing.hinge_of[terms.second] == loop.second;

@@ -51,16 +51,16 @@ template <class T> struct Workspace {
   std::vector<T> air_moments;      ///< 1 … n: L of air_loads.hpp, N·m
   std::vector<Vec2<T>> air_forces; ///< 0 … n: F of air_loads.hpp, N
   std::vector<Vec2<T>> velocities; ///< 0 … n: of the hinges' points, m/s
-  std::vector<char> engaged;       ///< 1 … n: has passed its latched angle
+  std::vector<char> engaged;       ///< 1 … n: latch engaged; if smoothed: latched angle reached
   std::vector<Contact> contact;    ///< 1 … n
   std::vector<char> restrained;    ///< 1 … n: the hinge's hold is elastic and has not let go
   std::vector<char> watches;       ///< 1 … n: the hinge's hold waits for another hinge's angle
   std::vector<T>
-      locks; ///< 1 … n: of packs, 1 in the lanes where the hinge sticks, 2 where it is held, else 0
-  std::vector<T> holding; ///< 1 … n: axis moment at the last evaluation that held a hinge
+      locks; ///< 1 … n, packs only: 1 in lanes where the hinge is stuck, 2 where it is held, else 0
+  std::vector<T> holding; ///< 1 … n: axis moments, N·m, at the last evaluation with a locked hinge
   int stuck = 0;          ///< number of locked hinges, of all lanes together
   std::vector<Crossing<T>> crossings; ///< 0 … n: of the last evaluation while hinges are locked
-  T least_motion = T(0); ///< atol of the run, rad and rad/s: less is not resolved; 0 without a run
+  T least_motion = T(0); ///< atol of the run, rad and rad/s: smaller motion is not resolved
   long evaluations = 0;
 
   /// Makes room for a wing of n bodies. @param real, plates, motored sizes of the wing's lists

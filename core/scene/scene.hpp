@@ -71,8 +71,8 @@ private:
   Curve drive_, friction_;
 };
 
-/// A torque over the hinge's way, of a spring or a harness, N·m: scale · law + offset. The law is
-/// linear in the travel x = (φ − stowed)/(latched − stowed), or a table of hinge angles.
+/// Torque of a spring or a harness over the hinge's travel, N·m: scale · law + offset. The law is
+/// linear in the share of travel x = (φ − stowed)/(latched − stowed), or a table of hinge angles.
 struct HingeTorque {
   double torque_stowed = 0;                   ///< at x = 0
   double torque_latched = 0;                  ///< at x = 1
@@ -125,21 +125,21 @@ struct Latch {
   std::optional<double> dissipation{};
   /// rad/s, ≥ 0: a hinge that passes its latched angle faster does not engage; none: it always does.
   std::optional<double> capture_rate{};
-  /// N·m, > 0: an engaged latch lets go of a load towards stowed from this on; none: it never does.
+  /// N·m, > 0: smallest load towards stowed at which an engaged latch lets go; none: it never does.
   std::optional<double> holding_moment{};
 
-  /// Whether the hinge may pass its latched angle without being held for ever.
+  /// Whether the latch may miss the hinge, which passes too fast, or let it go again.
   [[nodiscard]] bool can_miss() const { return capture_rate || holding_moment; }
 };
 
-/// A hinge that is held at its stowed angle, rigidly unless it has a Hold, until its hold lets go: at a time, or at an event of another
-/// hinge; and a delay after that.
+/// When a held hinge is released: `delay` after a time, or after an event of another hinge. Until then the hinge is
+/// held at its stowed angle, rigidly unless it has a Hold.
 struct Release {
   enum class Event {
     time,
     latched,  ///< the other hinge latches for the first time
     released, ///< its hold lets go
-    passed    ///< its travel reaches an angle for the first time
+    passed    ///< its travel reaches `angle` for the first time
   };
   Event event = Event::time;
   double time = 0;  ///< of Event::time, s, ≥ 0
