@@ -19,13 +19,14 @@
 namespace wingspread {
 namespace {
 
-/// Tolerance of a reference, as a share of the campaign's. The reference's own error is then some hundredth of the error
-/// that it measures, and dopri5 takes 100^{1/5} = 2.5 times the steps.
+/// Tolerance of a reference, as a share of the campaign's. The reference's own error is then about a hundredth of the
+/// error that it measures, and dopri5 takes 100^{1/5} = 2.5 times the steps.
 constexpr double tighter = 1e-2;
 /// At a smaller rtol round-off dominates the error estimate of a step.
 constexpr double tightest_explicit = 1e-13;
 constexpr double tightest_implicit = 1e-12; ///< at a smaller rtol seulex takes ten times the steps
-constexpr double loosest = 1e-8;            ///< largest rtol of a reference
+/// Largest rtol of a reference. Heuristic: with a larger one the reference of a loose campaign is loose itself.
+constexpr double loosest = 1e-8;
 constexpr long times_the_steps = 100, least_steps = 20'000;
 /// Runs by which a reference is tried: they fill the lanes of two threads, so they take hardly longer than one.
 constexpr std::size_t probed = 16;
@@ -83,8 +84,8 @@ long steps_allowed(const Campaign& campaign, std::span<const long> runs) {
   return std::max(allowed(0), allowed(runs.size() / 2));
 }
 
-/// Notes the runs in which an output moved, and these outputs. A difference below rtol times the output's largest value
-/// is not resolved either.
+/// Notes the outputs that moved and the runs in which they did. Differences up to unresolved(), and up to rtol times
+/// the output's largest value, do not count.
 void note_moved(const ResultNames& names,
                 std::span<const std::pair<const ResultRow*, const ResultRow*>> pairs,
                 const Integration& integration, Accuracy& accuracy) {
@@ -124,9 +125,9 @@ double share_at_most(const Accuracy& accuracy, std::size_t found, double confide
                                accuracy.runs + accuracy.unreached, confidence);
 }
 
-// 100 times the steps of the run, at least 20,000. Heuristic: at a tolerance 100 times tighter, dopri5 takes about 3 times
-// the steps of a non-stiff run, and far more than 100 times those of a stiff one. A smaller factor would reject usable
-// references, a larger one wastes time on stiff runs.
+// 100 times the steps of the run, at least 20,000. Heuristic: at a tolerance 100 times tighter, dopri5 takes about 3
+// times the steps of a non-stiff run, and far more than 100 times those of a stiff one. A smaller factor would reject
+// usable references, a larger one wastes time on stiff runs.
 long steps_of_reference(long steps) { return std::max(least_steps, times_the_steps * steps); }
 
 std::vector<Integration> references_of(const Integration& integration) {

@@ -41,16 +41,16 @@ struct Accuracy {
 /// The share of a value by which it must change to have moved.
 inline constexpr double moved_share = 0.01;
 
-/// Whether an output differs between two integrations by more than 1 % of the larger magnitude. A difference within
-/// `unresolved` is none.
+/// Whether an output differs between two integrations by more than 1 % of the larger magnitude and by more than
+/// `unresolved`.
 [[nodiscard]] bool moved(double value, double reference, double unresolved);
 
-/// The difference below which the tolerance does not tell an output from zero: atol for angles and rates, else 0.
+/// Largest difference of an output that the absolute tolerance allows: atol for angles and rates, else 0.
 [[nodiscard]] double unresolved(const std::string& output, const Integration& integration);
 
-/// A bound, with one-sided confidence, of the share of the campaign's runs that have a property which `found` of the
-/// repeated runs have: Clopper and Pearson's. Runs in doubt and runs that the reference could not finish count as runs
-/// with the property, because nothing is known of their errors.
+/// Upper bound of the share of all runs that have some property, if `found` of the repeated runs have it (Clopper and
+/// Pearson, one-sided). Runs in doubt and runs that the reference could not finish count as having it, because nothing
+/// is known of their errors.
 [[nodiscard]] double share_at_most(const Accuracy& accuracy, std::size_t found, double confidence);
 
 /// The reference integrations, the preferred one first. Their rtol is 100 times tighter, kept between 1e-13 (1e-12
@@ -86,9 +86,9 @@ inline constexpr double moved_share = 0.01;
                                               std::span<const ResultRow> rows,
                                               const ThreadPool& pool);
 
-/// How many runs are repeated: what the campaign asks for; else 1 % of the runs, at least 10 and at most 100, of fewer
-/// than 100 runs a tenth. 1 % costs some 4 % of the campaign's time. 100 runs without an error beyond x show that at
-/// most 3 % of all runs have one (95 % confidence); 10 runs show 26 %.
+/// The number of runs to repeat: the campaign's accuracy_runs, else 1 % of the runs, at least 10 and at most 100; of
+/// fewer than 100 runs a tenth. 1 % costs some 4 % of the campaign's time. 100 runs without an error beyond x show that
+/// at most 3 % of all runs have one (95 % confidence); 10 runs show 26 %.
 [[nodiscard]] std::size_t count_repeated(const Campaign& campaign, std::size_t runs);
 
 /// The accuracy of these results. Nothing if the campaign wants none, or no run could be repeated. Cost: a repeated run

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_digits = 16; // a double has 15.95
 
-/// @param least a smaller difference is none
+/// @param least differences up to this do not count
 CheckedOutput compare(const std::string& name, double value, double reference, double least) {
   CheckedOutput output{name, value, reference};
   if (std::isnan(value) && std::isnan(reference)) return output;

@@ -25,8 +25,8 @@ struct RunCheck {
   std::vector<CheckedOutput> outputs;
 };
 
-/// The number of decimal digits in which two numbers agree: ⌊−log10 of their difference over the larger magnitude⌋, from
-/// 0 to 16; 16 for equal numbers.
+/// The number of decimal digits in which two numbers agree: ⌊−log10 of their difference over the larger magnitude⌋,
+/// from 0 to 16; 16 for equal numbers.
 [[nodiscard]] int agreeing_digits(double a, double b);
 
 /// Repeats a run with the first usable reference (references_of in accuracy.hpp).

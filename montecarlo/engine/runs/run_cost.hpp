@@ -1,4 +1,4 @@
-/// What runs cost, estimated from one nominal run.
+/// The cost of runs, estimated from one nominal run.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -9,7 +9,7 @@
 
 namespace wingspread {
 
-/// What nominal runs take, and how they end.
+/// Cost and outcome of nominal runs.
 struct NominalRuns {
   std::string cost; ///< "the nominal run takes 1240 evaluations, 3 ms"
   /// One for each nominal wing that does not deploy: "the nominal wing of case cold does not deploy: stalled (…)".
@@ -23,8 +23,8 @@ struct NominalRuns {
 /// Runs the scene once and measures the run; gives up after 50,000 trial steps.
 [[nodiscard]] NominalRuns try_nominal(const Scene& scene, const Integration& integration);
 
-/// Runs the nominal wing of every case. The cost is that of all runs on this machine's threads, estimated from the first
-/// case: an upper estimate, because runs in packs are cheaper.
+/// Runs the nominal wing of every case. The cost is that of all runs on this machine's threads, estimated from the
+/// first case: an upper estimate, because runs in packs are cheaper.
 [[nodiscard]] NominalRuns try_nominal(const Campaign& campaign);
 
 } // namespace wingspread

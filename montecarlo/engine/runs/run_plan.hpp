@@ -50,8 +50,8 @@ public:
   RunPlan(const Campaign& campaign, UnitPoints points);
   /// As above, with the measure as the only output column.
   RunPlan(const Campaign& campaign, UnitPoints points, Measure measure);
-  /// As above, with samples of the motion instead of outputs: ResultRow::outputs has the numbers of a SampleTaker, none
-  /// if the run failed.
+  /// As above, with samples of the motion instead of outputs. ResultRow::outputs then has the numbers of a SampleTaker,
+  /// and is empty if the run failed or was invalid.
   RunPlan(const Campaign& campaign, UnitPoints points, SampledColumns samples);
 
   [[nodiscard]] const Campaign& campaign() const { return *campaign_; }
@@ -59,7 +59,7 @@ public:
   /// The campaign's output columns; empty if a measure replaces them.
   [[nodiscard]] const std::vector<OutputColumn>& columns() const { return columns_; }
   [[nodiscard]] const std::optional<Measure>& measure() const { return measure_; }
-  /// What the runs sample instead of their outputs.
+  /// The columns that runs sample instead of outputs; nothing if runs have outputs.
   [[nodiscard]] const std::optional<SampledColumns>& samples() const { return samples_; }
   /// How runs are integrated: as the campaign says, to the end of their samples.
   [[nodiscard]] const Integration& integration() const { return integration_; }

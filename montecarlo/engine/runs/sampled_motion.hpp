@@ -8,7 +8,7 @@
 
 namespace wingspread {
 
-/// The columns that every run of a plan keeps, at multiples of an interval from 0 to t_end, whatever happens in the run.
+/// The columns that every run of a plan keeps, at multiples of an interval from 0 to t_end. No such run ends early.
 struct SampledColumns {
   std::vector<std::size_t>
       columns; ///< indices into trajectory_columns(); an angle's rate follows the angle
@@ -19,10 +19,11 @@ struct SampledColumns {
 /// The grid for a trace, s: 10 to 20 ms, at least 100 intervals. Finer costs time, see test_runs.hpp for the error.
 [[nodiscard]] double grid_interval(std::span<const double> times);
 
-/// What a run computes for these columns: nothing but its motion, to t_end.
+/// The goal of a run for these columns: its motion to t_end, without peaks.
 [[nodiscard]] Goal goal_of(const Scene& scene, const SampledColumns& columns);
 
-/// Collects a run's samples as numbers: sample by sample each column, and the column beside it (an angle's rate).
+/// Collects a run's samples in a list of numbers. A sample adds two numbers for each column: its value, and the value
+/// of the next column of the trajectory (for an angle its rate).
 class SampleTaker {
 public:
   SampleTaker(const Scene& scene, const SampledColumns& columns)
@@ -43,7 +44,7 @@ public:
 
   /// Whether the numbers are the samples of a run that did not fail.
   [[nodiscard]] bool is_whole(std::span<const double> numbers) const;
-  /// The column number `which` of those given at a time; times before and after the run take the value at its ends.
+  /// The value of SampledColumns::columns[which] at time t; before and after the run the value at its ends.
   /// @pre is_whole(numbers)
   [[nodiscard]] double at(std::span<const double> numbers, std::size_t which, double t) const;
 

@@ -1,5 +1,5 @@
-/// The checkpoint of a sampler: the results of every batch of evaluations of the sampler, in order. The sampler is
-/// deterministic, so that with the recorded results it goes on where it was interrupted.
+/// The checkpoint of a sampler (`fit`): the results of each batch of its evaluations, in order. The sampler is
+/// deterministic, so with the recorded results it continues where it was interrupted.
 ///
 ///   record 1   JSON: which study the file belongs to
 ///   f64…       the results of a batch

@@ -5,6 +5,9 @@
 /// deterministic: if it receives the recorded rows again, in the same order, it asks for the same analyses. A
 /// checkpoint takes 40 to 150 bytes per run and is read in constant memory.
 ///
+/// An "analysis" is here all runs that a study asks for at once (for `margin` a case at a scale). The key `checkpoints`
+/// of summary.json is something else: the interim analyses of a campaign with `until`.
+///
 ///   record 1     JSON: which study the checkpoint belongs to
 ///   'L' · text   an analysis begins (analysis_id.hpp)
 ///   'R' …        its rows (row_records.hpp)

@@ -20,7 +20,7 @@
 namespace wingspread {
 namespace {
 
-/// The key of summary.json with what `analyze` was asked for.
+/// The key of summary.json with the statistics and requirements of the last `analyze`.
 constexpr const char* analyzed_key = "analyzed";
 
 std::filesystem::path refuse_missing(const std::filesystem::path& folder) {
@@ -218,9 +218,8 @@ ResultsFile read_stored_results(const StoredCampaign& stored) {
   const auto [first, last] = stored.runs();
   const std::filesystem::path path = stored.folder / runs_file;
   if (stored.foreign && !is_complete(stored, read.results))
-    throw SpecError(
-        {{path.string(), "", fmt::format("{} runs", read.results.size()),
-          fmt::format("all {} of the campaign: whatever became of them", last - first)}});
+    throw SpecError({{path.string(), "", fmt::format("{} runs", read.results.size()),
+                      fmt::format("all {} of the campaign, deployed or not", last - first)}});
   return read;
 }
 

@@ -14,7 +14,8 @@ struct Sums {
 
 double pearson_of(const Sums& s) {
   const double of_x = s.xx - s.x * s.x / s.n, of_y = s.yy - s.y * s.y / s.n;
-  // For a constant column only rounding errors are left (z is 0, unless the pilot had other values).
+  // A constant column has only rounding errors in these sums. Heuristic: 64 roundings; a smaller number correlates such
+  // errors, a larger one takes a column that varies little for a constant.
   constexpr double nothing = 64 * std::numeric_limits<double>::epsilon();
   if (s.n < 2 || !(of_x > nothing * s.xx) || !(of_y > nothing * s.yy)) return undefined;
   return std::clamp((s.xy - s.x * s.y / s.n) / std::sqrt(of_x * of_y), -1.0, 1.0);

@@ -1,7 +1,7 @@
 /// Streaming statistics: with --no-rows, all that is kept of a campaign's runs. They consist of counts, exact sums, and
 /// extreme values with ties decided by run number.
 ///
-/// So they do not depend on the order of the runs, or on how runs are split among objects that are added together. The
+/// They depend neither on the order of the runs nor on how runs are split among objects that are added together. The
 /// same runs give the same bytes on any number of threads, after interruptions, and from shards.
 #pragma once
 

@@ -119,7 +119,7 @@ std::optional<double> number_of(const std::optional<OrderStatistic>& found,
   return (*found).*which;
 }
 
-/// As tolerance_limits (wilks.hpp), at the outer edges of the bins.
+/// Tolerance limits as by tolerance_limits (wilks.hpp), but at the outer edges of the bins.
 Bounds limits_of(const RankedRequired& values, long runs, const ToleranceLimitSpec& spec) {
   const long order = tolerance_order(runs, spec.side, spec.probability, spec.confidence);
   if (order == 0) return {};
@@ -206,7 +206,7 @@ void add_correlations(const ResultNames& names, const StreamingStatistics& stati
                                       statistics.correlations()->of(i, j)});
 }
 
-/// As stopped_hinges (summary.cpp) does for rows.
+/// The counterpart of stopped_hinges (summary.cpp), which reads rows.
 std::vector<StoppedHinge> stopped_hinges(const StreamingStatistics& statistics) {
   std::vector<StoppedHinge> stopped;
   for (const auto& [columns, angles] : statistics.stopped()) {
@@ -219,7 +219,7 @@ std::vector<StoppedHinge> stopped_hinges(const StreamingStatistics& statistics) 
   return stopped;
 }
 
-/// As overtravels (overtravel.hpp) does for rows.
+/// The counterpart of overtravels (overtravel.hpp), which reads rows.
 void add_overtravels(const Scene& scene, const ResultNames& names,
                      const StreamingStatistics& statistics, Summary& summary) {
   for (const Hinge& hinge : scene.hinges) {

@@ -49,8 +49,8 @@ double least_of(std::int64_t bin) {
                     linear_bits + octave - bits_of(octave));
 }
 
-/// An interval of values: its middle, and the standard deviation of the normal law whose shortest interval with the
-/// same share of values has the same length.
+/// An interval of values: its middle, and the standard deviation of a normal law that has the same share of values in
+/// an interval of this length about its mean.
 struct Dense {
   double middle, deviation;
 };
@@ -60,6 +60,7 @@ Dense densest(std::span<const double> sorted) {
   struct Share {
     double part, deviations; // deviations: length of a normal law's shortest interval with `part`
   };
+  // 2 Φ⁻¹((1 + part)/2); for part 1 the range of 4096 normal values
   constexpr Share shares[] = {{0.2, 0.5067}, {0.5, 1.349}, {0.8, 2.563}, {1, 7}};
   for (const auto& [part, deviations] : shares) {
     const auto reach = static_cast<std::size_t>(
@@ -72,7 +73,7 @@ Dense densest(std::span<const double> sorted) {
       }
     if (length > 0 && std::isfinite(length)) return {middle, length / deviations};
   }
-  return {sorted.front(), std::abs(sorted.front()) * 1e-3};
+  return {sorted.front(), std::abs(sorted.front()) * 1e-3}; // all equal: as for one value
 }
 
 } // namespace
@@ -81,6 +82,7 @@ Grid grid_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return {};
   std::ranges::sort(values);
+  // Of a single value the scale is unknown. Heuristic: 1e-3 of it; another scale gives coarser bins or more of them.
   const Dense dense =
       values.size() > 1 ? densest(values) : Dense{values[0], std::abs(values[0]) * 1e-3};
   const double deviation = dense.deviation > 0 ? dense.deviation : 1;

@@ -12,7 +12,7 @@ long hinges_in(std::string_view order) {
   return order.empty() ? 0 : 1 + std::ranges::count(order, '>');
 }
 
-/// Keeps the first elements of an order; ties go to the lowest run, because runs come in ascending order.
+/// Keeps the `most` elements that `before` ranks first. Ties go to the lowest run, because runs come in order.
 template <class Element, class Before>
 void keep_first(std::vector<Element>& kept, const Element& added, std::size_t most, Before before) {
   if (kept.size() == most && (most == 0 || !before(added, kept.back()))) return;
@@ -30,7 +30,7 @@ std::vector<LatchedRun> fewest_latched_of(const Results& results, std::size_t mo
   return fewest;
 }
 
-/// Sorts the deployed runs with a column into the counts.
+/// Counts the deployed runs without a value, with a cut peak, and beyond the limit.
 void add_deployed(const Requirement& requirement, const Results& results, const Column& column,
                   std::size_t most, BrokenRuns& broken) {
   const double sign = sign_of(requirement), limit = limit_of(requirement);

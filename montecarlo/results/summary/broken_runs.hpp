@@ -1,4 +1,5 @@
-/// The runs that break a requirement, by cause, and the runs that tell most about it.
+/// The runs that break a requirement, by cause, and the runs that are worth a replay: the worst, and those with the
+/// fewest latched hinges.
 #pragma once
 
 #include "montecarlo/results/summary/verdict.hpp"

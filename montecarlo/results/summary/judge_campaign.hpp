@@ -19,9 +19,8 @@ namespace wingspread {
 [[nodiscard]] std::vector<Verdict> judge_campaign(const Campaign& campaign, const Results& results,
                                                   const InterimAnalyses& interim = {});
 
-/// Where nothing is dispersed and all runs have the same result, sets `one_run`. Passed requirements become undecided,
-/// without guaranteed numbers: N times the same run show no probability. Runs of another tool may differ without a
-/// dispersion.
+/// Sets `one_run` if nothing is dispersed and all runs have one result (runs of another tool may differ even then).
+/// Passed requirements then become undecided, without guaranteed numbers: N times the same run show no probability.
 void withdraw_if_one_run(const Campaign& campaign, Summary& summary);
 
 } // namespace wingspread

@@ -24,7 +24,7 @@ std::vector<LatchJump> latch_jumps(const Scene& scene, const Outcome& outcome) {
 std::string warning(std::span<const LatchJump> jumps) {
   std::vector<std::string> hinges;
   for (const LatchJump& jump : jumps)
-    // a jump against the spring's moment exceeds the peak, by a little
+    // A jump opposite to the spring's moment may exceed the peak a little: 100 % at most is shown.
     hinges.push_back(
         fmt::format("{} ({:.0f} %)", jump.hinge, std::min(100.0, 100 * jump.moment / jump.peak)));
   return fmt::format(

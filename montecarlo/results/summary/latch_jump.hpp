@@ -18,7 +18,7 @@ struct LatchJump {
   double peak = 0;   ///< N·m
 };
 
-/// Those of one run, in the scene's order of hinges; none if peak moments are not known.
+/// The latch jumps of one run, in the scene's order of hinges; none if peak moments are not known.
 [[nodiscard]] std::vector<LatchJump> latch_jumps(const Scene& scene, const Outcome& outcome);
 
 /// "latch damping makes most of the peak moment of root (57 %), tip (100 %): …", one line for all. @pre not empty

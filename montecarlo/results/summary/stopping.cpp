@@ -39,7 +39,7 @@ GoalFound find(const WidthGoal& goal, const Results& results,
   return found;
 }
 
-/// Met when there is such a requirement, and each is passed or disproved.
+/// Met if a requirement has this name, and every one with this name is passed or disproved.
 GoalFound find(const DecisionGoal& goal, std::span<const Verdict> verdicts) {
   GoalFound found{goal, {}, false};
   for (const Verdict& verdict : verdicts) {

@@ -20,7 +20,7 @@ struct GoalFound {
       relative{}; ///< the width as a share of the quantile's magnitude; for a relative goal
 };
 
-/// @param requirements the campaign's: at which end missing values rank
+/// @param requirements the campaign's: they decide at which end missing values rank
 /// @param verdicts   on the campaign's requirements, at their confidence for one analysis
 /// @param confidence of each interval, two-sided
 /// @pre draws of runs are independent; the results have the outputs

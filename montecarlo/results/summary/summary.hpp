@@ -107,26 +107,26 @@ struct PeaksCount {
   long proven = 0, cut = 0, unknown = 0;
 };
 
-/// Where a hinge stopped in the stalled runs in which it did not latch: its final_angle, rad.
+/// Angles, rad, at which a hinge stopped: its final_angle over the stalled runs in which it did not latch.
 struct StoppedHinge {
   std::string hinge;
   long runs = 0;
   double median = undefined, least = undefined, largest = undefined;
 };
 
-/// The columns that tell where a hinge stopped, by their places among the outputs.
+/// Indices, among the outputs, of the columns from which a StoppedHinge is computed.
 struct FinalAngleColumns {
   std::string hinge;
   std::size_t angle;
   std::optional<std::size_t> latch_time; ///< nothing if not recorded: then the hinge counts as open
 
-  /// Whether a run has a value: it stalled, and the hinge had not latched. @param value of a column, by its place
+  /// Whether the run stalled and the hinge had not latched. @param value value(i) of output i in the run
   template <class Value> [[nodiscard]] bool stopped(Status status, const Value& value) const {
     return status == Status::stalled && !std::isnan(value(angle)) &&
            !(latch_time && !std::isnan(value(*latch_time)));
   }
 };
-/// Of each hinge with an output final_angle, in the order of the columns.
+/// The columns of each hinge that has a final_angle, in the order of the outputs.
 [[nodiscard]] std::vector<FinalAngleColumns>
 final_angle_columns(const std::vector<std::string>& outputs);
 

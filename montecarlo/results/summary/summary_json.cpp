@@ -61,18 +61,18 @@ Json definitions(const Summary& summary) {
       {"outputs", "over the runs in which they happened"},
       {"requirements", independent
                            ? "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; "
-                             "what did not deploy or happen counts against them"
+                             "a run that did not deploy, or without the output, is a failure"
                            : "none: the draws depend on each other"}};
   if (std::ranges::any_of(summary.outputs, [](const auto& each) { return each.missing > 0; }))
     json["quantile_missing"] =
         "quantiles are over all n runs: a run without a value ranks above every value, or below "
-        "for p < 0.5 where a requirement has a min; null where such a run has the rank; "
-        "among_runs_with_value: over the others alone";
+        "for p < 0.5 if a requirement has a min; null if such a run has the rank; "
+        "among_runs_with_value: over the runs with a value";
   if (summary.nominal)
     json["nominal"] = "of the run with every dispersion at the median of its law, tables included";
   if (summary.without_rows) {
     json["quantile"] = "order statistic of rank ceil(n p): exact among the extremes that are kept, "
-                       "else by counts: within `within`, its rank off by rank_error at most";
+                       "else interpolated: it lies in `within`, and rank_error bounds its rank";
     json["quantile_bounds"] =
         "order statistics, binomial, two-sided, at the outer edges of the bins "
         "that they lie in";
@@ -81,17 +81,17 @@ Json definitions(const Summary& summary) {
   }
   if (summary.requirements.size() > 1)
     json["joint_confidence"] =
-        "at least this for all that pass together: 1 - the sum of (1 - c) over all requirements";
+        "lower bound of the confidence that all passed requirements hold: 1 - the sum of (1 - c) "
+        "over all requirements";
   if (summary.peaks)
     json["peaks_final"] = "runs whose peaks are proven (true) or were cut by t_end (false): a cut "
                           "peak breaks every requirement on it";
   if (summary.accuracy)
     json["accuracy"] =
-        "runs drawn at random, made again by the reference: largest and RMS difference; "
-        "order_in_doubt: its status or latch order is another; moved: an output differs by more "
-        "than 1 %; share_at_most: Clopper-Pearson's one-sided bound of the share of all runs, "
-        "where runs in doubt or unreached count as beyond; standard_error: of the mean, by the "
-        "number of runs";
+        "runs drawn at random and repeated by the reference: largest and RMS difference; "
+        "order_in_doubt: runs with another status or latch order there; moved: runs in which an "
+        "output differs by more than 1 %; share_at_most: Clopper-Pearson's one-sided bound of the "
+        "share of all runs, which includes runs in doubt or unreached; standard_error: of the mean";
   if (!judge_groups(summary.requirements).empty())
     json["groups"] = "m requirements of a group are judged at 1 - (1 - c)/m each, so that all of "
                      "them together hold at c";
@@ -99,8 +99,8 @@ Json definitions(const Summary& summary) {
     json["extended"] =
         "runs were added to draws that had been analysed: a requirement passes if the risk of a "
         "wrong pass at any of the analyses, risk_of_wrong_pass, is at most 1 - c (exact, for P = "
-        "p; each analysis after the first spends at most half of what is left); risk_if_alone: had "
-        "each been judged by itself; bounds of analysis k at 1 - (1 - c)/(k(k - 1))";
+        "p; each analysis after the first spends at most half of what is left); risk_if_alone: the "
+        "risk if each were judged alone at c; bounds of analysis k at 1 - (1 - c)/(k(k - 1))";
   return json;
 }
 
@@ -310,7 +310,7 @@ std::vector<double> densities(const Histogram& histogram) {
   return result;
 }
 
-/// How many of the repeated runs have a property, and how many of all at most.
+/// The number of repeated runs that have a property, and an upper bound of its share among all runs.
 Json share_json(const Summary& summary, std::size_t found) {
   return {{"runs", found},
           {"share_at_most", share_at_most(*summary.accuracy, found, summary.confidence)}};

@@ -72,7 +72,7 @@ std::string reasons(const Summary& summary) {
   return text;
 }
 
-/// Where hinges stopped in stalled runs; empty without final_angle.
+/// The angles at which hinges stopped in stalled runs; empty without final_angle.
 std::string stalled_at(const Summary& summary) {
   if (summary.stalled_at.empty()) return "";
   std::string text =

@@ -24,7 +24,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Values of this magnitude or more are treated as infinite: least_margin() returns it if nothing resists.
 constexpr double no_number = std::numeric_limits<double>::max();
 
-/// A run and how bad its value is: sign_of · value, so that larger is worse.
+/// A run and its value times sign_of(): larger is worse.
 struct Badness {
   long run;
   double value;
@@ -40,7 +40,7 @@ const Column* column_of(const Results& results, std::span<const Column> besides,
   return nullptr;
 }
 
-/// How to read an output's values before comparing them.
+/// How an output's values are read before they are compared with a limit.
 struct Reading {
   bool absolute = false;
   bool is_peak = false; ///< if so, a value cut by t_end is read as infinite
@@ -256,10 +256,10 @@ std::string joint_risk(const Verdict& verdict) {
 std::string evidence(const Verdict& verdict) {
   const long broken = verdict.failures();
   if (verdict.one_run)
-    return fmt::format("nothing is dispersed: {} the same run, which keeps it. No probability is "
-                       "shown",
-                       verdict.runs == 1 ? "this is"
-                                         : fmt::format("all {} runs are", verdict.runs));
+    return fmt::format("nothing is dispersed: {} it. No probability is shown",
+                       verdict.runs == 1
+                           ? "the only run meets"
+                           : fmt::format("all {} runs are the same and meet", verdict.runs));
   std::string found =
       fmt::format("{} of {} {} {} it", broken, verdict.runs, verdict.runs == 1 ? "run" : "runs",
                   broken == 1 ? "breaks" : "break");

@@ -23,8 +23,8 @@
 namespace wingspread {
 
 enum class Decision {
-  pass,     ///< shown
-  fail,     ///< not shown, though n runs could have shown it; or disproved, by however few runs
+  pass,     ///< the runs show P ≥ p
+  fail,     ///< they do not, though n runs are enough to show it; or they disprove it
   undecided ///< n runs are too few to show it, and do not disprove it
 };
 [[nodiscard]] std::string_view to_string(Decision decision);
@@ -44,10 +44,9 @@ struct Verdict {
   long not_listed = 0;            ///< runs that break it and are not in `broken`: with --no-rows
   std::optional<long> least_runs; ///< fewest runs that could show it, if none broke it
   bool disproved = false;         ///< P < p is shown at the same confidence
-  bool one_run = false;           ///< all runs are the same run, so that none shows a probability
-  long cut = 0;                   ///< deployed runs among those that break it, whose peak t_end cut
-  long absent =
-      0; ///< those that break an output's limit for they did not deploy or lack the output
+  bool one_run = false;           ///< all runs are the same run and show no probability
+  long cut = 0;                   ///< deployed runs that break it because t_end cut their peak
+  long absent = 0; ///< runs that break a limit because they did not deploy or lack the output
   /// Least and largest value, if the limit lies on the other side of zero from all values.
   std::optional<std::array<double, 2>> beyond_zero{};
   double share = 0;            ///< share of the runs that meet it; NaN without runs
@@ -118,7 +117,7 @@ private:
                                              const InterimAnalyses& interim = {},
                                              std::span<const Column> besides = {});
 
-/// Whether the requirement is passed or disproved.
+/// Whether the requirement is passed or disproved, so that more runs need not be made for it.
 [[nodiscard]] bool is_decided(const Verdict& verdict);
 
 /// A lower bound of the confidence with which all passed requirements hold together. Failed requirements count too,

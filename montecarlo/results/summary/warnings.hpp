@@ -13,12 +13,13 @@ namespace wingspread {
 /// Numbers of runs whose peaks are proven, cut by t_end, or unknown.
 [[nodiscard]] PeaksCount count_peaks_final(const Results& results);
 
-/// Warnings of runs that are all the same, of overtravel, of latches whose damping decides the nominal peak, of peaks cut by t_end, and of limits on the
-/// other side of zero from every value. In this order, each on one line.
+/// One line for each warning, in this order: all runs are the same; overtravel; latches whose damping decides the
+/// nominal peak; peaks cut by t_end; outputs that moved at a tighter tolerance; limits on the other side of zero from
+/// every value.
 [[nodiscard]] std::vector<std::string> warnings(const Summary& summary);
 
-/// The warnings of all cases, each with its cases. Warnings that differ in numbers only are one, with the numbers of its
-/// first case.
+/// The warnings of all cases, each followed by the names of its cases. Warnings that differ only in numbers are merged,
+/// with the numbers of the first case.
 [[nodiscard]] std::vector<std::string> warnings(std::span<const CaseSummary> cases);
 
 /// The table's section "WARNING"; empty if there are none.
