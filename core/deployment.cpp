@@ -190,7 +190,8 @@ namespace {
 }
 
 /// Sorts runs by the method with which they begin: draws may give some wings friction, which excludes power series. An
-/// engine has one method, so runs that need another are queued until the engine has made the rest, or the queue is full.
+/// engine has one method, so runs that need another are queued until the engine has made the rest, or the queue is
+/// full.
 class RunSorter {
 public:
   RunSorter(const Integration& how, const Goal& goal, InstructionSet set, Scene& scene,
@@ -214,8 +215,8 @@ public:
   }
 
 private:
-  /// Eight full packs of the widest engine: lanes that run empty at a batch's end cost little. Heuristic; smaller: engines
-  /// alternate more often, each time with empty lanes; larger: memory.
+  /// Eight full packs of the widest engine: lanes that run empty at a batch's end cost little. Heuristic; smaller:
+  /// engines alternate more often, each time with empty lanes; larger: memory.
   static constexpr std::size_t longest_queue = 64;
 
   [[nodiscard]] Method method_of(const Wing<double>& wing) const {

@@ -42,11 +42,11 @@ struct Goal {
   bool sample_motion_only = false; ///< samples without moments and energies
 };
 
-/// `deployed`: every latch is engaged at the end, and no hold still holds a hinge. Of a hinge without a latch nothing else
-/// is asked. `stalled`: at least one latch is not engaged, and it is proven that none will engage any more, though hinges
-/// may still swing; or a hinge, with a latch or without, is still held at the end. Outcome::reason names the proof:
-/// everything sticks, energy is missing, or a hinge was never released.
-/// A scene without latches ends `timed_out`, unless a hinge is still held.
+/// `deployed`: every latch is engaged at the end, and no hold still holds a hinge. Of a hinge without a latch nothing
+/// else is asked. `stalled`: at least one latch is not engaged, and it is proven that none will engage any more, though
+/// hinges may still swing; or a hinge, with a latch or without, is still held at the end. Outcome::reason names the
+/// proof: everything sticks, energy is missing, or a hinge was never released. A scene without latches ends
+/// `timed_out`, unless a hinge is still held.
 enum class Status { deployed, stalled, timed_out, invalid, failed };
 [[nodiscard]] const char* to_string(Status status);
 
@@ -127,11 +127,11 @@ struct Outcome {
   std::vector<Peak> hold_moment;
   std::vector<double>
       final_angle; ///< at t_end, from the latched angle, rad; empty when not asked for
-  /// Work of each hinge's motor while the hinge's latch was not engaged, J; 0 without a motor. Empty when not asked for, or
-  /// where no hinge has a motor.
+  /// Work of each hinge's motor while the hinge's latch was not engaged, J; 0 without a motor. Empty when not asked
+  /// for, or where no hinge has a motor.
   std::vector<double> motor_energy;
-  /// The largest moment in the joints of each flexible body, by Scene::bodies, N·m; empty when no moments are asked for,
-  /// or without flexible bodies. Zero for a rigid body.
+  /// The largest moment in the joints of each flexible body, by Scene::bodies, N·m; empty when no moments are asked
+  /// for, or without flexible bodies. Zero for a rigid body.
   std::vector<Peak> bending_moment;
   /// Of the scene with all latches engaged, whatever became of the run, lowest first, Hz; empty unless asked for, and
   /// where the scene is unphysical or has no rest.

@@ -19,8 +19,8 @@ template <class T> struct Step {
   }
 
   /// The rate of coordinate k over the step. In a short step the difference of the angles at its ends is rounding, ε φ,
-  /// and the derivative of their quintic noise of ε φ/h. There the rate is the cubic by the rates and accelerations at the
-  /// ends.
+  /// and the derivative of their quintic noise of ε φ/h. There the rate is the cubic by the rates and accelerations at
+  /// the ends.
   /// @param path coordinate(k, freedoms)
   [[nodiscard]] Quintic<T> rate_of(const Quintic<T>& path, int k, int freedoms) const {
     const int r = k + freedoms;

@@ -13,8 +13,8 @@
 ///     k = N EI/L,  d = 2 ζ k/ω_1                                                                (3)
 ///     ω_1 = β² √(EI/(m L³)),  β = 1.8751…                                                       (4)
 ///
-/// Mass, centre of mass and inertia are the body's: Σ m_j x_j² + Σ ρ_j is a rod's m L²/12. A body with less inertia than
-/// a rod has more of its mass towards the middle (draws of mass and inertia make such bodies):
+/// Mass, centre of mass and inertia are the body's: Σ m_j x_j² + Σ ρ_j is a rod's m L²/12. A body with less inertia
+/// than a rod has more of its mass towards the middle (draws of mass and inertia make such bodies):
 ///
 ///     m_j = m l_j/L (1 + a (s − x_j²)),  s = Σ x_j² l_j/L,  J_j = ρ_j,  a such that the inertia is J   (5)
 ///

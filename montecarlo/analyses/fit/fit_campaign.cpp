@@ -21,7 +21,7 @@ std::size_t count_of(const Json& entry, const Scene& scene) {
   return read_dispersions(JsonCursor(list, "", problems), &scene, "").list.size();
 }
 
-/// What the draws of a dispersion do, as a column of rows or as a dispersion of its own.
+/// The keys that say what the draws of a dispersion change: the same for a column of rows and for a dispersion.
 Json effect_of(const Json& entry, const Dispersion& dispersion, const Scene& scene) {
   if (entry.contains("through")) return {{"through", entry["through"]}};
   return {{"to", paths_of(scene, dispersion.targets)}, {"apply", entry["apply"]}};

@@ -12,7 +12,8 @@ namespace wingspread {
 /// The checkpoint of an unfinished fit.
 inline constexpr const char* fit_log_file = "looks.log";
 
-/// posterior.csv, campaign.json, traces.csv, fit.json; and the checkpoint until the chains are finished.
+/// A folder with posterior.csv, campaign.json, traces.csv and fit.json; until the chains are finished, with a
+/// checkpoint.
 class FitFolder {
 public:
   /// Without `resume` the folder must be new or empty. With `resume` it may have the checkpoint of the same study.

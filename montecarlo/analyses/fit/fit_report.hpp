@@ -19,10 +19,10 @@ inline constexpr const char* traces_csv_file = "traces.csv";
 /// Traces beside the fit: test, column, t, measured, fitted, lower, upper; SI.
 [[nodiscard]] std::string traces_csv(const FitResult& result, const FitSpec& spec);
 
-/// Misfits first, then parameters, what the tests do not see, candidates, the prediction.
+/// The report: misfits, parameters, what the tests do not see, candidates, the prediction.
 [[nodiscard]] std::string fit_text(const FitResult& result, const FitSpec& spec);
 
-/// Sentences that a reader has to know before the numbers: misfits, modes, tempering. Empty if there is nothing to say.
+/// Sentences that a reader needs before the numbers: misfits, further modes, tempering. Empty if there is none.
 [[nodiscard]] std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& spec);
 
 } // namespace wingspread

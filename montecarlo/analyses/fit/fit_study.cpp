@@ -19,11 +19,13 @@ namespace wingspread {
 namespace {
 
 constexpr std::size_t least_walkers = 32; // each half fills two threads of eight lanes
+// Heuristic share: the other moves reach what the proposal misses. With 1 a poor proposal leaves out a part of the
+// posterior.
 constexpr double independent_moves = 0.8;
-constexpr long runs_of_a_sample = 100;
-constexpr std::size_t predicted_rows = 400; // for bands and p-values
+constexpr long runs_of_a_sample = 100;      // limit of the evaluations, unless the user gives one
+constexpr std::size_t predicted_rows = 400; // for bands and p-values: 10 rows in each 2.5 % tail
 constexpr int temperings = 2;               // the mode moves little when the likelihood is tempered
-constexpr std::size_t prior_points = 20000;
+constexpr std::size_t prior_points = 20000; // quantiles that give a prior's mean and deviation
 constexpr int least_tried = 16; // points of the prior that show whether a number can be predicted
 
 std::size_t walkers_for(std::size_t dimensions) {
@@ -92,7 +94,7 @@ std::optional<double> limit_at(double mean, const FitParameter& parameter,
   return upper - mean < near ? std::optional(upper) : std::nullopt;
 }
 
-/// Dispersions that vary and are not fitted.
+/// Indices of the dispersions that vary and are not fitted: a test holds them at their medians.
 std::vector<std::size_t> held_ones(const Campaign& campaign, const FitSpec& spec) {
   std::vector<std::size_t> held;
   for (std::size_t i = 0; i < campaign.dispersions.size(); ++i)
@@ -120,7 +122,7 @@ std::vector<FitPoint> points_of(const Ensemble& ensemble) {
   return points;
 }
 
-/// Evenly chosen ones of the points.
+/// At most `count` of the points, evenly chosen.
 std::vector<FitPoint> chosen(const std::vector<FitPoint>& points, std::size_t count) {
   if (count >= points.size()) return points;
   std::vector<FitPoint> some;
@@ -259,7 +261,7 @@ private:
     const ParameterSpace space(campaign_, all);
     TestRuns runs(spec_.tests, all.parameters, space, *evaluator_);
     FitPoint at = FitPoint::Zero(static_cast<Eigen::Index>(space.size()));
-    std::vector<std::size_t> fitted; // places in the larger space, in the order of this one
+    std::vector<std::size_t> fitted; // indices in `space` of the parameters of space_
     for (std::size_t k = 0; k < space_.size(); ++k) {
       const auto same = std::ranges::find(space.list(), space_.list()[k].name, &FitParameter::name);
       fitted.push_back(static_cast<std::size_t>(same - space.list().begin()));
@@ -309,7 +311,7 @@ private:
         std::sqrt(std::max(0.0, rest.value()) / static_cast<double>(residuals.size() - far.size()));
   }
 
-  /// The mean over the posterior of P(χ²(n_eff) ≥ κ χ²): κ χ² is of n_eff independent numbers.
+  /// The mean over the posterior of P(χ²(n_eff) ≥ κ χ²). κ = n_eff/n makes κ χ² the sum over n_eff independent numbers.
   [[nodiscard]] double p_value_of(const Channel& channel,
                                   const std::vector<Prediction>& predictions) const {
     if (!channel.std) return undefined;

@@ -35,7 +35,7 @@ struct HeldDispersion {
   double median = 0, prior_mean = 0, prior_std = 0;
 };
 
-/// A number of a trace far from the fit and from the other numbers (outliers_of).
+/// A number of a trace that lies far from the fit, unlike the other numbers (outliers_of).
 struct Outlier {
   double time = 0, measured = 0, sigmas = 0;
 };
@@ -49,23 +49,24 @@ struct FittedChannel {
   double p_value =
       0; ///< posterior predictive: P(χ² of new numbers ≥ that of the measured); NaN for unknown noise
   double measured = 0, fitted = 0, sigmas = 0; ///< of a value: `fitted` at the mode
-  /// Of a trace: predictions at the mode, and the bounds of the posterior's, at the test's times.
+  /// For a trace: predictions at the mode, and bounds of the posterior's predictions, at the test's times.
   std::vector<double> mode, lower, upper;
   std::vector<Outlier> outliers{}; ///< the furthest first
-  double rest_rms = 0;             ///< of the other numbers
+  double rest_rms = 0;             ///< rms without the outliers
 };
 
 /// Whether a channel contradicts the model: the p-value is below this.
 inline constexpr double misfit_p_value = 0.01;
-/// A trace this far from the best fit, in root mean square of σ, is probably of another hinge or unit.
+/// Heuristic: a trace whose rms residual at the best fit is this many σ is probably of another hinge or in another
+/// unit.
 inline constexpr double foreign_sigmas = 10;
-/// A trace this many times closer to the best fit than its σ has a σ in another unit.
+/// Heuristic: if the rms residual is below σ by this factor, σ is probably in another unit.
 inline constexpr double too_close = 5;
 /// A parameter this far from its prior's median contradicts the prior: the prior's probability is 6e-5.
 inline constexpr double conflict_sigmas = 4;
 
-/// A posterior mean this close to a limit of its prior, as a share of the prior's range, lies at it. Heuristic: the prior
-/// gives it 1 %.
+/// A posterior mean within this share of the prior's range from a limit of the prior counts as lying at the limit.
+/// Heuristic: a uniform prior puts 1 % there.
 inline constexpr double at_limit = 0.01;
 
 /// Quantiles 5, 50 and 95 % of an output with the priors and with the posterior.

@@ -9,7 +9,7 @@
 namespace wingspread {
 namespace {
 
-/// Residual of a missing number, in standard deviations: far enough that no fit wants it.
+/// Residual of a missing number, in standard deviations. Heuristic: so large that the search leaves such points.
 constexpr double missing_residual = 1e3;
 
 double tempering(const Channel& channel) {

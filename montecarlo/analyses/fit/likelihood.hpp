@@ -10,7 +10,7 @@
 /// Unknown σ, with the prior 1/σ integrated out (Student's law):
 ///   −log L = ½ κ n log Σ r_i² + const                                                             (2)
 ///
-/// (1) holds exactly: b̂ minimizes the exponent, which is quadratic in b with a constant second derivative.
+/// (1) is exact: the exponent is quadratic in b, with its minimum at b̂ and a second derivative that is a constant.
 #pragma once
 
 #include "montecarlo/analyses/fit/test_runs.hpp"
@@ -31,9 +31,9 @@ struct ChannelFit {
 [[nodiscard]] std::vector<double> residuals_of(const FitData& data, const Channel& channel,
                                                const Prediction& prediction);
 
-/// Whether a residual lies far from the others of its channel: beyond 6 of the larger of σ and 1.4826 times the median
-/// residual, which is σ of normal residuals. Of 1e6 normal ones 0.002 do. None if more than a twentieth do, and more than
-/// one: then the model is wrong, not the samples.
+/// The residuals of a channel that lie far from the others: beyond six times the larger of σ and 1.4826 median|r| (the
+/// second estimates σ of normal residuals; of a million of these 0.002 lie beyond). None if several lie beyond and are
+/// more than a twentieth: then the model is wrong, not the samples.
 /// @param std σ; nothing: unknown
 /// @return indices, the furthest first
 [[nodiscard]] std::vector<std::size_t> outliers_of(std::span<const double> residuals,
@@ -43,17 +43,19 @@ struct ChannelFit {
 [[nodiscard]] double log_posterior(const FitData& data, const FitPoint& at,
                                    const Prediction& prediction);
 
-/// The residuals of a least-squares problem with the same minimum: ½|v|² = −log posterior + const. For unknown σ this
-/// holds where Σ r² is the one in `squares`: the weight κ n/Σ r² is then that of (2).
+/// The residuals v of a least-squares problem with the same minimum: ½|v|² = −log posterior + const. A channel of
+/// unknown σ has the weight κ n/Σ r². Its Σ r² is fixed at the value in `squares`, so the equation holds where Σ r² has
+/// this value; the search repeats with new squares until it does.
 /// @param squares Σ r² of each channel, for those with unknown σ
 [[nodiscard]] Eigen::VectorXd least_squares(const FitData& data, std::span<const double> squares,
                                             const FitPoint& at, const Prediction& prediction);
-/// Its length.
+/// The number of residuals of least_squares().
 [[nodiscard]] std::size_t least_squares_size(const FitData& data, std::size_t parameters);
 
-/// τ = 1 + 2 Σ ρ_k of a sequence: the number of residuals with the information of one independent residual. The sum ends
-/// before the first pair ρ_2k + ρ_2k+1 below its noise, 2 √(2/n), and the pairs must not rise (C. J. Geyer, Statist. Sci. 7
-/// (1992) 473–483; with zero in place of the noise 106 independent residuals count as 94). At least 1.
+/// τ = 1 + 2 Σ ρ_k of a sequence: so many residuals have the information of one independent residual; at least 1. The
+/// sum ends before the first pair ρ_2k + ρ_2k+1 below its noise, 2 √(2/n), and a pair counts at most as much as the
+/// pair before (C. J. Geyer, Statist. Sci. 7 (1992) 473–483, who ends at 0: then 106 independent residuals count as
+/// 94).
 [[nodiscard]] double autocorrelation_time(std::span<const double> values);
 
 /// Sets `effective` of each correlated channel with more than one number from its residuals' autocorrelation.

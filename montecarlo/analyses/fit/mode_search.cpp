@@ -14,10 +14,11 @@
 namespace wingspread {
 namespace {
 
-constexpr int most_evaluations = 200; // of one start
-constexpr int most_weightings = 10;   // of unknown noise
-constexpr double same_mode = 0.1;     // standard deviations: two starts that ended at one mode
-constexpr double improbable = 30;     // nats below the highest: no part of the posterior
+// Heuristic: limits of one start, and of the repetitions for unknown noise. A start that needs more ends off its mode.
+constexpr int most_evaluations = 200, most_weightings = 10;
+// Heuristic: two starts that end closer than this, in standard deviations, found one mode. If larger, modes are lost.
+constexpr double same_mode = 0.1;
+constexpr double improbable = 30; // nats below the highest mode: e^−30 = 1e-13 of its density
 
 double step_of(double u) {
   return std::cbrt(std::numeric_limits<double>::epsilon()) * (1 + std::abs(u));
@@ -59,7 +60,7 @@ Prediction predict_one(TestRuns& runs, const FitPoint& at) {
   return runs.predict({&at, 1}, RunAccuracy::derivative).front();
 }
 
-/// The end of one start. Unknown noise is estimated anew until it stays.
+/// The mode that one start leads to. Unknown noise is estimated anew until the mode stays.
 FitMode end_of(const FitData& data, TestRuns& runs, FitPoint at) {
   const bool is_known = std::ranges::all_of(
       data.channels, [](const Channel& channel) { return channel.std.has_value(); });

@@ -24,7 +24,7 @@ struct FitMode {
 /// Derivatives of all predictions in u: a row a number. Missing numbers have the derivative 0.
 [[nodiscard]] Eigen::MatrixXd jacobian_of(TestRuns& runs, const FitPoint& at);
 
-/// Σ (r − b̂)² of each channel, as least_squares() wants it.
+/// Σ (r − b̂)² of each channel: the argument of least_squares().
 [[nodiscard]] std::vector<double> squares_of(const FitData& data, const Prediction& prediction);
 
 /// Derivative of least_squares() with fixed squares.
@@ -32,7 +32,7 @@ struct FitMode {
                                                      std::span<const double> squares,
                                                      TestRuns& runs, const FitPoint& at);
 
-/// Laplace's covariance at a point. @param data with the tempering in force
+/// Laplace's covariance at a point. @param data with their present tempering
 [[nodiscard]] Eigen::MatrixXd laplace_covariance(const FitData& data, TestRuns& runs,
                                                  const FitPoint& at, const Prediction& prediction);
 
@@ -44,8 +44,8 @@ struct FitMode {
 [[nodiscard]] std::vector<FitPoint> first_points(std::size_t dimensions, int count,
                                                  std::uint64_t seed);
 
-/// The measured numbers that no run at the points has, and those whose distance to every run overflows. Each with its
-/// place in the tests' file.
+/// A problem for each channel that no run at the points predicts, or whose distance to every prediction overflows; with
+/// its pointer in the tests' file.
 [[nodiscard]] std::vector<Problem> unpredictable(std::span<const FitTest> tests, TestRuns& runs,
                                                  std::span<const FitPoint> points);
 

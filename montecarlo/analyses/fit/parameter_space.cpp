@@ -14,8 +14,8 @@ bool is_own(const FitTest& test, std::size_t dispersion) {
   return std::ranges::find(test.own, dispersion) != test.own.end();
 }
 
-/// Writes columns of rows as constants in the campaign's JSON, from which other processes rebuild it. Other laws need not
-/// be written: place() leads them to their medians.
+/// Replaces `rows` in the campaign's JSON by constants, because other processes rebuild the campaign from this JSON.
+/// Other dispersions that are not fitted may keep their laws: place() puts them at their medians.
 void without_rows(Campaign& campaign) {
   const auto median_of = [&](const std::string& name) {
     return std::get<Constant>(
@@ -99,7 +99,7 @@ Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted) {
     Dispersion& dispersion = campaign.dispersions[i];
     const double median = PreparedDistribution(dispersion.distribution).quantile(0.5);
     dispersion.distribution = {Constant{median}, std::nullopt};
-    dispersion.rows.clear(); // a coordinate of its own, in which nothing varies
+    dispersion.rows.clear(); // no longer a column of rows, but a dispersion that does not vary
   }
   without_rows(campaign);
   return campaign;

@@ -1,7 +1,8 @@
 /// The unknowns of a fit in the standard normal space of their priors: u ~ N(0, I).
 ///
-/// A fitted dispersion is u → Φ(u) → copula → quantile, as in rare. So bounds and correlations of the priors hold by
-/// themselves, and one scale fits all unknowns. Offsets of a clock or of a sensor are their standard deviation times u.
+/// A fitted dispersion is u → Φ(u) → copula → quantile, as in `rare`. So bounds and correlations of the priors hold
+/// without further rules, and all unknowns have the scale 1. An offset of a clock or of a sensor is its standard
+/// deviation times u.
 #pragma once
 
 #include "distributions/continuous_law.hpp"
@@ -29,18 +30,18 @@ struct FitParameter {
   std::string_view unit{};         ///< of an offset
 };
 
-/// The unknowns, in order: fitted dispersions common to tests, those of each test, offsets. An offset of a column with
-/// known noise is no unknown: likelihood.hpp integrates it out.
+/// The unknowns, in this order: fitted dispersions common to the tests; those that a test has of its own; offsets. An
+/// offset of a column with known noise is no unknown, because likelihood.hpp integrates it out.
 class ParameterSpace {
 public:
   ParameterSpace(const Campaign& campaign, const FitSpec& spec);
 
   [[nodiscard]] const std::vector<FitParameter>& list() const { return list_; }
   [[nodiscard]] std::size_t size() const { return list_.size(); }
-  /// Number of common dispersions: the first of the list.
+  /// Number of common dispersions, which come first in the list.
   [[nodiscard]] std::size_t common() const { return common_; }
 
-  /// The unit point of a run of the test. @param u per dispersion; others than fitted ones are at their medians
+  /// The unit point of a run of the test. @param u per dispersion; dispersions that are not fitted are at their medians
   void place(std::optional<std::size_t> test, const FitPoint& at, std::span<Tails> u) const;
   /// Clock offset of the test at the point, s.
   [[nodiscard]] double time_offset(std::size_t test, const FitPoint& at) const;

@@ -11,13 +11,14 @@
 namespace wingspread {
 namespace {
 
-constexpr double step = 1.5; // of the quadratic's runs in z: where most of a normal posterior lies
-constexpr std::size_t trials = 32; // draws that show how well a quadratic serves
-constexpr double good_acceptance = 0.7;
+// All heuristic. A bad choice makes a bad proposal: the chains get longer, but stay right.
+constexpr double step = 1.5; // of the quadratic's runs in z, within most of a normal posterior
+constexpr std::size_t trials = 32;      // draws by which a quadratic is judged
+constexpr double good_acceptance = 0.7; // with a lower one, a cubic is fitted
 constexpr double runs_of_a_term = 3;    // of the cubic
-constexpr std::size_t most_terms = 600; // d = 13
+constexpr std::size_t most_terms = 600; // d = 13: the cubic takes up to 1800 runs
 
-/// z of the quadratic's runs: 0; ±step in each coordinate; ±step in both coordinates of each pair.
+/// Points z of the runs for the quadratic: 0; ±step in each coordinate; ±step in both coordinates of each pair.
 std::vector<Eigen::VectorXd> design_of(Eigen::Index d) {
   std::vector<Eigen::VectorXd> points{Eigen::VectorXd::Zero(d)};
   for (const double sign : {step, -step})
@@ -42,7 +43,7 @@ bool is_complete(const Prediction& prediction) {
   return std::ranges::all_of(prediction, [](double number) { return std::isfinite(number); });
 }
 
-/// One mode's part of the mixture, from more and more runs.
+/// Makes the part of the mixture that belongs to one mode: first a quadratic; a cubic if that is not good enough.
 class PartMaker {
 public:
   PartMaker(const FitMode& mode, const FitData& data, TestRuns& runs, std::uint64_t seed)
@@ -63,7 +64,7 @@ public:
     part_.bend.emplace(z_, xi_, 2);
     const std::size_t terms = PolynomialMap::terms(d, 3);
     const std::vector<FitPoint> first = draws(trials);
-    if (first.size() < trials / 2) { // a map that folds near the mode
+    if (first.size() < trials / 2) { // the map folds near the mode: most ξ have no z
       part_.bend.reset();
       return part_;
     }

@@ -6,11 +6,11 @@
 ///   v, V      residuals of least_squares(), with the prior's; their Jacobian at u*, Σ⁻¹ = VᵀV
 ///   G(z)      (V L)ᵀ v(u* + L z), close to z near the mode
 ///
-/// A posterior that is thin in some directions and as wide as the prior in others bends by more than its thickness, and a
-/// normal law follows it nowhere. So ξ is drawn from a Student law, and z solves G(z) = ξ: randomize, then optimize
-/// (J. M. Bardsley et al., SIAM J. Sci. Comput. 36 (2014) A1895–A1910). With G in place of z the density is exact whatever
-/// G is, so a polynomial serves: a quadratic through runs with steps of Laplace's width, and a cubic through draws of the
-/// quadratic's where these would be accepted too seldom. The cubic takes about 3 runs a monomial: 500 for d = 8.
+/// A posterior may be thin in some directions and as wide as the prior in others. It then bends by more than its
+/// thickness, and no normal law follows it. So ξ is drawn from a Student law, and z solves G(z) = ξ: randomize, then
+/// optimize (J. M. Bardsley et al., SIAM J. Sci. Comput. 36 (2014) A1895–A1910). The density of z is known exactly for
+/// any invertible G, so a polynomial may replace G. A quadratic is fitted to runs with steps of Laplace's width. If its
+/// draws would be accepted too seldom, a cubic is fitted to them: about 3 runs for each monomial, 500 for d = 8.
 #pragma once
 
 #include "montecarlo/analyses/fit/mode_search.hpp"

@@ -1,12 +1,13 @@
 /// Predictions of all measured numbers at points of the parameter space, by runs of the tests.
 ///
-/// A trace is compared at its own times. A run is sampled on a fixed grid by the integrator's dense output, and the grid
-/// is interpolated: angles by cubic Hermite polynomials of angle and rate, other columns linearly. With a fixed grid the
-/// prediction is as smooth in the parameters as the motion: steps of the integrator would move with the parameters.
+/// A trace is compared at its own times. A run is sampled on a fixed grid by the integrator's dense output, and the
+/// grid is interpolated: angles by cubic Hermite polynomials of angle and rate, other columns linearly. With a fixed
+/// grid the prediction is as smooth in the parameters as the motion. The integrator's steps are no such grid, because
+/// they move with the parameters.
 /// Interpolation error of an angle: h⁴/384 times its fourth derivative, and about h²/50 times the jump of an
 /// acceleration at a latch; h is 10 to 20 ms, so 2e-5 rad for a jump of 3 rad/s².
 ///
-/// Values that are outputs come from runs of their own, up to the last output only.
+/// Values that are outputs come from separate runs, which end once the outputs are known.
 #pragma once
 
 #include "montecarlo/analyses/fit/parameter_space.hpp"
@@ -46,7 +47,7 @@ enum class RunAccuracy { campaign, derivative };
 class TestRuns {
 public:
   /// @param fitted indices of fitted dispersions
-  /// @param are_candidates the tests are no tests of the space: they have no parameters and offsets of their own
+  /// @param are_candidates whether the tests are candidates, which have no parameters and offsets of their own
   /// @pre all arguments outlive this object
   TestRuns(std::span<const FitTest> tests, const std::vector<std::size_t>& fitted,
            const ParameterSpace& space, Evaluator& evaluator, bool are_candidates = false);

@@ -20,9 +20,9 @@ constexpr long prior_runs = 16;
 constexpr std::size_t least_compared = 10, most_compared = 500;
 constexpr double own_misfit = 0.3, other_fit = 0.1, times_better = 5;
 
-/// Measured number = factor · column of the trajectory at (its time · time_factor − time_shift).
+/// A hypothesis: measured number = factor · column of the trajectory at (time · time_factor − time_shift).
 struct Explanation {
-  std::size_t column = 0; ///< of all columns of the trajectory but t
+  std::size_t column = 0; ///< of the trajectory, without t
   double factor = 1, time_factor = 1, time_shift = 0;
 };
 
@@ -53,7 +53,7 @@ public:
     }
   }
 
-  /// The other explanation of the test's column c; nothing if there is none.
+  /// Another explanation of the test's column c; nothing if its own is good enough, or no other is good.
   [[nodiscard]] std::optional<Explanation> explain(std::size_t c) const {
     const std::size_t own = test_.columns[c].index - 1;
     const Misfit as_given = misfit(c, {own});

@@ -15,8 +15,8 @@ namespace wingspread {
 namespace {
 
 constexpr std::size_t least_rows = 2;
-// Heuristic: a prediction has a sample every 10 to 20 ms, 1e6 of them up to here. A typing error in a time would take all
-// memory.
+// Heuristic: a prediction has a sample every 10 to 20 ms, 1e6 of them up to this time. A larger limit lets a typing
+// error in a time take all memory.
 constexpr double latest = 2e4; // s
 
 /// A cell of the header: a name, and a unit in brackets if there is one.
@@ -32,7 +32,7 @@ HeaderCell header_cell(const std::string& cell) {
   return {name, cell.substr(open + 1, cell.size() - open - 2)};
 }
 
-/// Where a column lies in the file, and the factor of its unit.
+/// Index of a column in the file, and the factor of its unit.
 struct Place {
   std::size_t index;
   double factor;

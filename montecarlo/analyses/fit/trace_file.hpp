@@ -22,7 +22,7 @@ struct TraceColumn {
 };
 
 /// Reads the columns; notes problems: a file that cannot be read, a missing column, a wrong unit, a cell that is no
-/// number, values that do not ascend, times that all lie before the run or far beyond it, and a column with one value only.
+/// number, times that do not ascend, times before the run or far beyond it, and a column that never changes.
 /// @param at for problems of the file as a whole
 void read_trace(const JsonCursor& at, const std::filesystem::path& path,
                 std::vector<TraceColumn>& columns);

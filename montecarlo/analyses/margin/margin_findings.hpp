@@ -28,25 +28,25 @@ struct ConditionFinding {
 struct MarginEdge {
   double passing;                  ///< the outermost scale at which all conditions pass
   std::optional<double> failing;   ///< the next scale outwards; none at the end of the search
-  std::vector<std::size_t> set_by; ///< the conditions that cause the failure there
+  std::vector<std::size_t> set_by; ///< the conditions to report as failing at `failing`
   std::vector<std::size_t>
-      as_well; ///< conditions that fail there because the same runs do not deploy
+      as_well; ///< further conditions that fail there because the same runs do not deploy
 };
 [[nodiscard]] MarginEdge lower_edge(const MarginSearch& search, const Window& window);
 [[nodiscard]] MarginEdge upper_edge(const MarginSearch& search, const Window& window);
 
-/// A lower bound of the confidence that the found window lies within the true window: 1 − Σ(1 − c) over all conditions at
-/// each edge (an end of the range is no edge). It holds if no draw is out of order (margin_study.hpp). 0 or below: no
+/// A lower bound of the confidence that the found window lies within the true window: 1 − Σ(1 − c) over all conditions
+/// at each edge (an end of the range is no edge). It holds if no draw is out of order (margin_study.hpp). At most 0: no
 /// guarantee.
 [[nodiscard]] double window_confidence(const Campaign& campaign, const MarginResult& result,
                                        const Window& window);
 
-/// A lower bound of the confidence that all requirements hold in all cases at a confirmed scale: one that was fixed before
-/// the confirmation runs, all of whose verdicts are "pass".
+/// A lower bound of the confidence that all requirements hold in all cases at a confirmed scale: one that was fixed
+/// before the confirmation runs, all of whose verdicts are "pass".
 [[nodiscard]] double confirmation_confidence(const Campaign& campaign, const MarginResult& result);
 
-/// The failing conditions to report. Of the conditions that fail only because runs did not deploy, it keeps one per case:
-/// the requirement on "deployed" if it fails, else the first.
+/// The failing conditions to report. If several conditions of a case fail only because runs did not deploy, one of them
+/// is reported: the requirement on "deployed" if it fails, else the first.
 [[nodiscard]] Failing telling(const ScaleLook& look);
 
 /// A drawback of the recommended springs: a condition that more runs break than with the present springs, or whose
@@ -66,8 +66,8 @@ concessions(const Campaign& campaign, const MarginResult& result, const MarginSe
 /// The reason why no scale is recommended; empty if one is.
 [[nodiscard]] std::string why_withheld(const MarginSearch& search);
 
-/// Warnings of the recommended scales: static margins of the nominal wing below 0. No run shows them: a wing may deploy by
-/// momentum.
+/// Warnings of the recommended scales: static margins of the nominal wing below 0. No run shows them: a wing may deploy
+/// by momentum.
 [[nodiscard]] std::vector<std::string> margin_warnings(const MarginResult& result);
 
 /// Whether every search has a confirmed window. The exit code of `margin` depends on it.

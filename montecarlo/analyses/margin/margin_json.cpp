@@ -175,7 +175,7 @@ Json definitions() {
       {"edge", "the outermost scale that passes; what sets it fails at fails_at, within the "
                "tolerance; range_end: nothing fails up to where the search ended, at the limit to "
                "which the range may be widened: no edge"},
-      {"as_well", "what fails there by the same runs, which do not deploy"},
+      {"as_well", "further requirements that fail there because the same runs do not deploy"},
       {"verdict", "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; what did not "
                   "deploy or happen counts against it; disproved: the opposite is shown"},
       {"recommended",

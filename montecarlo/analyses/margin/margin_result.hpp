@@ -22,8 +22,8 @@ struct MarginCase {
   std::size_t campaign = 0;             ///< index into MarginResult::campaigns
 };
 
-/// Whether a requirement applies in a case. Requirements on static margins apply only in cases without a lost spring: the
-/// loss of a spring has a static margin of its own, with its own factors ("NASA_one_spring_out").
+/// Whether a requirement applies in a case. Requirements on static margins apply only in cases without a lost spring:
+/// the standard has another static margin, with other factors, for a lost spring ("NASA_one_spring_out").
 [[nodiscard]] bool applies(const Requirement& requirement, const MarginCase& which);
 
 /// The results of one case's runs at one scale.
@@ -94,7 +94,7 @@ struct MarginCondition {
 /// Whether the runs of the confirmation seed pass at the recommended scale.
 [[nodiscard]] bool is_confirmed(const MarginSearch& search);
 
-/// Numbers of draws that break a condition at a scale but not at the next scale further out.
+/// Numbers of draws that break a condition at a scale but not at the next scale outwards (margin_study.hpp).
 struct OutOfOrder {
   long lower = 0; ///< below the recommended scale
   long upper = 0; ///< above the recommended scale

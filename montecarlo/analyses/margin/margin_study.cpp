@@ -91,7 +91,7 @@ double quantile_over_runs(const Requirement& requirement, const Results& results
   return quantile(values, requirement.min ? 1 - requirement.probability : requirement.probability);
 }
 
-/// The statuses, verdicts and quantiles of a case's runs at one scale.
+/// Statuses, verdicts and quantiles of a case's runs at one scale.
 CaseLook look_of(const Campaign& campaign, const MarginCase& which, const Results& results) {
   CaseLook look;
   for (const Status status : results.status) ++look.statuses[static_cast<std::size_t>(status)];
@@ -194,7 +194,8 @@ private:
   long looks_ = 0, most_ = 0;
 };
 
-/// Whether the campaign requires static margins: then these bound the window, and `weaker_springs` adds no bound.
+/// Whether the campaign requires static margins. These then bound the window, and weaker_springs.hpp rules no scale
+/// out.
 bool requires_margins(const Campaign& campaign) {
   return std::ranges::any_of(campaign.requirements, [](const Requirement& requirement) {
     return requirement.static_margin.has_value();
@@ -206,7 +207,7 @@ SearchRange range_of(const MarginSpec& spec) {
           spec.edge_tolerance, spec.lowest, spec.highest};
 }
 
-/// The cases and searches, before any run.
+/// The cases and searches, before any run. @pre the campaign has a /margin
 MarginResult planned(const Campaign& campaign) {
   MarginResult result;
   result.campaigns = campaigns_of(campaign);
@@ -217,7 +218,7 @@ MarginResult planned(const Campaign& campaign) {
   return result;
 }
 
-/// The same of a campaign that is suitable.
+/// The cases and searches, before any run. @throws SpecError as find_margin does
 MarginResult prepared(const Campaign& campaign) {
   refuse_unsuitable(campaign);
   return planned(campaign);

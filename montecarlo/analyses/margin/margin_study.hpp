@@ -1,27 +1,27 @@
-/// The window of spring strength: between the weakest springs that deploy and the strongest that keep to the limits, each
+/// The window of spring strength: from the weakest springs that deploy to the strongest that keep to the limits, both
 /// with the required confidence.
 ///
-/// Method. The same draws are made at every scale s (common random numbers): run k has the draws of the campaign's run k,
-/// and the parameters in question are multiplied by s after all dispersion. Differences between scales are due to the
+/// Method. The same draws are made at every scale s (common random numbers): run k has the draws of the campaign's run
+/// k, and the scaled parameters are multiplied by s after all dispersion. So differences between scales are due to the
 /// springs alone. The runs at a scale are those of the campaign with one more dispersion, the constant factor s
 /// (`scaled`). Each requirement is judged at each scale as the campaign judges it (verdict.hpp).
 ///
 /// Confidence of an edge. A verdict "pass" at a scale fixed beforehand holds with the requirement's confidence c. The
-/// search chooses the edge from many scales. Let s* be the true edge, and let every draw that breaks the requirement at a
-/// scale break it at all scales further out. Then the number of broken runs only grows outwards. So the search puts the
-/// edge beyond s* only if the runs at s* pass, and the probability of this pass is at most 1 − c. The choice among many
-/// scales therefore costs no confidence. `out_of_order` counts the draws that behave otherwise; runs of another seed
-/// confirm the recommended scale. The joint confidence of all requirements in all cases at both edges is at least
-/// 1 − Σ(1 − c) (window_confidence).
+/// search chooses the edge from many scales, yet this choice costs no confidence. Suppose that every draw that breaks
+/// the requirement at a scale breaks it at all scales further out. The number of runs that break it then only grows
+/// outwards. So the search puts the edge beyond the true edge s* only if the runs at s* pass. The probability of that
+/// pass is at most 1 − c. `out_of_order` counts the draws that contradict the supposition; runs of another seed confirm
+/// the recommended scale. The joint confidence of all requirements in all cases at both edges is at least 1 − Σ(1 − c)
+/// (window_confidence).
 ///
-/// The confirmation seed is derived from the campaign's seed. It is not seed + 1: a user who wants fresh draws often
-/// takes that one, and would get the draws that confirmed the scale.
+/// The confirmation seed is derived from the campaign's seed. It is not seed + 1, because users often take seed + 1 for
+/// fresh draws, and would then get the draws that confirmed the scale.
 ///
 /// A run ends when the outputs of the requirements are known. If none is a peak, it ends at the last latch: a run that
 /// would fail numerically after the last latch counts as deployed here, and as failed in `run` with peaks.
 ///
-/// The campaign's cases (cold, hot, end of life) have their own nominal wing and the same draws. The requirements hold in
-/// all cases; the worst case sets the edge.
+/// The campaign's cases (cold, hot, end of life) have their own nominal wing and the same draws. The requirements hold
+/// in all cases; the worst case sets the edge.
 ///
 /// One spring out: m equal springs drive a hinge. One more case per sized hinge has (m − 1)/m of the drawn torque.
 #pragma once
@@ -50,8 +50,8 @@ struct MarginRuns {
 /// Finds the window of all springs together, or one window per hinge (MarginSpec::mode).
 /// @param progress called with the progress, one call at a time
 /// @param result   filled scale by scale: after Stopped it has the finished scales
-/// @throws SpecError without /margin, without requirements, or with too few runs to show a requirement; Stopped when the
-///   evaluator makes fewer runs than requested
+/// @throws SpecError without /margin, without requirements, or with too few runs to show a requirement; Stopped when
+///   the evaluator makes fewer runs than requested
 void find_margin(const Campaign& campaign, Evaluator& evaluator,
                  const std::function<void(const StudyProgress&)>& progress, MarginResult& result);
 

@@ -63,7 +63,7 @@ private:
     return fmt::format("  {:<20}{:>8}  {}\n", label, scale, wrapped(text, 32));
   }
 
-  /// A line with the name of a condition. Only the first condition's line has the label and the scale.
+  /// A line with the name of a condition. Only the line of the first condition has the label and the scale.
   [[nodiscard]] std::string first_or_next(bool first, const char* label, double scale,
                                           std::size_t condition) const {
     return first ? line(label, scale, name(condition))
@@ -134,7 +134,8 @@ private:
                         : text;
   }
 
-  /// "67 of 3000 runs break it now, 1 recommended; 99 % quantile among runs with a value: 230.1 now, 264.2 recommended".
+  /// "67 of 3000 runs break it now, 1 recommended; 99 % quantile among runs with a value: 230.1 now, 264.2
+  /// recommended".
   [[nodiscard]] static std::string change(const Concession& each) {
     const Verdict& before = *each.present;
     std::string text =
@@ -171,8 +172,8 @@ private:
     return text;
   }
 
-  /// The passing scale of an edge. For an edge that was not located to the tolerance, because the window does not depend
-  /// on it: both scales.
+  /// The passing scale of an edge; both scales if the edge was not located to the tolerance, because no window depends
+  /// on it.
   [[nodiscard]] std::string between(double passing, double failing) const {
     const double ratio = std::max(passing / failing, failing / passing);
     if (ratio <= 1 + report_.campaign.margin->edge_tolerance) return fmt::format("{}", passing);

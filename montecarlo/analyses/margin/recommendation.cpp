@@ -53,7 +53,7 @@ Stretch best_stretch(const Candidates& candidates) {
   });
 }
 
-/// Chooses a scale; evaluates more scales while the choice depends on them.
+/// Chooses a scale. Evaluates further scales first if the choice depends on them.
 class Recommendation {
 public:
   Recommendation(const RecommendationMeans& means, MarginSearch& search)
@@ -73,7 +73,7 @@ public:
 private:
   void withhold(Withheld why) { search_.withheld = why; }
 
-  /// Chooses the best candidate without a shortfall, unless another scale must be evaluated first.
+  /// Recommends the best candidate without a shortfall, or evaluates a scale on which the choice depends.
   void choose_from(const Candidates& all) {
     looked_ = false;
     Candidates advisable;

@@ -6,15 +6,15 @@
 /// | 1 − p    | the share of runs that may break it, by its requirement                        |
 /// | σ(s)     | strain: max of k / (n (1 − p)) over the conditions, as observed                |
 ///
-/// Weak springs strain some conditions (deployment, static margins), strong springs strain others (moments, rates). So σ
-/// has its minimum between the edges. Neighbouring scales may share the minimum; often it is 0, because no run breaks any
-/// condition. Then the present springs are kept if they lie among these scales; else the geometric middle of the widest
-/// such stretch is taken. If the minimum is above 0, or a single scale has it, the cells beside it are halved down to the
-/// tolerance.
+/// Weak springs strain some conditions (deployment, static margins), strong springs strain others (moments, rates). So
+/// σ has its minimum between the edges. Often the minimum is 0, and neighbouring scales share it, because no run breaks
+/// any condition there. If the present springs are among these scales, they are kept; else the geometric middle of the
+/// widest stretch of such scales is taken. If the minimum is above 0, or only one scale has it, the cells beside it are
+/// first halved down to the tolerance.
 ///
-/// No scale is recommended if the window lacks an edge, because the distance to that edge is unknown. Scales that a static
-/// margin below 0 rules out (weaker_springs.hpp) are passed over. The best of them is reported if it has less strain than
-/// the recommended scale.
+/// No scale is recommended if the window lacks an edge, because the distance to that edge is unknown. Scales that a
+/// static margin below 0 rules out (weaker_springs.hpp) are passed over. The best of them is reported if it has less
+/// strain than the recommended scale.
 #pragma once
 
 #include "montecarlo/analyses/margin/margin_result.hpp"

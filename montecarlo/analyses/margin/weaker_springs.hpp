@@ -1,8 +1,8 @@
-/// Static margins of weaker springs. A wing may deploy by momentum although its springs could not move it from rest. So
-/// successful runs alone do not justify weaker springs.
+/// Static margins of weaker springs. Successful runs alone do not justify weaker springs: a wing may deploy by momentum
+/// although its springs could not move it from rest everywhere.
 ///
-/// If the campaign requires static margins, these bound the window like every requirement. If not, springs weaker than the
-/// present ones are ruled out when a static margin of the nominal wing (ECSS, NASA, GEVS, AIAA, with the campaign's
+/// If the campaign requires static margins, these bound the window like every requirement. If not, springs weaker than
+/// the present ones are ruled out when a static margin of the nominal wing (ECSS, NASA, GEVS, AIAA, with the campaign's
 /// factors) decreases and is below 0.
 #pragma once
 
@@ -31,8 +31,8 @@ struct Shortfall {
                                                      const std::vector<SceneParameter>& parameters,
                                                      double scale);
 
-/// The lowest static margin that rules the scale out: below 0, and lower than with the present springs. Nothing if there
-/// is none, or if the scale is at least 1.
+/// The lowest static margin that rules the scale out: below 0, and lower than with the present springs. Nothing if
+/// there is none, or if the scale is at least 1.
 [[nodiscard]] std::optional<Shortfall> shortfall_at(std::span<const Campaign> campaigns,
                                                     const std::vector<SceneParameter>& parameters,
                                                     double scale);

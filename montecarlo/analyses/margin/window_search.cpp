@@ -42,7 +42,7 @@ double further_up(double end, const SearchRange& range) {
   return std::min(rounded_scale(end * std::numbers::sqrt2, range.tolerance), range.highest);
 }
 
-/// The number of scales that halve a cell, and then all its parts, down to the tolerance.
+/// The number of scales that halve a cell and all its parts down to the tolerance.
 long most_halvings(double a, double b, double tolerance) {
   constexpr double for_rounding =
       0.01; // heuristic: rounded scales make unequal halves; 0 would count one halving too few
@@ -50,8 +50,9 @@ long most_halvings(double a, double b, double tolerance) {
   return wide <= 1 ? 0 : (1L << static_cast<int>(std::ceil(std::log2(wide) + for_rounding))) - 1;
 }
 
-/// The evaluated scales, the grid, and all scales by which the range may still be extended. An end where (2) is false
-/// stays so, because more scales only add to ⋃ H: the range is never extended beyond it, even before the grid is complete.
+/// The evaluated scales, the grid, and all scales by which the range may still be extended. More scales only add to ⋃
+/// H, so once (2) is false at an end it stays false. The range is never extended beyond such an end, even if the grid
+/// is not complete.
 std::vector<double> all_ends(const Looks& looks, const SearchRange& range) {
   std::set<double> scales;
   for (const auto& [scale, failing] : looks) scales.insert(scale);

@@ -2,16 +2,17 @@
 /// failing conditions on both sides.
 ///
 /// First a grid over the range is evaluated, so that a condition with several windows is noticed. Then cells between
-/// neighbouring scales are halved (by ratio) down to the tolerance, if and only if they may contain an edge of the window:
+/// neighbouring scales are halved (by ratio) down to the tolerance, if and only if they may contain an edge of the
+/// window:
 ///
 ///     F(a) ∩ F(b) = ∅, not both empty,   F(s): the conditions that fail at scale s             (1)
 ///
-/// A condition that fails at both ends of a cell is assumed to fail throughout the cell, so no window lies in it. Without
-/// such a condition a window may begin or end in the cell, or lie within it. So the search also finds a window that is
-/// narrower than a cell. If it finds none, every cell has a condition that rules it out; then the edges of every single
-/// condition are located too, as evidence.
+/// A condition that fails at both ends of a cell is assumed to fail throughout the cell, so no window lies in it.
+/// Without such a condition a window may begin or end in the cell, or lie within it. So the search also finds a window
+/// that is narrower than a cell. If there is no window, every cell has a condition that rules it out. The edges of each
+/// single condition are then located too, as evidence.
 ///
-/// An end of the range is not an edge. If no condition fails there that holds at another scale,
+/// An end of the range is not an edge. If each condition that fails there fails at every scale,
 ///
 ///     F(end) ∩ ⋃_s H(s) = ∅,    H(s): the conditions that hold at scale s                      (2)
 ///
@@ -47,8 +48,8 @@ struct Window {
   std::optional<double> above; ///< the next scale up, likewise
 };
 
-/// Evaluates the grid, scale 1 (the present springs, for comparison) and the scales that (1) and (2) require. Scales are
-/// rounded to few digits, so that a report prints them exactly.
+/// Evaluates the grid, scale 1 (the present springs, for comparison) and the scales that (1) and (2) require. Scales
+/// are rounded to few digits, so that a report prints them exactly.
 /// @param judge the failing conditions at a scale; pure; its exceptions end the search
 [[nodiscard]] Looks search_window(const SearchRange& range,
                                   const std::function<Failing(double)>& judge);

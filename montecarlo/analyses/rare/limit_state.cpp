@@ -42,8 +42,8 @@ Goal goal_for(const std::optional<OutputColumn>& column) {
 /// Maps a share of any sign to a value above 0, monotonically: the identity above the knee; below, an exponential that
 /// continues it with equal value and slope.
 double positive_part(double share) {
-  // Heuristic. A knee far above 0.01 hides differences between runs near the event. A knee far below makes g of these
-  // runs equal in double precision. Either costs runs; neither biases the estimate.
+  // Heuristic. A knee far above 0.01 hides differences between runs near the event. With a knee far below, g of these
+  // runs is equal in double precision. Both cost runs; neither biases the estimate.
   constexpr double knee = 0.01;
   return share > knee ? share : knee * std::exp(share / knee - 1);
 }

@@ -3,11 +3,11 @@
 ///   g < 0   the event happened
 ///   g > 0   it did not; the smaller g, the nearer the run came to the event
 ///
-/// The outcome alone decides the sign of g, and only the sign decides the probability. The size of g decides how many
-/// runs an estimate takes.
+/// Only the sign of g enters the probability, and the outcome of the run decides the sign. The magnitude of g decides
+/// how many runs an estimate takes.
 ///
-/// An output beyond a limit:  g = limit − value (event above) or value − limit (event below), in the output's unit. A run
-/// without the output (no deployment time, or a failed run without peaks) counts as the event, as it counts against a
+/// An output beyond a limit:  g = limit − value (event above) or value − limit (event below), in the output's unit. A
+/// run without the output (no deployment time, or a failed run without peaks) counts as the event, just as it breaks a
 /// requirement.
 ///
 /// Not deployed:  for a deployed wing g is the smallest of its reserves, each as a share of the nominal wing's:

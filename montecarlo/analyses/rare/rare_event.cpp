@@ -84,7 +84,7 @@ std::optional<LikeliestRun> likeliest_of(const std::vector<StratumEstimate>& str
   return nearest ? std::optional(runs.run_at(*nearest)) : std::nullopt;
 }
 
-/// N of a stratum's levels: all strata with rare values together have as many as the first one, but each at least 200.
+/// N of a stratum's levels: all strata with rare values share the N of the first stratum, but each has at least 200.
 long samples_of(const Strata& strata, std::size_t s, long samples) {
   if (s == 0) return samples;
   constexpr long least = 200; // 20 chains
@@ -92,7 +92,7 @@ long samples_of(const Strata& strata, std::size_t s, long samples) {
   return std::max(share, std::min(samples, least));
 }
 
-/// No upper bound is below that of the first levels as a plain sample.
+/// Raises the upper bound to that of the first levels as a plain sample, if that is larger.
 void widen_to_plain(double confidence, RareEstimate& estimate) {
   const Interval plain = clopper_pearson(estimate.hits, estimate.draws, confidence);
   estimate.interval.upper = std::max(estimate.interval.upper, plain.upper);
@@ -109,7 +109,7 @@ public:
   RareResult run() {
     const std::size_t count = strata_.list.size();
     result_.strata.resize(count);
-    // Strata with rare values go first. The others need not climb to levels that add nothing to the sum.
+    // Strata with rare values go first: with their sum known, the first stratum can omit levels that add nothing to it.
     for (std::size_t s = 1; s < count; ++s) simulate(s);
     simulate(0);
     result_.left_out = strata_.left_out;
@@ -122,7 +122,7 @@ public:
   }
 
 private:
-  /// A level of stratum s below this adds less than 1e-3 to the sum so far, together with those of all other strata.
+  /// Smallest level of stratum s: below it, all strata together add less than 1e-3 of the sum so far.
   [[nodiscard]] double smallest_of(std::size_t s) const {
     const double negligible = 1e-3 * found_ / static_cast<double>(strata_.list.size());
     return std::min(1.0, std::max(options_.smallest, negligible) / strata_.list[s].probability);
@@ -150,7 +150,7 @@ private:
     SubsetOptions subset = subset_of(s);
     part.samples = subset.samples;
     for (long k = 0; k < options_.repeats; ++k) {
-      // A first stratum by itself has the streams of a simulation without strata.
+      // Stratum 0 has the streams of a simulation without strata: without rare values the result is that one's.
       subset.repetition = (static_cast<std::uint64_t>(s) << 32U) + static_cast<std::uint64_t>(k);
       most_ = made_ + (options_.repeats - k) * most_evaluations(subset) +
               most_after(s); // an upper bound: a repeat may end early

@@ -23,7 +23,7 @@ struct RareOptions {
   double smallest = 1e-10;
 };
 
-/// The run of the event whose point is nearest to the origin of the normal space: the most likely one sampled.
+/// The sampled run with the event whose point is nearest to the origin of the normal space: the most likely one.
 struct LikeliestRun {
   double distance; ///< |z|
   NormalPoint
@@ -35,7 +35,7 @@ struct LikeliestRun {
 
 struct RareResult {
   std::vector<StratumEstimate> strata; ///< without a rare value first
-  double left_out = 0; ///< probability of the draws in no stratum: in the upper bound
+  double left_out = 0; ///< probability of the draws in no stratum; added to the upper bound
   /// Dispersions with values that the first levels may miss, and the expected draws of the rarest one. With any, no
   /// upper bound is below that of plain sampling.
   std::vector<std::pair<std::string, double>> unseen;

@@ -25,7 +25,7 @@ std::string with_unit(const RareEvent& event) {
   return describe(event) + (unit.empty() ? "" : ' ' + unit);
 }
 
-/// The event as data, for those that show it in another unit. Without an output the event is "not deployed".
+/// The event as data, so that a reader of the file may use another unit. Null for "not deployed".
 Json event_json(const RareEvent& event) {
   if (event.output.empty()) return nullptr;
   return {{"output", event.output},
@@ -86,7 +86,7 @@ bool is_stratified(const RareResult& result) {
   return result.strata.size() > 1 || result.left_out > 0;
 }
 
-/// Null without strata: `repeats` then has everything.
+/// Null without strata: `repeats` then has the whole simulation.
 Json strata_json(const RareResult& result, const RareEvent& event) {
   if (!is_stratified(result)) return nullptr;
   Json strata = Json::array();
@@ -277,13 +277,13 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
       {"plain_sampling_is_enough", all.plain_is_enough()},
       {"definitions",
        {{"probability",
-         "mean of independent subset simulations; of those that did not reach the event, the "
-         "estimated probability of the last level that they did: more than the event's, but "
-         "an estimate; 0 of one whose runs are all equally far from the event; by "
-         "plain_sampling: with_event of the runs of the first_levels"},
-        {"bias", "by how much the probability is too large on average, in units of it: 0.4 of "
-                 "a repeat's squared variation, as measured on events of known probability; "
-                 "not taken off, and not in the bounds"},
+         "mean over independent subset simulations; one that did not reach the event counts with "
+         "the estimated probability of its last level, which is larger than the event's; one that "
+         "stopped because all its runs were equally far from the event counts with 0; by "
+         "plain_sampling: with_event over the runs of the first_levels"},
+        {"bias", "relative error by which the probability is too large on average: 0.4 times "
+                 "the squared variation of a repeat, as measured on events of known probability; "
+                 "neither probability nor bounds are corrected for it"},
         {"variation", "coefficient of variation of the mean: by the correlation along chains, "
                       "by the repeats' spread, and the larger of the two"},
         {"bounds", "probability exp(+- q variation), q normal or Student's, the wider; no "
@@ -296,10 +296,11 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
               "at the law's median, of a normal law (draw - mean)/std; of a correlated draw "
               "the part that draws before it, by name, do not explain"},
         {"strata", "draws with rare values of discrete dispersions are simulated by themselves: "
-                   "probability is that of the draws, exact; event is that of the event among "
-                   "them; the sum of the products is the result; null without rare values"},
+                   "probability: that of these draws, exact; event: that of the event among "
+                   "them; the result is the sum of the products; null without rare values"},
         {"repeats", "those of the draws with no rare value"},
-        {"not_simulated", "probability of the draws in no stratum; the upper bound has it"}}},
+        {"not_simulated",
+         "probability of the draws in no stratum; it is added to the upper bound"}}},
       {"samples", options.samples},
       {"strata", strata_json(result, options.event)},
       {"not_simulated", result.left_out},

@@ -15,17 +15,19 @@
 namespace wingspread {
 namespace {
 
-// A level starts chains from a tenth of its runs. A value drawn 30 times is among them about 30 times if it matters, and
-// its share has a standard error of 18 %; heuristic: a smaller figure leaves rarer values to chance.
+// Heuristic. A level starts chains from the tenth of its runs nearest to the event. If a value that is drawn 30 times
+// causes the event, about 30 of these chains have it, and its share has a standard error of 1/√30 = 18 %. A smaller
+// number leaves rarer values to chance.
 constexpr double fewest_draws = 30;
 // A value drawn 10 times on average is missed with probability e^−10 = 5e-5.
 constexpr double enough_draws = 10;
-// Heuristic: a law with more rare values, or made of them, is a sample of a continuous law: its order is a way to climb.
+// Heuristic: a law with more rare values, or with more probability on them, is a sample of a continuous law. Its order
+// lets the simulation climb, so it needs no strata.
 constexpr std::size_t most_rare_values = 20;
 constexpr double most_rare_mass = 0.5;
 // Ten releases that may fail have 1 + 10 + 45 strata with at most two failures.
 constexpr std::size_t most_strata = 64;
-constexpr double right_angle = 1e-12; // of two unit rows, beyond rounding
+constexpr double right_angle = 1e-12; // |cosine| of orthogonal unit rows, with rounding
 
 struct Value {
   double value;
@@ -131,8 +133,7 @@ std::vector<Split> splits_of(const Campaign& campaign, const StrataOptions& opti
   std::vector<Split> splits;
   for (std::size_t i = 0; i < campaign.dispersions.size(); ++i) {
     const Dispersion& dispersion = campaign.dispersions[i];
-    if (!dispersion.rows
-             .empty()) { // the rows' order says nothing, and each has the same probability
+    if (!dispersion.rows.empty()) { // rows have no order, and all have the same probability
       const auto& law = std::get<Empirical>(dispersion.distribution.law);
       note_unseen(dispersion.rows, 1 / static_cast<double>(law.values.size()), options, strata);
       continue;
@@ -175,7 +176,7 @@ std::vector<Stratum> parts_of(const Stratum& stratum, const Split& split) {
   return parts;
 }
 
-/// Leaves out what is less probable than `smallest`, and all but the most probable strata.
+/// Leaves out strata less probable than `smallest`, and keeps at most most_strata, the most probable ones.
 void keep_probable(double smallest, Strata& strata) {
   std::vector<Stratum>& list = strata.list;
   std::ranges::stable_sort(list.begin() + 1, list.end(), std::ranges::greater{},
@@ -186,7 +187,7 @@ void keep_probable(double smallest, Strata& strata) {
   }
 }
 
-/// The point of the intervals with the share v.below of them below it.
+/// The point of the intervals below which lies the share v.below of their mass.
 Tails point_of(const RestrictedCoordinate& set, const Tails& v) {
   const bool upwards = v.below <= v.above;
   double rest = (upwards ? v.below : v.above) * set.mass;

@@ -1,8 +1,8 @@
 /// Strata of a campaign's draws: rare values of discrete laws are drawn by themselves.
 ///
-/// Subset simulation climbs from level to level along what varies continuously. A failure that hangs on one rare value
-/// (a release that fails, probability 1e-5) is no level: no run of the first level has the value, and the chains climb
-/// elsewhere. The probability of such a value is known exactly, so
+/// Subset simulation climbs from level to level along quantities that vary continuously. It misses an event that needs
+/// one rare value (a release that fails, probability 1e-5): no run of the first level has the value, and the chains
+/// climb elsewhere. The probability of such a value is known exactly, so
 ///
 ///     P = Σ_s w_s P_s                                                                       (1)
 ///
@@ -15,18 +15,18 @@
 /// Rare is a value that a level of N runs draws fewer than 30 times on average.
 ///
 /// A stratum restricts the coordinate y = l·z of a dispersion to the set A of its values' intervals. Here z are the
-/// independent normal variables, and l is the dispersion's unit row of the copula's factor. A point z of the whole space
-/// becomes a point of the stratum along l:
+/// independent normal variables, and l is the dispersion's unit row of the copula's factor. A point z of the whole
+/// space becomes a point of the stratum along l:
 ///
 ///     y → y' = Φ⁻¹(the point of A with the share Φ(y) of A below it),  z' = z + (y' − y) l   (2)
 ///
-/// z' has the law of z restricted to l·z in A: the part across l is independent of y. Rows l of uncorrelated dispersions
-/// are orthogonal, so that several restrictions hold at once. Of two correlated discrete dispersions only the first is
-/// restricted; the other one is `unseen`.
+/// z' has the law of z restricted to l·z in A: the part across l is independent of y. Rows l of uncorrelated
+/// dispersions are orthogonal, so that several restrictions hold at once. Of two correlated discrete dispersions only
+/// the first is restricted; the second counts as `unseen`.
 ///
 /// Bounds of (1): each stratum's distance to its own bounds, in quadrature. Source: G. Y. Zou, A. Donner, Statistics in
-/// Medicine 27 (2008) 1693–1702 (MOVER). Strata without simulation, and strata whose event was not reached, add all
-/// their upper bound.
+/// Medicine 27 (2008) 1693–1702 (MOVER). Strata without simulation, and strata whose event was not reached, add their
+/// whole upper bound.
 #pragma once
 
 #include "montecarlo/analyses/rare/subset_simulation.hpp"
@@ -65,7 +65,7 @@ struct Stratum {
 struct Strata {
   std::vector<Stratum> list; ///< without a rare value first, then by falling probability
   double left_out = 0;       ///< probability of the draws in no stratum of the list
-  /// Dispersions with values that the first levels may miss, and the expected draws of the rarest value.
+  /// Dispersions with values that the first levels may miss, and how often they draw the rarest value on average.
   std::vector<std::pair<std::string, double>> unseen;
 };
 

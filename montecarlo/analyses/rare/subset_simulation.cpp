@@ -20,11 +20,11 @@ constexpr long chain_length = 10; // L
 constexpr double aimed_at =
     0.44; // share of accepted moves: optimal for one dimension (Papaioannou et al. 2015, section 4)
 constexpr double first_scale =
-    0.6; // λ of the first chains (ibid.); a bad value costs acceptance in the first steps only
+    0.6; // λ of the first chains (ibid.); a bad value costs accepted moves in the first steps only
 constexpr double bias_of_square = 0.4; // bias / δ², fitted to the two measurements in the header
 
-// Standard errors between the largest and the smallest of some repetitions. Normal ones of 1000 repetitions are at most
-// 4.7 apart; logarithms of estimates with variations of 50 % have longer tails.
+// Heuristic: so many standard errors between the largest and the smallest repetition are too many. Among 1000 normal
+// repetitions they are at most 4.7 apart; logarithms of estimates with a variation of 50 % have longer tails.
 constexpr double far_apart = 7;
 
 double standard_normal(RandomStream& stream) {
@@ -249,7 +249,7 @@ bool is_plain(std::span<const SubsetEstimate> estimates) {
          });
 }
 
-/// The share of the pooled first levels.
+/// Estimates by the share of the pooled first levels.
 void estimate_plainly(double confidence, RareEstimate& all) {
   all.plain = all.reached = true;
   all.probability = static_cast<double>(all.hits) / static_cast<double>(all.draws);
@@ -269,7 +269,7 @@ std::vector<double> probabilities_of(std::span<const SubsetEstimate> estimates) 
   return probabilities;
 }
 
-/// The mean of the repetitions.
+/// Estimates by the mean of the repetitions.
 void estimate_by_levels(std::span<const SubsetEstimate> estimates, double confidence,
                         RareEstimate& all) {
   const std::vector<double> probabilities = probabilities_of(estimates);
@@ -294,7 +294,7 @@ void estimate_by_levels(std::span<const SubsetEstimate> estimates, double confid
   all.plain_runs = (1 - all.probability) / (all.probability * all.variation * all.variation);
 }
 
-/// The interval of an atom.
+/// Widens the interval if some repetition was stuck at an atom (subset_simulation.hpp).
 void widen_for_atom(double confidence, RareEstimate& all) {
   const Interval counted =
       clopper_pearson_of_share(all.probability, std::max(1.0, all.plain_runs), confidence);

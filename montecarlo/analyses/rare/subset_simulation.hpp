@@ -12,8 +12,8 @@
 ///   δ       coefficient of variation of an estimate
 ///   γ_j     increase of the variance because a chain's points are correlated
 ///
-/// The first level is plain sampling. Each later level starts c chains. Their first points (seeds) are the points of the
-/// previous level that lie in {g ≤ b_j}. Conditional sampling moves them:
+/// The first level is plain sampling. Each later level starts c chains. Their first points (seeds) are the points of
+/// the previous level that lie in {g ≤ b_j}. Conditional sampling moves them:
 ///
 ///     z' = ρ z + √(1 − ρ²) ξ,  ξ standard normal; z' is taken if g(z') ≤ b_j, else z stays  (2)
 ///
@@ -31,14 +31,14 @@
 /// N = 500. The bias decreases as 1/N; averaging repetitions does not reduce it. Adapting λ within a level is not the
 /// cause: with λ fixed per level the bias was +3.9 ± 1.3 %.
 ///
-/// An event that is not rare: if the event lies in the first level of a repetition (n_1 ≥ c), or no repetition has a
-/// second level, the simulation has no levels to go through. The first levels of all R repetitions are then pooled: N R
-/// independent draws, of which `hits` have the event, with Clopper–Pearson bounds. (3) has no meaning for P → 1, where
-/// δ → 0 in every repetition without a miss.
+/// An event that is not rare: a repetition ends at its first level if n_1 ≥ c. If one does, or if none has a second
+/// level, the first levels of all R repetitions are pooled: N R independent draws, of which `hits` have the event, with
+/// Clopper–Pearson bounds. (3) has no meaning for P → 1, where δ → 0 in every repetition without a miss.
 ///
-/// An atom: where g is equal at nine tenths of a level's points, no further level exists (`stuck`). The share of the
-/// level's points in the event is then the estimate, 0 included. It is unbiased, but δ is unknown for a share of 0. So
-/// the interval contains the Clopper–Pearson interval for as many runs of plain sampling as have the variation found.
+/// An atom: if g is equal at nine tenths of a level's points, no further level exists (`stuck`). The estimate is then
+/// the share of the level's points in the event, which may be 0. It is unbiased, but for a share of 0 its δ is unknown.
+/// The interval therefore contains a Clopper–Pearson interval: that of as many runs of plain sampling as have the
+/// variation found.
 ///
 /// Sources: S.-K. Au, J. L. Beck, Probabilistic Engineering Mechanics 16 (2001) 263–277: (1), (3),
 /// (4); I. Papaioannou, W. Betz, K. Zwirglmaier, D. Straub, ibid. 41 (2015) 89–103: (2), and 44 %.
@@ -96,8 +96,9 @@ struct SubsetEstimate {
 [[nodiscard]] SubsetEstimate subset_simulation(const LimitStateFunction& g, std::size_t dimensions,
                                                const SubsetOptions& options);
 
-/// Whether repetitions differ by far more than their own variations explain: 7 standard errors between the logarithms of
-/// two probabilities, or twice the variation of the mean. Also if some reached the event and others did not.
+/// Whether repetitions differ by far more than their own variations explain: by 7 standard errors between the
+/// logarithms of two probabilities, or by a spread of twice the variation by (3). Also true if only some reached the
+/// event.
 [[nodiscard]] bool repetitions_disagree(std::span<const SubsetEstimate> estimates);
 
 /// An upper bound of the number of evaluations of g, unless many points have equal g: then a level divides the
@@ -126,9 +127,9 @@ struct RareEstimate {
   }
 };
 
-/// The mean of the estimates. Its interval is P exp(± q δ), the wider of two: δ by (3) with the normal quantile q, and δ
-/// from the spread with Student's. If the event was not reached, the interval starts at 0 and its upper end is estimated,
-/// not guaranteed. An event that is not rare, and an atom: see above.
+/// The mean of the estimates. Its interval is P exp(± q δ), the wider of two: δ by (3) with the normal quantile q, and
+/// δ from the spread with Student's. If the event was not reached, the interval starts at 0 and its upper end is
+/// estimated, not guaranteed. An event that is not rare, and an atom: see above.
 /// @pre at least one estimate; all have the same number of samples
 [[nodiscard]] RareEstimate combined(std::span<const SubsetEstimate> estimates, double confidence);
 

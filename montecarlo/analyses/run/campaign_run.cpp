@@ -44,8 +44,8 @@ private:
   Tally ended_; ///< counts of the cases that have ended; the total is that of all cases
 };
 
-/// Counts the runs that a folder already has, before run_folder makes the others. For streaming statistics it makes the
-/// pilot runs of a new folder first. @return false if the evaluator was stopped during the pilot
+/// Counts the runs that a folder has before run_folder makes the others. In a new folder of streaming statistics it
+/// first makes the pilot. @return false if the evaluator was stopped during the pilot
 bool count_earlier_runs(const FolderWriter& folder, Evaluator& /*evaluator*/, Tally& tally) {
   const Results& results = folder.results();
   tally.done = std::ssize(results.runs);
@@ -127,7 +127,7 @@ CampaignResults run_cases(const RunRequest& request, const RunCallbacks& callbac
   const Campaign& campaign = request.campaign;
   const std::vector<CaseSpec> chosen = chosen_cases(campaign, request.cases);
   const CasesFolder folder(request.out, campaign, request.shard, request.resume);
-  std::filesystem::remove(request.out / cases_file); // the cases compared there will change
+  std::filesystem::remove(request.out / cases_file); // it compares cases whose results will change
   OverallTally overall(std::ssize(chosen) *
                        shard_runs(campaign.sampling.runs, request.shard).size());
   CampaignResults results;

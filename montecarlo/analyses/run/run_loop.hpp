@@ -31,8 +31,8 @@ private:
   Results results_;
 };
 
-/// Makes the runs that `rows` still lacks. For a campaign that may stop early, `rows.remaining()` ends at the next interim
-/// analysis and is asked again after it.
+/// Makes the runs that `rows` still lacks. If the campaign may stop early, `rows.remaining()` ends at the next interim
+/// analysis; it is called again after these runs.
 /// @param rows  FolderWriter, StreamingFolder or RowsInMemory
 /// @param tally counts of the runs that `rows` has already; updated with every batch
 /// @param show  called with the tally after every batch, one call at a time

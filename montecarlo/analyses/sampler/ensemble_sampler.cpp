@@ -13,15 +13,16 @@
 namespace wingspread {
 namespace {
 
-constexpr double stretch = 2;             // a of (1), Goodman and Weare's
-constexpr long first_check = 64;          // steps before the first diagnosis
-constexpr double next_check = 1.3;        // growth between diagnoses
-constexpr double discarded = 0.25;        // share of the steps at the start
+constexpr double stretch = 2;      // a of (1), Goodman and Weare's
+constexpr long first_check = 64;   // steps before the first diagnosis; heuristic, as the next two
+constexpr double next_check = 1.3; // growth between diagnoses
+constexpr double discarded = 0.25; // share of the steps at the start
 constexpr std::size_t most_in_group = 10; // walkers: if they never move, R̂ is 1.05 and more
 constexpr std::size_t least_groups = 4;
 
-/// Degrees of freedom of the proposal: tails heavier than a normal posterior's. A Student law of fixed degrees loses more and
-/// more moves as d grows: of a normal target's, 5 degrees accept 84 % for d = 3, 67 % for d = 9; 2 d accept 87 % there.
+/// Degrees of freedom of the proposal, whose tails must be heavier than the target's. With fixed degrees fewer moves
+/// are accepted as d grows. For a normal target, 5 degrees accept 84 % at d = 3 and 67 % at d = 9; 2 d degrees accept
+/// 87 % at d = 9.
 int degrees_for(Eigen::Index d) { return std::max(5, 2 * static_cast<int>(d)); }
 
 double normal_of(double u) { return inverse(Normal{}, tails_of_uniform(u)); }

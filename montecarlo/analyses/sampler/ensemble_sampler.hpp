@@ -6,14 +6,14 @@
 ///   π, q       target density, density of the fixed proposal
 ///
 /// The walkers are two halves. Each half moves in turn, all its walkers at once: one batch of evaluations. A walker x
-/// tosses for one of two moves, which both leave π invariant:
+/// makes one of two moves by chance; both leave π invariant:
 ///
 ///   stretch      y = x' + z (x − x'), x' a walker of the other half;  min(1, z^{d−1} π(y)/π(x))     (1)
 ///   independent  y ~ q;                                               min(1, π(y) q(x)/(π(x) q(y)))  (2)
 ///
-/// (1): J. Goodman, J. Weare, Comm. App. Math. Comp. Sci. 5 (2010) 65–80. (2) makes chains short where Laplace's
-/// approximation is good; (1) reaches what it misses. On a normal target of 3 dimensions the mixture
-/// needs less than a third of the evaluations that (1) alone needs for an effective sample (ensemble_sampler_test.cpp).
+/// (1): J. Goodman, J. Weare, Comm. App. Math. Comp. Sci. 5 (2010) 65–80. (2) makes chains short if q is close to π;
+/// (1) reaches regions that q misses. On a normal target of 3 dimensions the mixture needs less than a third of the
+/// evaluations that (1) alone needs for an effective sample (ensemble_sampler_test.cpp).
 #pragma once
 
 #include "montecarlo/analyses/sampler/polynomial_map.hpp"

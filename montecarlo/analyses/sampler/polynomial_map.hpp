@@ -1,4 +1,5 @@
-/// A polynomial map of z to ξ, both with d coordinates, near the identity. With it a normal law follows a bent posterior.
+/// A polynomial map of z to ξ, both with d coordinates, near the identity. It bends a law of ξ along a curved density
+/// of z.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,14 +12,16 @@ namespace wingspread {
 
 class PolynomialMap {
 public:
-  /// Least squares through points, with less weight where ξ is improbable for a standard normal law. @param degree 2 or 3 @pre the points determine all coefficients
+  /// Least squares through points, with less weight where ξ is improbable for a standard normal law.
+  /// @param degree 2 or 3
+  /// @pre the points determine all coefficients
   PolynomialMap(const std::vector<Eigen::VectorXd>& z, const std::vector<Eigen::VectorXd>& xi,
                 int degree);
 
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& z) const;
-  /// log of ∂ξ/∂z's determinant. Nothing where solve() does not find z from its ξ, because several z have the same ξ.
+  /// log det ∂ξ/∂z. Nothing if solve() does not lead from ξ(z) back to z, because several z have this ξ.
   [[nodiscard]] std::optional<double> log_determinant(const Eigen::VectorXd& z) const;
-  /// z of an ξ; nothing if there is none that has a log_determinant().
+  /// The z of an ξ; nothing if there is none with a log_determinant().
   [[nodiscard]] std::optional<Eigen::VectorXd> inverse(const Eigen::VectorXd& xi) const;
 
   /// Number of monomials of d coordinates up to a degree.
@@ -26,10 +29,10 @@ public:
 
 private:
   int degree_;
-  Eigen::MatrixXd coefficients_; ///< a row a monomial, a column a coordinate of ξ
+  Eigen::MatrixXd coefficients_; ///< one row per monomial, one column per coordinate of ξ
 
   [[nodiscard]] Eigen::MatrixXd derivative(const Eigen::VectorXd& z) const;
-  /// A z with ξ by Newton's method from z = ξ; nothing if it does not converge.
+  /// A z of the ξ by Newton's method, started at z = ξ; nothing if it does not converge.
   [[nodiscard]] std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& xi) const;
 };
 

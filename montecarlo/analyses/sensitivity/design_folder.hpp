@@ -63,7 +63,8 @@ void for_each_design_row(const std::filesystem::path& folder, const RunPlan& pla
 /// Appends to design_runs.csv; an interrupted folder can be resumed.
 class DesignFolderWriter {
 public:
-  /// @param resume true: the folder may already have this design, made by the same version; false: it must be new or empty
+  /// @param resume true: the folder may already have this design, made by the same version; false: it must be new or
+  ///   empty
   /// @throws SpecError for any other content; MachineError if another process has locked the folder, or cannot write it
   DesignFolderWriter(const std::filesystem::path& folder, const SaltelliDesign& design,
                      const RunPlan& plan, bool resume);

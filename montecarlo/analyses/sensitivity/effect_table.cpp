@@ -75,7 +75,7 @@ void MovedBy::add(const std::string& output, std::size_t count,
                   const std::function<std::string(std::size_t)>& text) {
   constexpr std::size_t most = 5;
   constexpr double smallest_share =
-      0.25; // heuristic: of the largest effect; smaller ones change little
+      0.25; // heuristic: effects below this share of the largest change little
   std::vector<std::string> parts;
   const std::vector<std::size_t> order = by_size(count, size);
   for (const std::size_t j : order) {

@@ -41,8 +41,8 @@ inline constexpr std::size_t name_width = 30;
 class MovedBy {
 public:
   /// Adds an output.
-  /// @param size of each of `count` dispersions' effects, ≥ 0; those below `least` or a quarter of the largest, and NaN,
-  ///             are left out, and all but the five largest
+  /// @param size of each of `count` dispersions' effects, ≥ 0; those below `least` or a quarter of the largest, and
+  ///   NaN, are left out, and all but the five largest
   /// @param text "spring.root −0.81"
   void add(const std::string& output, std::size_t count,
            const std::function<double(std::size_t)>& size, double least,

@@ -14,15 +14,17 @@
 namespace wingspread {
 namespace {
 
-/// Heuristic: a member of a group is named alone if its change is at most this much larger than the group's. With 1 a
-/// group that works by one member would hide which; with 2 a member would stand for groups that need half the change.
+/// Heuristic: a group's best member is named alone if its change is at most this factor larger than the group's. With
+/// 1, the report would not say that one member does all the work; with 2, it would name a member although the whole
+/// group needs half the change.
 constexpr double alone_at_most = 1.25;
-/// Heuristic: a factor beyond these, or a shift further beyond the values drawn than these reach, is no design; it only
-/// says that the input is weak.
+/// Heuristic: a change by a factor beyond these is no design; it only says that the input is weak. Likewise a shift
+/// that leaves the range of the values drawn by more than the width of this range.
 constexpr double least_factor = 0.2, largest_factor = 5;
 
-/// Heuristic: a limit's change rests on a linear output. If the fit explains less, the tail that breaks the limit need not
-/// follow its slopes: with 1 % explained, the change found for a satellite's peak rate was one of chance.
+/// Heuristic: the estimate assumes an output that is linear in the draws. If the fit explains less than this, the runs
+/// beyond the limit need not follow its slopes: with 1 % explained, the change found for a satellite's peak rate was
+/// due to chance.
 constexpr double least_explained = 0.25;
 
 /// A draw's lever, and the quantity that it shares with the levers of other bodies or hinges.
@@ -42,7 +44,7 @@ bool is_scaled(const Dispersion& dispersion) {
   return !angle && PreparedDistribution(dispersion.distribution).quantile(0.001) > 0;
 }
 
-/// "hinges *.spring.scale by scale": equal for the draws that may move together.
+/// "hinges *.spring.scale by scale": draws with the same text may move together.
 std::string quantity_of(const Scene& scene, const Dispersion& dispersion) {
   if (dispersion.targets.empty()) return dispersion.name;
   std::vector<std::string> paths;
@@ -100,7 +102,7 @@ Quantities quantities_of(const Campaign& campaign, const Results& results) {
   return quantities;
 }
 
-/// The size of a change: |log| of a factor; of a shift its part of the mean or of the half of the values drawn.
+/// The size of a change: |log| of a factor; a shift divided by |mean| or by half the range drawn, whichever is larger.
 double size_of(const Lever& lever, const NeededChange& change) {
   if (lever.moved.scaled) return change.change > 0 ? std::abs(std::log(change.change)) : 1e9;
   const double half = (change.most - change.least) / 2;
@@ -116,7 +118,7 @@ bool is_design(const LeverChange& each) {
   return change.change > change.least - drawn && change.change < change.most + drawn;
 }
 
-/// The lever to name for a quantity: all together, or the best one alone.
+/// The lever to name for a quantity: all draws together, or the best one alone.
 std::optional<LeverChange> best_of(std::span<const DrawLever> draws,
                                    std::span<const std::optional<NeededChange>> changes) {
   const std::size_t single = draws.size() > 1 ? draws.size() - 1 : 1;

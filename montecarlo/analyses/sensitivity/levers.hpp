@@ -1,4 +1,5 @@
-/// What a designer can move to make a requirement pass: a dispersed input, or the same input of all bodies or hinges.
+/// Levers: inputs that a designer can change to make a requirement pass. A lever is one dispersed input, or the same
+/// input of all bodies or hinges.
 #pragma once
 
 #include "montecarlo/analyses/sensitivity/needed_change.hpp"
@@ -13,9 +14,9 @@ namespace wingspread {
 struct Lever {
   MovedDraws moved;
   std::string words;              ///< "R_root damper peak torque", "friction of all hinges"
-  std::vector<std::string> draws; ///< names
+  std::vector<std::string> draws; ///< names of the dispersions
   std::vector<std::string>
-      paths; ///< for `scale` of `wingspread margin`; empty where scaling them is no such change
+      paths;        ///< for `scale` of `wingspread margin`; empty if the change is no scaling
   std::string unit; ///< of the draws; empty if scaled
 };
 
@@ -34,10 +35,10 @@ struct LeverChanges {
   std::vector<LeverChange> levers;
 };
 
-/// The most effective changes for a requirement. A group of inputs gives way to one of its members if the member's
-/// change is at most a quarter larger.
+/// The most effective changes for a requirement. One input replaces its group if its change is at most a quarter
+/// larger.
 /// @param most of them
-/// @return nothing where needed_changes gives nothing
+/// @return nothing if needed_changes() returns nothing
 [[nodiscard]] std::optional<LeverChanges> lever_changes(NeededFor what, const Campaign& campaign,
                                                         const Verdict& verdict,
                                                         const Results& results,

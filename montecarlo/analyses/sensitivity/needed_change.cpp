@@ -18,7 +18,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Heuristic: with fewer runs to spare the adjusted R² and the bounds of the jackknife are mostly chance.
+/// Heuristic: fewest runs beyond the number of draws. With fewer, the adjusted R² and the jackknife's bounds are mostly
+/// chance.
 constexpr long fewest_spare_runs = 10;
 /// Largest number of runs of the fit (its first runs, of a random design): slopes are then known to 1 % of the output's
 /// spread per spread of the draw, and the time is bounded.
@@ -97,7 +98,7 @@ public:
   [[nodiscard]] long runs() const { return static_cast<long>(fitted_); }
   /// b of a column of the draws; 0 of a constant one.
   [[nodiscard]] double of(std::size_t column) const { return slope(all_, column); }
-  /// Σ weight · b over columns without each group; NaN where there is none without it.
+  /// For each group, Σ weight · b over the columns with the group left out; NaN if that has no slopes.
   [[nodiscard]] std::vector<double> without(std::span<const std::size_t> columns,
                                             std::span<const double> weights) const {
     std::vector<double> sums;
@@ -206,7 +207,7 @@ public:
     return completed(moved, means, *t, {*t * effect / *slope.upper, *t * effect / *slope.lower});
   }
 
-  /// Runs that may break the requirement, of the values' runs.
+  /// How many of the runs in values_ may break the requirement.
   [[nodiscard]] long may() const {
     const long others = verdict_.runs - std::ssize(values_.y),
                allowed = verdict_.allowed.value_or(share_of(verdict_.runs));
@@ -226,7 +227,7 @@ private:
     }
     return means;
   }
-  /// By the jackknife; an output that is exactly linear has the same slope without each group.
+  /// Bounds by the jackknife. An output that is exactly linear has the same slope without each group, and no width.
   [[nodiscard]] static Bounds slope_bounds(double effect, const std::vector<double>& without,
                                            double confidence) {
     const auto [least, most] = std::ranges::minmax(without);
@@ -258,7 +259,7 @@ private:
       std::ranges::nth_element(t, kth, std::ranges::greater{});
     return *kth;
   }
-  /// (2). Where no run may break it, half a run stands for none.
+  /// (2). If no run may break the requirement, r is half a run's share, because Φ⁻¹(0) is infinite.
   [[nodiscard]] std::optional<double> index(double effect) const {
     const auto n = static_cast<double>(values_.y.size());
     const auto at = [](double share) { return inverse(Normal{}, {share, 1 - share}); };

@@ -23,8 +23,8 @@
 ///
 ///   t = −φ(Φ⁻¹(q)) (Φ⁻¹(q) − Φ⁻¹(r))/d̄                                                        (2)
 ///
-/// The bounds of t are those of the slope d̄ by the jackknife (jackknife.hpp), which needs neither normal residuals nor
-/// an equal spread of them. They leave out what a curved response adds.
+/// The bounds of t come from the jackknife's bounds of the slope d̄ (jackknife.hpp). The jackknife assumes neither
+/// normal residuals nor equal spread. The bounds do not include the error that a curved response causes.
 #pragma once
 
 #include "montecarlo/results/summary/replication.hpp"
@@ -46,7 +46,7 @@ struct MovedDraws {
 /// The change of some draws by which the requirement would pass.
 struct NeededChange {
   double now = 0;             ///< mean of the draws
-  double change = 0;          ///< factor of the draws if scaled (1 + t), else what is added (t)
+  double change = 0;          ///< factor of the draws if scaled (1 + t), else the shift t
   Bounds bounds{};            ///< of the change
   double least = 0, most = 0; ///< changes that keep the mean of each draw within the values drawn
   /// Means over the runs that break the requirement and over the others, relative to `now` if scaled, else as they are.
@@ -62,15 +62,16 @@ struct NeededChanges {
   NeededFor what = NeededFor::limit;
   long runs = 0;        ///< of the estimate
   double explained = 0; ///< R² of the linear fit, adjusted for the number of draws
-  /// One for each MovedDraws. Nothing where no change of them is enough, or where the slope's bounds include 0 at the
-  /// confidence shared over all of them (Bonferroni): the most effective of many would else often be one of chance.
+  /// One for each MovedDraws. Nothing if no change of these draws is enough. Nothing also if the slope's bounds include
+  /// 0 at the confidence shared over all MovedDraws (Bonferroni): otherwise the most effective of many would often be
+  /// due to chance.
   std::vector<std::optional<NeededChange>> changes;
 };
 
-/// The estimate; nothing if no run or every run breaks it, if the draws are linear combinations of each other, or if
-/// there are fewer than 10 runs more than draws. Cost O(n k²) for n runs and k draws.
-/// @param what       limit: of the deployed runs with a value; where the others alone are more than may break it, the
-///                   share 1 − p of the deployed ones may
+/// The estimate; nothing if no run or every run breaks the requirement, if the draws are linear combinations of each
+/// other, or if there are fewer than 10 runs more than draws. Cost O(n k²) for n runs and k draws.
+/// @param what       limit: uses the deployed runs with a value; if the other runs alone are too many, the share
+///                   1 − p of the deployed ones may break it
 /// @param confidence of the bounds
 /// @pre the verdict was decided from these rows; for `limit` the requirement has a limit on one of their outputs
 [[nodiscard]] std::optional<NeededChanges> needed_changes(NeededFor what, const Verdict& verdict,

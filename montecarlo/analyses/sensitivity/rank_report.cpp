@@ -58,10 +58,10 @@ Json sensitivity_json(const RankSensitivity& all, const Json& about) {
         {"prcc", "partial correlation of the mid-ranks, all other dispersions held"},
         {"bounds", bounds_definition(all)},
         {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
-        {"moves_nothing", "no coefficient differs from 0 at this confidence taken over all "
-                          "outputs together"},
-        {"follow_from_others", "dispersions of whose ranks half or more follow from the others': "
-                               "what they do together, prcc gives to none of them"}}},
+        {"moves_nothing", "dispersions of which no coefficient differs from 0 at the confidence "
+                          "shared over all outputs"},
+        {"follow_from_others", "dispersions of whose ranks half the variance or more is explained "
+                               "by the others: prcc has none of their joint effect"}}},
       {"outputs", outputs},
       {"do_not_vary", all.unvaried},
       {"moves_nothing", all.idle},

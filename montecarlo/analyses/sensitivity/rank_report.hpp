@@ -1,4 +1,5 @@
-/// Rank correlations as JSON, CSV and a table for a terminal. JSON numbers read back to the same double; undefined: null.
+/// Rank correlations as JSON, CSV and a table for a terminal. JSON numbers read back to the same double; undefined:
+/// null.
 #pragma once
 
 #include "montecarlo/analyses/sensitivity/rank_sensitivity.hpp"

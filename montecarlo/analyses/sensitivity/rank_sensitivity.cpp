@@ -79,8 +79,9 @@ using Matrix = PartialCorrelations::Matrix;
 
 /// Bias-corrected partial coefficients of independent runs, as Fisher's z.
 ///
-/// The bounds take the standard error from the slope of the corrected z along the change that leaving out a group makes.
-/// The change of z itself would be curved where 1 − R² is small: its spread is 3 to 5 % larger at n = 100.
+/// Leaving out a group changes the correlations. The bounds' standard error is computed from the slope of z along this
+/// change. The whole change of z is not used, because z is curved if 1 − R² is small: its spread would be 3 to 5 % too
+/// large at n = 100.
 class CorrectedPartial {
 public:
   /// @param draws  of all kept runs; a reference is kept
@@ -88,7 +89,7 @@ public:
   CorrectedPartial(const RankedDraws& draws, const std::vector<std::vector<double>>& outputs)
       : draws_(&draws.partial()), bias_(columns_of(draws, outputs)) {}
 
-  /// The model of the draws if their correlations are moved towards those without a group.
+  /// The model of the draws with correlations that are moved by `step` towards those without a group.
   struct Model {
     PartialCorrelations now, biased;
   };
@@ -112,7 +113,7 @@ public:
     for (std::size_t j = 0; j < z.size(); ++j) z[j] = 2 * std::atanh(z[j]) - std::atanh(twice[j]);
     return z;
   }
-  /// Coefficients moved towards those without a group; NaN where there are none without it.
+  /// Coefficients moved by `step` towards those without a group; those without it that are NaN are not moved.
   [[nodiscard]] static std::vector<double> moved(std::span<const double> all,
                                                  std::span<const double> without) {
     std::vector<double> plain;
@@ -120,13 +121,13 @@ public:
       plain.push_back(std::isnan(without[j]) ? all[j] : all[j] + step * (without[j] - all[j]));
     return plain;
   }
-  /// The slope, as the z that would be found without the group if z were linear.
+  /// The z without the group, extrapolated by the slope.
   [[nodiscard]] static double without_group(double z, double moved) {
     return z + (moved - z) / step;
   }
 
 private:
-  /// Step of the difference quotient: its error is a thousandth of the change's curvature, and rounding 1e-13.
+  /// Step of the difference quotient. Its error is a thousandth of the curvature of z, and 1e-13 by rounding.
   static constexpr double step = 1e-3;
 
   static std::vector<std::span<const double>>
@@ -140,7 +141,7 @@ private:
   static Eigen::Index at(const std::vector<Eigen::Index>& place, Eigen::Index i) {
     return place[static_cast<std::size_t>(i)];
   }
-  /// The place of each varying draw among those that vary without a group; −1 for none.
+  /// The index of each varying draw among the draws that vary without the group; −1 if it does not vary there.
   [[nodiscard]] std::vector<Eigen::Index> places_in(const PartialCorrelations& without) const {
     std::vector<Eigen::Index> places;
     const auto there = without.which_vary();
@@ -345,7 +346,7 @@ RankSensitivity rank_sensitivity(const Results& results, double confidence, cons
   if (const auto known = sorted_present(deployed.values); !known.empty() && varies(known))
     outputs.push_back(&deployed);
   const std::vector<RankedColumn> draws = ranked(drawn), ranks = ranked(outputs);
-  Rows with_draws(results.size(), true); // an overflowed draw is NaN
+  Rows with_draws(results.size(), true); // a draw that overflowed is NaN: its run is left out
   for (const Column* draw : drawn) keep_runs_with(*draw, with_draws);
   std::map<Rows, std::vector<std::size_t>> together; // most outputs have values in the same runs
   for (std::size_t i = 0; i < outputs.size(); ++i) {

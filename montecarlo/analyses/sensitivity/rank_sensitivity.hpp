@@ -13,8 +13,8 @@
 
 namespace wingspread {
 
-/// A correlation with its bounds: NaN without bounds if a column is constant or has too few runs. If all runs belong to
-/// one replicate, there are no bounds either.
+/// A correlation with its bounds. NaN without bounds if a column is constant or has too few runs. A value without
+/// bounds if all runs belong to one replicate.
 struct Coefficient {
   double value;
   Bounds bounds;
@@ -44,7 +44,8 @@ struct RankSensitivity {
   /// Dispersions that vary without a visible effect: none of their coefficients differs from 0 at the confidence shared
   /// over all outputs (Bonferroni).
   std::vector<std::string> idle;
-  /// Dispersions whose ranks are explained by those of the others (R² ≥ 0.5). Partial coefficients omit their joint effect.
+  /// Dispersions whose ranks are explained by those of the others (R² ≥ 0.5). Partial coefficients omit their joint
+  /// effect.
   std::vector<std::string> collinear;
   std::map<std::string, std::vector<std::string>> rows; ///< as in RunsMade
 };
@@ -61,8 +62,8 @@ struct RunsMade {
 /// Bounds for independent draws: by rank_correlation.hpp for Spearman's coefficient, by the jackknife over parts of the
 /// runs for the partial one. Bounds for replicates: by the jackknife over the replicates.
 ///
-/// Cost for n runs and k dispersions: O(n k²) once per group of outputs present in the same runs, O(n k) per output; times
-/// 17 for the jackknife (16 parts and the whole), or times the replicates plus one.
+/// Cost for n runs and k dispersions: O(n k²) once per group of outputs present in the same runs, O(n k) per output;
+/// times 17 for the jackknife (16 parts and the whole), or times the replicates plus one.
 [[nodiscard]] RankSensitivity rank_sensitivity(const Results& results, double confidence,
                                                const RunsMade& made = {});
 

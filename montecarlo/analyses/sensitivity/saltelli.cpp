@@ -12,8 +12,8 @@
 namespace wingspread {
 namespace {
 
-/// Names of the coordinates of A, then of B. B's have a control character, which no dispersion's name may contain, so that
-/// they differ from A's and sort behind them.
+/// Names of the coordinates of A, then of B. B's have a control character, which no dispersion's name may contain, so
+/// that they differ from A's and sort behind them.
 std::vector<std::string> coordinates(const Campaign& campaign) {
   const Coordinates one = coordinates_of(campaign.dispersions);
   std::vector<std::string> names;

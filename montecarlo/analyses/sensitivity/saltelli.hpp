@@ -1,7 +1,7 @@
 /// The design for Sobol' indices: N rows of d + 2 points each, as runs of a campaign.
 ///
-/// The points A and B of a row are together one point of a 2d-dimensional design, of the campaign's kind and seed. A has
-/// the campaign's own coordinates: with independent draws, A of row k is the campaign's run k. SaltelliPoint
+/// The points A and B of a row are one point of a design with 2d dimensions, of the campaign's kind and seed. A has the
+/// campaign's own coordinates: with independent draws, A of row k is the campaign's run k. SaltelliPoint
 /// (sobol_indices.hpp) says which point of which row a run is.
 #pragma once
 

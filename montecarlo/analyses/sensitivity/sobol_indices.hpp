@@ -7,18 +7,19 @@
 ///   f        an output at a point, minus its mean over all A and B
 ///   V        its variance over all A and B, divisor 2N
 ///   S_i      first-order index: the share of V that x_i causes alone
-///   S_Ti     total index: the share of V that remains when all but x_i are known: S_i plus the interactions of x_i
+///   S_Ti     total index: the share of V that remains if all but x_i are known: S_i plus the interactions of x_i
 ///
 ///   S_i  = mean of f_B (f_ABi − f_A) / V                                                      (1)
 ///   S_Ti = mean of (f_A − f_ABi)² / 2V                                                        (2)
 ///
 /// (1): A. Saltelli et al., Computer Physics Communications 181 (2010) 259–270, table 2 b; (2): M.
 /// J. W. Jansen, ibid. 117 (1999) 35–43. Both are exactly 0 for a dispersion
-/// without effect. Bounds: percentile bootstrap over independent rows; for dependent rows the jackknife over the replicates
-/// of the design (jackknife.hpp).
+/// without effect. Bounds: percentile bootstrap over independent rows; for dependent rows the jackknife over the
+/// replicates of the design (jackknife.hpp).
 ///
 /// An output with a missing value has no indices. Dropping the affected rows is no remedy: with 26 points per row, 2 %
-/// missing points affect 41 % of the rows. In the other rows the inputs are not independent, so the variance has no shares.
+/// missing points affect 41 % of the rows. In the other rows the inputs are not independent, so the variance has no
+/// shares.
 #pragma once
 
 #include "montecarlo/foundation/statistics/bounds.hpp"

@@ -53,8 +53,8 @@ int print_error(std::string_view message, int code = exit_code::bad_input) {
   return code;
 }
 
-/// Opens missing standard files with a placeholder that can be neither read nor written. Without it a results file could
-/// get the descriptor of standard output, and printed text would end up in it.
+/// Opens missing standard files with a placeholder that can be neither read nor written. Without it a results file
+/// could get the descriptor of standard output, and printed text would end up in it.
 void open_standard_files() {
   while (true) {
     const int file = open("/dev/null", O_PATH | O_CLOEXEC);

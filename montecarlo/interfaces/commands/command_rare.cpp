@@ -35,7 +35,8 @@ struct RareCommandOptions {
   bool resume = false, json = false;
 };
 
-/// The limit in the output's unit. @throws SpecError when it is neither a finite number nor a quantity of the output's kind
+/// The limit in the output's unit. @throws SpecError when it is neither a finite number nor a quantity of the output's
+/// kind
 double limit_of(const RareCommandOptions& options) {
   const bool above = !options.above.empty();
   const std::string& text = above ? options.above : options.below;

@@ -120,8 +120,8 @@ void print_missing_runs(const StoredCampaign& stored, const Summary& summary, lo
                       : "; the verdicts are not final");
 }
 
-/// Computes the statistics again and writes them to the folder `to`, which gets a copy of the campaign and its rows if it
-/// is another folder. The campaign's folder is then `to`.
+/// Computes the statistics again and writes them to the folder `to`, which gets a copy of the campaign and its rows if
+/// it is another folder. The campaign's folder is then `to`.
 Summary summarize_again(StoredCampaign& stored, const std::filesystem::path& to) {
   if (to != stored.folder) copy_rows(stored.folder, to);
   stored.folder = to;

@@ -8,10 +8,11 @@
 ///     for (double moment : runs.numbers("root.peak_moment")) …
 ///     const ws::Fit fit = ws::fit(ws::from_file("campaign.json"), ws::from_file("tests.json"));
 ///
-/// All numbers are in SI units and radians. The same seed gives the same bits as the program, with any number of threads.
-/// Errors: wingspread::SpecError for wrong input, wingspread::MachineError if the machine lacks memory, disk space or a
-/// permission. Both have the text that the program prints. A run that fails is a row of the table, not an error. Every
-/// function may be called from any thread, and from several threads at once; each call has a thread pool of its own.
+/// All numbers are in SI units and radians. The same seed gives the same bits as the program, with any number of
+/// threads. Errors: wingspread::SpecError for wrong input, wingspread::MachineError if the machine lacks memory, disk
+/// space or a permission. Both have the text that the program prints. A run that fails is a row of the table, not an
+/// error. Every function may be called from any thread, and from several threads at once; each call has a thread pool
+/// of its own.
 #pragma once
 
 #include "montecarlo/foundation/formats/machine_error.hpp"
@@ -110,7 +111,8 @@ class Table {
 public:
   /// How many rows.
   [[nodiscard]] std::size_t size() const;
-  /// The names of all columns, in the order of runs.csv: `run`, `status`, draws, outputs, `peaks_final`, `latch_order`, `reason`.
+  /// The names of all columns, in the order of runs.csv: `run`, `status`, draws, outputs, `peaks_final`, `latch_order`,
+  /// `reason`.
   [[nodiscard]] std::vector<std::string> columns() const;
   /// The names of the columns of draws, and of outputs.
   [[nodiscard]] std::vector<std::string> draws() const;

@@ -20,7 +20,8 @@ namespace wingspread {
 
 /// Takes integers from `least` to `most` only, and says so in the option's help, before its default.
 CLI::Option* within(CLI::Option* option, std::int64_t least, std::int64_t most);
-/// Adds the option's limits in words ("> 0 and < 1") to its help, before its default. Whoever reads the value checks them.
+/// Adds the option's limits in words ("> 0 and < 1") to its help, before its default. Whoever reads the value checks
+/// them.
 CLI::Option* limited(CLI::Option* option, std::string_view limits);
 /// Takes the words only, and suggests the nearest one.
 CLI::Option* one_of(CLI::Option* option, std::vector<std::string> words);

@@ -9,8 +9,8 @@
 
 namespace wingspread {
 
-/// Largest number of runs for the effects of a random design (its first runs): the standard error of a rank correlation is
-/// then 1/√10,000 = 0.01, and the time is bounded.
+/// Largest number of runs for the effects of a random design (its first runs): the standard error of a rank correlation
+/// is then 1/√10,000 = 0.01, and the time is bounded.
 inline constexpr std::size_t most_effect_runs = 10'000;
 
 /// Correlations of each draw with each output; null without draws, and of fewer than four runs.
@@ -24,15 +24,17 @@ struct Pair {
   std::size_t draw, output;
   double spearman;
 };
-/// The pairs with the largest visible correlation, at most two per output; first those of outputs that fail a requirement.
+/// The pairs with the largest visible correlation, at most two per output; first those of outputs that fail a
+/// requirement.
 [[nodiscard]] std::vector<Pair> strongest_pairs(const PageSource& source, std::size_t most);
 
-/// The rows that a scatter shows as points, ascending: the extremes of both columns, then every n-th row; at most `most`.
+/// The rows that a scatter shows as points, ascending: the extremes of both columns, then every n-th row; at most
+/// `most`.
 [[nodiscard]] std::vector<std::size_t> scatter_rows(const Column& x, const Column& y,
                                                     std::size_t most);
 
-/// CHANGES of page/DATA.md: by which changes of its inputs a failed requirement would pass. Empty for any other verdict,
-/// without rows, and for a static margin.
+/// CHANGES of page/DATA.md: by which changes of its inputs a failed requirement would pass. Empty for any other
+/// verdict, without rows, and for a static margin.
 [[nodiscard]] Json changes_json(const PageSource& source, const Verdict& verdict);
 
 /// `unjudged` of page/DATA.md: loads without a requirement that are larger than each judged load of their kind.

@@ -1,5 +1,5 @@
-/// Convergence of a mean and a quantile with the number of runs, in the order of the runs. The mean is over the runs with
-/// a value, the quantile over all runs.
+/// Convergence of a mean and a quantile with the number of runs, in the order of the runs. The mean is over the runs
+/// with a value, the quantile over all runs.
 #pragma once
 
 #include "montecarlo/foundation/statistics/bounds.hpp"

@@ -1,9 +1,8 @@
 /// An empirical distribution function at some of its steps (knots), with its confidence band.
 ///
-/// Independent draws: the band of Dvoretzky, Kiefer and Wolfowitz with Massart's constant, F ± √(ln(2/α)/(2n)). It holds for
-/// the whole curve at once, for any distribution and any n.
-/// Replicates of a design: the interval of Korn and Graubard at each knot separately (replicate_bounds.hpp).
-/// Source: P. Massart, Ann. Probab. 18 (1990) 1269–1283.
+/// Independent draws: the band of Dvoretzky, Kiefer and Wolfowitz with Massart's constant, F ± √(ln(2/α)/(2n)). It
+/// holds for the whole curve at once, for any distribution and any n. Replicates of a design: the interval of Korn and
+/// Graubard at each knot separately (replicate_bounds.hpp). Source: P. Massart, Ann. Probab. 18 (1990) 1269–1283.
 #pragma once
 
 #include "montecarlo/foundation/statistics/replicate_bounds.hpp"

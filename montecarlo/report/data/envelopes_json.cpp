@@ -86,8 +86,8 @@ std::vector<Track> tracks_of(const PageSource& source, std::size_t most, int thr
   return tracks;
 }
 
-/// The 98 % quantile of the ends of the runs that deployed, so that one late run does not squeeze all others; without them
-/// the largest of all ends.
+/// The 98 % quantile of the ends of the runs that deployed, so that one late run does not squeeze all others; without
+/// them the largest of all ends.
 double end_of(const std::vector<Track>& tracks) {
   double any = 0;
   std::vector<double> deployed;

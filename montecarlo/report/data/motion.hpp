@@ -62,8 +62,8 @@ inline constexpr double settled_share = 0.05;
 /// Pins the samples at these times (engagements) and unpins all others (a hinge that sticks has two sides too).
 void pin_only(std::span<MotionSample> samples, std::span<const double> times);
 
-/// At most `most` samples and the pinned ones, evenly spaced in progress. Progress is made up in equal parts of time, the
-/// path length of all angles, and the path length of all moments.
+/// At most `most` samples and the pinned ones, evenly spaced in progress. Progress is made up in equal parts of time,
+/// the path length of all angles, and the path length of all moments.
 [[nodiscard]] std::vector<MotionSample> resample(std::span<const MotionSample> samples,
                                                  const MotionLayout& layout, std::size_t most);
 

@@ -70,8 +70,8 @@ void add_median(const PageSource& source, Choice& choice) {
                  static_cast<std::size_t>(row));
 }
 
-/// Adds the run that tells most about a requirement: of the runs that deployed the one with the worst value. If there is
-/// no value, the run that did not deploy with the fewest latched hinges.
+/// Adds the run that tells most about a requirement: of the runs that deployed the one with the worst value. If there
+/// is no value, the run that did not deploy with the fewest latched hinges.
 void add_worst_of(const PageSource& source, const Verdict& verdict, Choice& choice) {
   const BrokenRuns broken = broken_runs_of(source, verdict, 1);
   const std::string label = "worst: " + name_of(verdict.requirement);

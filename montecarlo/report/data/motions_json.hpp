@@ -16,9 +16,9 @@ struct ChosenRun {
   long run = 0; ///< counted from 0
 };
 
-/// The deployed run with the median deployment time, the worst run of each requirement, and one run of each other status.
-/// Without requirements, the runs with the largest peaks and the slowest deployment replace the worst runs. No run appears
-/// twice.
+/// The deployed run with the median deployment time, the worst run of each requirement, and one run of each other
+/// status. Without requirements, the runs with the largest peaks and the slowest deployment replace the worst runs. No
+/// run appears twice.
 [[nodiscard]] std::vector<ChosenRun> chosen_runs(const PageSource& source, std::size_t most = 11);
 
 /// The nominal run, then the chosen runs replayed; empty if they cannot be (PageSource::replayable).

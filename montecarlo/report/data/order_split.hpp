@@ -18,8 +18,8 @@ using OrderCounts = std::map<std::string, long>;
 
 /// The most frequent orders, then one group for the other orders, then one for runs without a latch.
 ///
-/// In a scene of several wings an order is that of each wing by itself, "left: root>tip · right: tip>root": how the wings'
-/// sequences interleave would make almost every run an order of its own.
+/// In a scene of several wings an order is that of each wing by itself, "left: root>tip · right: tip>root": how the
+/// wings' sequences interleave would make almost every run an order of its own.
 class OrderSplit {
 public:
   static constexpr std::size_t most_orders =
@@ -64,8 +64,8 @@ struct WingOrders {
   long without = 0;                      ///< runs in which none of its hinges latched
 };
 
-/// The orders of each wing; none for a scene with less than two wings. The hinges of two wings latch in many orders that
-/// differ only in how the wings' sequences interleave.
+/// The orders of each wing; none for a scene with less than two wings. The hinges of two wings latch in many orders
+/// that differ only in how the wings' sequences interleave.
 [[nodiscard]] std::vector<WingOrders> wing_orders(const OrderCounts& orders, const Scene& scene);
 
 /// The time from one latch to the next of an order.

@@ -29,8 +29,8 @@ struct PageDetail {
   std::size_t parameters = 1500;      ///< of the scene
 };
 
-/// The full lengths if the page's data stay below 3.5 MB with them. Else each part of the page gets a fixed share of the
-/// 3.5 MB, and its lists are shortened to fit.
+/// The full lengths if the page's data stay below 3.5 MB with them. Else each part of the page gets a fixed share of
+/// the 3.5 MB, and its lists are shortened to fit.
 [[nodiscard]] PageDetail page_detail(const PageExtent& extent);
 
 } // namespace wingspread

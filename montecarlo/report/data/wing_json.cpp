@@ -38,8 +38,8 @@ Point furthest(const std::vector<Point>& marks) {
       marks, {}, [&](const Point& mark) { return (mark - marks.front()).norm(); });
 }
 
-/// Snaps a direction to the nearest axis of the frame if they nearly agree, because the line between two hinges is often
-/// slightly oblique to the panel.
+/// Snaps a direction to the nearest axis of the frame if they nearly agree, because the line between two hinges is
+/// often slightly oblique to the panel.
 Point straightened(Point way) {
   constexpr double slant = 0.2;
   if (std::abs(way.y()) < slant * std::abs(way.x())) way.y() = 0;

@@ -1,5 +1,5 @@
-/// A scene and its dispersions as a list of numbers: how the program hands them to the kernel in the page, which knows no
-/// JSON. One function visits every number in a fixed order; the program writes with it, the kernel reads with it.
+/// A scene and its dispersions as a list of numbers: how the program hands them to the kernel in the page, which knows
+/// no JSON. One function visits every number in a fixed order; the program writes with it, the kernel reads with it.
 ///
 /// A pass has:  number(double&), integer(int&), list(std::vector<double>&), text(std::string&), and
 ///              `reads`, whether it fills what it visits.

@@ -1,5 +1,5 @@
-/// The kernel in the page: core and distributions, compiled to WebAssembly (kernel.cmake). The page fills `input` with the
-/// campaign's numbers, draws a run or sets draws itself, changes parameters, runs, and reads results and samples.
+/// The kernel in the page: core and distributions, compiled to WebAssembly (kernel.cmake). The page fills `input` with
+/// the campaign's numbers, draws a run or sets draws itself, changes parameters, runs, and reads results and samples.
 ///
 ///     input(count) → fill → open() → draw(run) | median() → run(changes) → result(), samples()
 #include "core/mechanics/structure.hpp"
@@ -175,9 +175,10 @@ private:
       }
   }
 
-  /// status, t_end, peaks_final, number of latches, then (hinge, time, rates…) of each; then of each hinge peak moment and
-  /// its time, peak force, overtravel, hold moment, final angle and motor energy, NaN where not asked for; then the base's
-  /// peak angle and rate; then of releases, passes too fast for the latch and latches that let go: their number, (hinge, time) of each.
+  /// status, t_end, peaks_final, number of latches, then (hinge, time, rates…) of each; then of each hinge peak moment
+  /// and its time, peak force, overtravel, hold moment, final angle and motor energy, NaN where not asked for; then the
+  /// base's peak angle and rate; then of releases, passes too fast for the latch and latches that let go: their number,
+  /// (hinge, time) of each.
   void keep_result(const Outcome& outcome) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     result = {static_cast<double>(outcome.status), outcome.t_end,
@@ -207,8 +208,8 @@ private:
     }
   }
 
-  /// Samples to the end of the ring. If a proof ended the run before, it is made again to a later end: exceptions, by which
-  /// an observer could end a run, are switched off here.
+  /// Samples to the end of the ring. If a proof ended the run before, it is made again to a later end: exceptions, by
+  /// which an observer could end a run, are switched off here.
   void keep_samples(MotionRecorder& recorder, const Outcome& outcome) {
     const MotionLayout layout{campaign_.scene.hinges.size()};
     const double since = outcome.latches.empty() ? 0 : outcome.latches.back().time;

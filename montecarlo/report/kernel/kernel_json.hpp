@@ -6,8 +6,8 @@
 
 namespace wingspread {
 
-/// Null if the numbers would make the page too large (empirical laws with very many values), and for flexible bodies, which
-/// the kernel does not know.
+/// Null if the numbers would make the page too large (empirical laws with very many values), and for flexible bodies,
+/// which the kernel does not know.
 [[nodiscard]] Json kernel_json(const Campaign& campaign);
 
 } // namespace wingspread

@@ -1,5 +1,5 @@
-/// The algorithms of std::ranges that libc++ 14 lacks, as far as the kernel in the page needs them. Included before each
-/// of its files; no other compiler sees this header.
+/// The algorithms of std::ranges that libc++ 14 lacks, as far as the kernel in the page needs them. Included before
+/// each of its files; no other compiler sees this header.
 #pragma once
 
 #include <algorithm>

@@ -31,7 +31,8 @@ std::string name_of_folder(const std::filesystem::path& folder) {
   return name.empty() || name == "." || name == ".." ? folder.string() : name.string();
 }
 
-/// Adds the sets of one folder. @param several whether the page has several folders; then labels of cases name the folder
+/// Adds the sets of one folder. @param several whether the page has several folders; then labels of cases name the
+/// folder
 void read_folder(const std::filesystem::path& folder, bool several, int threads,
                  PageSources& sources) {
   const std::string name = name_of_folder(folder);

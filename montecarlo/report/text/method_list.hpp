@@ -9,7 +9,8 @@
 
 namespace wingspread {
 
-/// A table of order, stability limits and kind, then a note on each method. UTF-8, at most 100 columns unless a kind is longer.
+/// A table of order, stability limits and kind, then a note on each method. UTF-8, at most 100 columns unless a kind is
+/// longer.
 [[nodiscard]] std::string methods_text(std::span<const MethodInfo> methods);
 
 /// An array of objects; null if not applicable; an infinite limit is "unbounded".

@@ -17,8 +17,8 @@ inline constexpr const char* cut_peaks_warning =
 /// Warnings of one run: overtravel, latches whose damping decides the peak, cut peaks. In this order, each on one line.
 [[nodiscard]] std::vector<std::string> outcome_warnings(const Scene& scene, const Outcome& outcome);
 
-/// The run as JSON: latches in order of time; null for values that do not exist or were not requested. An invalid run has
-/// only its status and reason; a failed run has no peaks.
+/// The run as JSON: latches in order of time; null for values that do not exist or were not requested. An invalid run
+/// has only its status and reason; a failed run has no peaks.
 /// @param scene the run's scene
 [[nodiscard]] Json outcome_json(const Scene& scene, const Outcome& outcome);
 

@@ -134,7 +134,8 @@ bool dissipates(const Scene& scene) {
          });
 }
 
-/// The cause of the change of energy before the first latch. A scene that conserves energy shows the integrator's error.
+/// The cause of the change of energy before the first latch. A scene that conserves energy shows the integrator's
+/// error.
 std::string energy_cause(const Scene& scene) {
   const bool motors =
       std::ranges::any_of(scene.hinges, [](const Hinge& hinge) { return hinge.motor.has_value(); });
