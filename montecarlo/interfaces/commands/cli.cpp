@@ -86,7 +86,7 @@ std::vector<std::string> options_of(const CLI::App& command) {
   return words;
 }
 
-/// " (did you mean "--probability"?)" for "--prob" too; empty if no option is near.
+/// " (did you mean "--probability"?)", also for "--prob"; empty if no option is similar.
 std::string meant_option(const std::string& option, const std::vector<std::string>& known) {
   constexpr std::size_t shortest = 4; // two dashes and two letters
   const auto longer = std::ranges::find_if(
@@ -100,7 +100,7 @@ std::vector<std::string> names_of(std::span<const Command> commands) {
   return names;
 }
 
-/// " (write --until before each of its values)", of the first option given that takes one value at a time.
+/// " (write --until before each of its values)", for the first given option that takes one value at a time; else empty.
 std::string repeated_option(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0 && option->get_expected_max() > 1 && !option->get_allow_extra_args())
@@ -129,7 +129,7 @@ std::string unknown_text(const CLI::App& app, std::span<const Command> commands)
                      is_command ? did_you_mean(left.front(), names_of(commands)) : repeated);
 }
 
-/// What is wrong with the command line, a line for each problem. A misspelt option comes before the one that is missed.
+/// A line for each problem of the command line. A misspelt option comes before a missing one: they may be the same.
 std::string text_of(const CLI::ParseError& error, const CLI::App& app,
                     std::span<const Command> commands) {
   const std::string unknown = unknown_text(app, commands);

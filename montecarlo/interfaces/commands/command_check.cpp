@@ -62,7 +62,8 @@ NominalRuns try_read(const Campaign& campaign) { return try_nominal(campaign); }
 const Scene& scene_of(const Scene& scene) { return scene; }
 const Scene& scene_of(const Campaign& campaign) { return campaign.scene; }
 
-/// What `margin` costs: bounds of its runs, each taken as long as the nominal one. Empty without a "margin" to find.
+/// The cost of `margin`: bounds of its number of runs, and their time if each takes as long as the nominal run. Empty
+/// without a /margin.
 std::string margin_cost(const Scene& /*scene*/, const NominalRuns& /*tried*/) { return ""; }
 std::string margin_cost(const Campaign& campaign, const NominalRuns& tried) {
   if (!campaign.margin || campaign.requirements.empty()) return "";

@@ -107,17 +107,18 @@ StoredCampaign as_asked(StoredCampaign stored, const AnalyzeOptions& options) {
   return stored;
 }
 
-/// Says that planned runs are missing, and whether the rows look selected: an interruption leaves no gaps.
+/// Warns that planned runs are missing. Gaps between runs are named, because no interruption leaves gaps: somebody may
+/// have selected the rows.
 void print_missing_runs(const StoredCampaign& stored, const Summary& summary, long last_run) {
   const RunRange planned = stored.runs();
   if (summary.stopped || stored.stamp.preview || summary.runs >= planned.size()) return;
   const bool has_gaps = last_run >= planned.first + summary.runs;
-  fmt::print(stderr, "warning: {}{} of {} runs{}{}\n", has_gaps ? "" : "incomplete: ", summary.runs,
-             planned.size(),
-             stored.campaign.of_case.empty() ? "" : " of case " + stored.campaign.of_case,
-             has_gaps ? ", with gaps that no interruption leaves: of selected runs no verdict and "
-                        "no bound holds"
-                      : "; the verdicts are not final");
+  fmt::print(
+      stderr, "warning: {}{} of {} runs{}{}\n", has_gaps ? "" : "incomplete: ", summary.runs,
+      planned.size(), stored.campaign.of_case.empty() ? "" : " of case " + stored.campaign.of_case,
+      has_gaps ? ", with gaps that no interruption leaves: if runs were selected, no verdict "
+                 "and no bound holds"
+               : "; the verdicts are not final");
 }
 
 /// Computes the statistics again and writes them to the folder `to`, which gets a copy of the campaign and its rows if

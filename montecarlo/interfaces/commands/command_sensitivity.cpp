@@ -48,7 +48,7 @@ void refuse_run_options(const SensitivityOptions& options) {
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
-/// Holds the folder that is analyzed and the one that is written to: --out, which is new or empty, or the same.
+/// Locks the folder that is analyzed and the one that is written: --out, new or empty; without --out the same folder.
 class AnalysisFolders {
 public:
   explicit AnalysisFolders(const SensitivityOptions& options)

@@ -13,8 +13,8 @@
 
 namespace wingspread {
 
-/// Makes every argument and option of the command refuse an empty text. An empty path would be taken for an option that
-/// is not given, or for the present folder.
+/// Makes every argument and option of the command refuse an empty text. An empty path would count as an option that is
+/// not given, or as the current folder.
 void refuse_empty_arguments(CLI::App& command);
 
 /// Adds a command to the command line. Its options live as long as the action that uses them.
@@ -30,8 +30,8 @@ void add_command(CLI::App& app, Action& action, const char* name, const char* de
   command.callback([options, run, &action] { action = [options, run] { return run(*options); }; });
 }
 
-/// The same problems, in which the campaign's keys ("/margin") have the campaign's file. Options ("--range") and
-/// problems that name a file stay as they are.
+/// Adds the campaign's file to those problems of an error that name a key of the campaign ("/margin") and no file.
+/// Problems with an option ("--range") stay as they are.
 [[nodiscard]] SpecError in_file(const SpecError& error, const std::filesystem::path& file);
 
 /// How this machine makes the runs. The results do not depend on it.

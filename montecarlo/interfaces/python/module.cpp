@@ -16,7 +16,7 @@ namespace py = pybind11;
 namespace wingspread::api {
 namespace {
 
-/// For up to this many rows `evaluate` does not check for Ctrl-C, because they take a fraction of a second.
+/// Heuristic: for up to this many rows `evaluate` does not check for Ctrl-C; they take a fraction of a second.
 constexpr py::ssize_t few_rows = 256;
 
 /// Runs `work` in a thread of its own, without the GIL, while this thread checks for Ctrl-C.

@@ -13,11 +13,11 @@ namespace wingspread {
 /// Reads "1.8", "1.8 m" or "70 in" into the design. @return the message if the text is no such number; else nothing
 [[nodiscard]] std::optional<std::string>
 read_design_number(std::string_view text, const DesignNumber& number, WingDesign& design);
-/// The same for the damper.
+/// Reads the damper of the root hinge into the design. @return as read_design_number
 [[nodiscard]] std::optional<std::string> read_damper(std::string_view text, WingDesign& design);
 
-/// Asks for each part of the design in turn. An empty line keeps the value in brackets; what cannot be read is asked
-/// again; the end of the input keeps all that is left.
+/// Asks for each part of the design in turn. An empty line keeps the value in brackets. A question is repeated until
+/// its answer can be read. At the end of the input all remaining parts keep their values.
 [[nodiscard]] WingDesign ask_design(std::istream& in, std::ostream& out);
 
 /// "wingspread new --panels 4 --yoke": the options that differ from the defaults.

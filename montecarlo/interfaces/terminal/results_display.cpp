@@ -57,7 +57,7 @@ void print_not_met(std::string_view of_case, const Verdict& verdict, std::string
              to_string(verdict.decision), evidence(verdict), others);
 }
 
-/// What adding runs does to verdicts that are open, or were judged before.
+/// Prints how adding runs affects verdicts that are undecided, or that were judged before.
 void print_notes(const Summary& summary) {
   if (!summary.interim.before.empty() && !summary.requirements.empty())
     fmt::print(stderr,
@@ -172,7 +172,7 @@ int judge_quietly(const StoredCampaign& stored, const Summary& summary) {
   return code != exit_code::done || met ? code : exit_code::not_met;
 }
 
-/// Both outputs of a terminal in the order in which they were printed.
+/// Flushes the table, so that standard error follows it on a terminal.
 void end_table() { std::fflush(stdout); }
 
 } // namespace

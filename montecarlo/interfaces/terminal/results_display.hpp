@@ -48,7 +48,7 @@ void warn_of_preview(const StoredCampaign& stored);
 /// @return the exit status; failed runs take precedence over requirements
 int judge_results(const StoredCampaign& stored, const Summary& summary);
 
-/// The same for all cases: each requirement once, with its worst case. @return the worst exit status
+/// As judge_results for all cases: each requirement once, with its worst case. @return the worst exit status
 int judge_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases);
 
 /// Prints the comparison of a campaign's cases, or the paths of their files.

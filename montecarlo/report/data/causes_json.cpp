@@ -21,7 +21,7 @@
 namespace wingspread {
 namespace {
 
-/// Fewer runs have no bounds of correlations.
+/// Fewest runs for correlations: with three runs every rank correlation is ±1/2 or ±1.
 constexpr long fewest_runs = 4;
 
 // ---- effects
@@ -94,8 +94,8 @@ std::vector<std::size_t> rows_of_both(const Column& x, const Column& y) {
   return rows;
 }
 
-/// Whether a pair is correlated beyond three standard errors of independent columns, 1/√(n − 1): of a thousand pairs
-/// about three are by chance. Of three runs every pair has a coefficient of 1 or 1/2.
+/// Whether a pair is correlated by more than three standard errors, each 1/√(n − 1) for independent columns. Of a
+/// thousand independent pairs about three are.
 bool is_visible(const Correlation& value) {
   return std::abs(value.spearman) * std::sqrt(static_cast<double>(value.count) - 1) > 3;
 }
@@ -142,12 +142,12 @@ Json scatter_json(const PageSource& source, const Pair& pair) {
 
 // ---- needed changes
 
-/// The command that searches about the change of a lever; null where `margin` cannot make it.
+/// The `margin` command whose range holds the lever's change; null if `margin` cannot make the change.
 Json margin_command(const PageSource& source, const LeverChange& each) {
   if (each.lever.paths.empty() || !(each.change.change > 0)) return nullptr;
   const double t = each.change.change - 1;
-  const double beyond = std::max(0.05, 1 + 2 * t),
-               before = 1 - t / 2; // twice as far, and half the other way
+  // The range goes from twice the change to half of it in the other direction.
+  const double beyond = std::max(0.05, 1 + 2 * t), before = 1 - t / 2;
   std::vector<std::string> paths;
   for (const std::string& path : each.lever.paths) paths.push_back(shell_word(path));
   return fmt::format("wingspread margin {} --scale {} --range {:.2g} {:.2g} --out results/margin",

@@ -28,13 +28,12 @@ struct Pair {
 /// requirement.
 [[nodiscard]] std::vector<Pair> strongest_pairs(const PageSource& source, std::size_t most);
 
-/// The rows that a scatter shows as points, ascending: the extremes of both columns, then every n-th row; at most
-/// `most`.
+/// The rows that a scatter shows as points, ascending, at most `most`: the extremes of both columns and every n-th row.
 [[nodiscard]] std::vector<std::size_t> scatter_rows(const Column& x, const Column& y,
                                                     std::size_t most);
 
-/// CHANGES of page/DATA.md: by which changes of its inputs a failed requirement would pass. Empty for any other
-/// verdict, without rows, and for a static margin.
+/// CHANGES of page/DATA.md: changes of inputs by which a failed requirement would pass. Empty for any other verdict,
+/// without rows, and for a static margin.
 [[nodiscard]] Json changes_json(const PageSource& source, const Verdict& verdict);
 
 /// `unjudged` of page/DATA.md: loads without a requirement that are larger than each judged load of their kind.

@@ -137,7 +137,7 @@ Difference status_difference(const Sides& sides, std::size_t status) {
                                  confidence);
 }
 
-/// The runs over which the differences go.
+/// Says in words which runs are compared.
 std::string runs_text(const Sides& sides) {
   const long first = sides.first.summary.runs, second = sides.second.summary.runs,
              both = std::ssize(sides.rows.first);
@@ -151,7 +151,7 @@ std::string runs_text(const Sides& sides) {
 
 using Sets = std::span<const std::unique_ptr<PageSource>>;
 
-/// The set with the same case in a folder; nothing if there is none.
+/// The set of a folder with the same case; nothing if there is none.
 std::optional<std::size_t> partner_of(Sets sets, std::size_t set,
                                       const std::vector<std::size_t>& folder) {
   for (const std::size_t other : folder)

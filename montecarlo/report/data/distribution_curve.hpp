@@ -35,7 +35,7 @@ struct CurveKnot {
                                                         int replicates, double confidence,
                                                         std::size_t most);
 
-/// The same of streaming statistics, for independent draws: the knots are at most a bin off.
+/// The curve of streaming statistics, for independent draws. Each knot is off by at most a bin.
 [[nodiscard]] std::vector<CurveKnot> distribution_curve(const RankedPopulation& values,
                                                         double confidence, std::size_t most);
 

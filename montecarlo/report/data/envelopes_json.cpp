@@ -12,7 +12,7 @@
 namespace wingspread {
 namespace {
 
-constexpr double beyond_last_latch = 1.08; // the displayed time ends at so many last latches
+constexpr double beyond_last_latch = 1.08; // end of the displayed time over that of the last latch
 
 constexpr std::array sequence_levels{0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0};
 
@@ -27,7 +27,7 @@ struct Track {
   bool deployed = false;
 };
 
-/// Nothing but samples and latches, to the end.
+/// The goal of a run for samples and latches only, to its t_end.
 constexpr Goal samples_only{.peak_moment = false,
                             .peak_force = false,
                             .overtravel = false,
@@ -35,7 +35,7 @@ constexpr Goal samples_only{.peak_moment = false,
                             .end_state = false,
                             .to_t_end = true};
 
-/// The end of the displayed time by the campaign's deployment times; 0 without them.
+/// The end of the displayed time, from the campaign's deployment times; 0 without them.
 double end_by_results(const Results& results) {
   const auto times = std::ranges::find(results.outputs, "deployment_time", &Column::name);
   double last = 0;
@@ -45,7 +45,7 @@ double end_by_results(const Results& results) {
   return beyond_last_latch * last;
 }
 
-/// @param end of the displayed time, s: a run that deployed is made to there, without peaks; 0: unknown
+/// @param end end of the displayed time, s: the run is integrated to it, without peaks; 0: unknown
 Track track_of(const RunPlan& plan, long run, double end) {
   constexpr std::size_t most_samples = 400;
   const std::size_t hinges = plan.campaign().scene.hinges.size();
@@ -86,8 +86,8 @@ std::vector<Track> tracks_of(const PageSource& source, std::size_t most, int thr
   return tracks;
 }
 
-/// The 98 % quantile of the ends of the runs that deployed, so that one late run does not squeeze all others; without
-/// them the largest of all ends.
+/// The 98 % quantile of the ends of the deployed runs, so that one late run does not squeeze all others; the largest
+/// end of all runs if none deployed.
 double end_of(const std::vector<Track>& tracks) {
   double any = 0;
   std::vector<double> deployed;
@@ -206,7 +206,7 @@ Json release_json(const Hinge& hinge) {
           {"delay", page_number(release.delay)}};
 }
 
-/// Null for a wing without holds and whose latches cannot miss: its latch times say all.
+/// Null for a wing without holds whose latches cannot miss: its sequence is in the latch times.
 Json sequence_json(const std::vector<Track>& tracks, const Scene& scene) {
   if (std::ranges::none_of(scene.hinges, [](const Hinge& hinge) {
         return hinge.release || (hinge.latch && hinge.latch->can_miss());

@@ -73,7 +73,7 @@ bool has_settled(std::span<const MotionSample> samples, const MotionLayout& layo
   const auto after = std::ranges::lower_bound(samples, since, {}, &MotionSample::t);
   if (after == samples.end() || !(samples.back().t > since)) return false;
   const double late = since + 0.75 * (samples.back().t - since);
-  // A few steps are no cycle of any mode, and seem to stand still. Heuristic; fewer end a ring at its start.
+  // Heuristic: fewer samples do not span a cycle of a mode. With a smaller number a ring would seem over at its start.
   constexpr std::ptrdiff_t fewest = 16;
   if (samples.end() - std::ranges::lower_bound(samples, late, {}, &MotionSample::t) < fewest)
     return false;
@@ -92,7 +92,7 @@ bool has_settled(std::span<const MotionSample> samples, const MotionLayout& layo
       if (moment != before) way = moment - before, before = moment;
     }
     if (turns == 1 || turns == 2)
-      return false; // less than a cycle: a swing at its crest seems to stand still
+      return false; // less than a cycle: near its crest a slow swing seems to stand still
     if (last[1] - last[0] > settled_share * (all[1] - all[0])) return false;
   }
   return true;

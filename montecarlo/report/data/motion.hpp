@@ -46,11 +46,12 @@ private:
   long stride_ = 1, seen_ = 0;
 };
 
-/// The share of a ring's swing below which the ring is over.
+/// Heuristic: a ring is over once its swing is below this share of the whole swing. A smaller share shows
+/// a long picture of rest.
 inline constexpr double settled_share = 0.05;
 
-/// Whether the ring after `since` is over: in the last quarter of the time since then, no moment moves by more than
-/// settled_share of its whole swing since then. (A quarter, so that a turning point of the ring is no end of it.)
+/// Whether the ring after `since` is over: in the last quarter of the time since then no moment moves by more than
+/// settled_share of its whole swing. A whole quarter counts, because at a turning point the ring stands still too.
 [[nodiscard]] bool has_settled(std::span<const MotionSample> samples, const MotionLayout& layout,
                                double since);
 

@@ -70,8 +70,8 @@ void add_median(const PageSource& source, Choice& choice) {
                  static_cast<std::size_t>(row));
 }
 
-/// Adds the run that tells most about a requirement: of the runs that deployed the one with the worst value. If there
-/// is no value, the run that did not deploy with the fewest latched hinges.
+/// Adds one run for a requirement: the deployed run with the worst value or, if none has a value, the run with the
+/// fewest latched hinges.
 void add_worst_of(const PageSource& source, const Verdict& verdict, Choice& choice) {
   const BrokenRuns broken = broken_runs_of(source, verdict, 1);
   const std::string label = "worst: " + name_of(verdict.requirement);
@@ -177,12 +177,12 @@ Json motion_json(const Scene& scene, MotionRecorder& recorder, const Outcome& ou
 }
 
 /// Records a run until the moments have settled after `since`, or to t_end.
-/// @param run makes the run with the observer that it is given, which ends the run by an exception
+/// @param run makes the run with the observer passed to it; the observer ends the run by an exception
 template <class Run>
 void record_until_settled(double since, const MotionLayout& layout, MotionRecorder& recorder,
                           Run run) {
   struct Settled {};
-  long seen = 0, next = 64; // each look reads all samples, so looks become rarer
+  long seen = 0, next = 64; // each check reads all samples, so checks become rarer
   try {
     run([&, record = recorder.observer()](const Sample& sample) {
       record(sample);

@@ -18,7 +18,7 @@ std::size_t bin_of(const Histogram& histogram, double value) {
 
 constexpr const char* separators = "_-. "; // between the parts of a name
 
-/// What all names begin with, without separators at its end.
+/// The common beginning of all names, without separators at its end.
 std::string common_beginning(const std::vector<std::string>& names) {
   std::string common = names.front();
   for (const std::string& name : names)
@@ -69,7 +69,7 @@ std::string part_of(std::string_view order, const std::vector<std::string>& hing
   return part;
 }
 
-/// An order of a wing's hinges without the wing's name in theirs.
+/// An order of a wing's hinges, without the wing's name at the beginning of theirs.
 std::string without_name(std::string_view order, const WingOrders& wing) {
   std::string text;
   for (const std::string& hinge : split(order)) {

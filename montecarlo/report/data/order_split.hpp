@@ -18,8 +18,8 @@ using OrderCounts = std::map<std::string, long>;
 
 /// The most frequent orders, then one group for the other orders, then one for runs without a latch.
 ///
-/// In a scene of several wings an order is that of each wing by itself, "left: root>tip · right: tip>root": how the
-/// wings' sequences interleave would make almost every run an order of its own.
+/// In a scene of several wings an order is "left: root>tip · right: tip>root", wing by wing. If the order across wings
+/// counted too, almost every run would have an order of its own.
 class OrderSplit {
 public:
   static constexpr std::size_t most_orders =

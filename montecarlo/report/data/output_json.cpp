@@ -43,7 +43,7 @@ Json quantiles_json(const OutputSummary& output) {
   return json;
 }
 
-/// Neighbouring bins as one, so that at most `most_bins` are left.
+/// Merges neighbouring bins, so that at most `most_bins` are left.
 Histogram coarser(const Histogram& own, std::size_t most_bins) {
   const std::size_t each = (own.counts.size() + most_bins - 1) / most_bins;
   Histogram merged;
@@ -136,7 +136,7 @@ void add_pictures(const PageSource& source, std::size_t index, const PageDetail&
   column.values.release();
 }
 
-/// The same from streaming statistics, which lack the order of the runs: so there is no convergence.
+/// Adds the histogram and the curve, from streaming statistics. Without the order of the runs there is no convergence.
 void add_streaming_pictures(const PageSource& source, std::size_t index, const PageDetail& detail,
                             Json& json) {
   const RankedPopulation values(source.streaming->outputs()[index].values);

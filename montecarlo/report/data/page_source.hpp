@@ -35,7 +35,7 @@ struct PageSource {
   [[nodiscard]] bool has_rows() const { return !streaming; }
 };
 
-/// As broken_runs (broken_runs.hpp), without rows too.
+/// As broken_runs (broken_runs.hpp); also works for a folder without rows.
 [[nodiscard]] BrokenRuns broken_runs_of(const PageSource& source, const Verdict& verdict,
                                         std::size_t most);
 

@@ -41,7 +41,7 @@ Point furthest(const std::vector<Point>& marks) {
 /// Snaps a direction to the nearest axis of the frame if they nearly agree, because the line between two hinges is
 /// often slightly oblique to the panel.
 Point straightened(Point way) {
-  constexpr double slant = 0.2;
+  constexpr double slant = 0.2; // heuristic: 11°; if larger, oblique panels are drawn straight
   if (std::abs(way.y()) < slant * std::abs(way.x())) way.y() = 0;
   if (std::abs(way.x()) < slant * std::abs(way.y())) way.x() = 0;
   return way.normalized();

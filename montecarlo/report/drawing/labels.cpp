@@ -14,7 +14,7 @@ constexpr double width_per_size =
     0.58;                   // of a character, of the font's size; digits have 0.556 in Helvetica
 constexpr double blank = 3; // px on both sides of a text
 constexpr double crumb = 6; // px: lines are kept free in pieces of this length
-constexpr double nearest = 12, furthest = 170, ring = 11; // px from the anchor
+constexpr double nearest = 12, furthest = 170, ring = 11; // px from the anchor; heuristic, by eye
 constexpr int directions = 16;
 
 } // namespace

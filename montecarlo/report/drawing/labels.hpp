@@ -17,7 +17,7 @@ struct Box {
   }
 };
 
-/// The width of a text of this size in a usual sans-serif font, px; generous.
+/// An upper estimate of the width of a text of this size in a usual sans-serif font, px.
 [[nodiscard]] double text_width(const std::string& text, double size);
 
 class LabelPlaces {
@@ -28,8 +28,9 @@ public:
   /// Keeps a line free of labels.
   void avoid(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 
-  /// The nearest free place of a text beside its anchor, as the text's box; beyond a distance the nearest place that
-  /// overlaps no other text. Of places equally near, the one in the direction `away`. The place is then taken.
+  /// The box of the nearest free place for a text beside its anchor; of equally near places, the one closest to the
+  /// direction `away`. Without a free place nearby, the nearest that overlaps no other text, though a line may cross
+  /// it. Reserves the place.
   [[nodiscard]] Box place(const std::string& text, double size, const Eigen::Vector2d& anchor,
                           const Eigen::Vector2d& away = {1, 0});
 

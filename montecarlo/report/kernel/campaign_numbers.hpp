@@ -1,9 +1,11 @@
-/// A scene and its dispersions as a list of numbers: how the program hands them to the kernel in the page, which knows
-/// no JSON. One function visits every number in a fixed order; the program writes with it, the kernel reads with it.
+/// A scene and its dispersions as a list of numbers. In this form the program passes them to the kernel in the page,
+/// which cannot read JSON. One function visits every number in a fixed order; the program writes and the kernel reads
+/// with it.
 ///
 /// A pass has:  number(double&), integer(int&), list(std::vector<double>&), text(std::string&), and
 ///              `reads`, whether it fills what it visits.
-/// What number() visits in the scene stays where it is as long as the scene does: draws act there.
+/// A pass may keep the addresses that number() visits in the scene: they stay valid as long as the scene. Draws act
+/// there.
 #pragma once
 
 #include "core/outcome.hpp"
@@ -25,7 +27,7 @@
 
 namespace wingspread {
 
-/// The parameter at a place among the scene's numbers, changed by a draw or by a table's value at the draw.
+/// How a draw changes one of the scene's numbers: by its value, or by the value of a table at the draw.
 struct NumberedEffect {
   int how = 0;                   ///< 0: replaces, 1: multiplies, 2: is added
   int place = 0;                 ///< counted from 0 over the scene's numbers

@@ -26,10 +26,10 @@ void throw_exception(const std::exception&, const source_location&) { __builtin_
 
 using namespace wingspread;
 
-/// a·b + c with one rounding, in place of the C library's, which takes ten times as long. WebAssembly has no such
-/// instruction; with it the kernel has the program's bits, without it stiff runs differ by 1e-7.
-/// Products of Dekker, the last sum rounded to odd: S. Boldo and G. Melquiond, IEEE Trans. Comput. 57 (2008) 462–471.
-/// Beyond 1e290, where a product of halves overflows, and for what is not finite: two roundings.
+/// a·b + c with one rounding. WebAssembly has no such instruction, and the C library's function takes ten times as
+/// long. With it the kernel has the program's bits; with two roundings stiff runs would differ by 1e-7. Products of
+/// Dekker, the last sum rounded to odd: S. Boldo and G. Melquiond, IEEE Trans. Comput. 57 (2008) 462–471. Two roundings
+/// beyond 1e290, where a product of halves overflows, and for infinities and NaN.
 extern "C" double fma(double a, double b, double c) {
   const double product = a * b;
   if (!(std::abs(product) < 1e290 && std::abs(c) < 1e290 && std::abs(a) < 1e290 &&
@@ -175,10 +175,10 @@ private:
       }
   }
 
-  /// status, t_end, peaks_final, number of latches, then (hinge, time, rates…) of each; then of each hinge peak moment
-  /// and its time, peak force, overtravel, hold moment, final angle and motor energy, NaN where not asked for; then the
-  /// base's peak angle and rate; then of releases, passes too fast for the latch and latches that let go: their number,
-  /// (hinge, time) of each.
+  /// Sets `result`, which 66-run.js reads: status, t_end, peaks_final; the number of latches, and of each (hinge, time,
+  /// rates…); of each hinge the peak moment and its time, peak force, overtravel, hold moment, final angle and motor
+  /// energy, NaN if not asked for; the base's peak angle and rate; of releases, of passes too fast for the latch and of
+  /// latches that let go their number, and of each (hinge, time).
   void keep_result(const Outcome& outcome) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     result = {static_cast<double>(outcome.status), outcome.t_end,
@@ -208,8 +208,8 @@ private:
     }
   }
 
-  /// Samples to the end of the ring. If a proof ended the run before, it is made again to a later end: exceptions, by
-  /// which an observer could end a run, are switched off here.
+  /// Keeps the samples up to the end of the ring. If a proof ended the run earlier, repeats the run with a later end.
+  /// (An observer cannot end the run, because the kernel is compiled without exceptions.)
   void keep_samples(MotionRecorder& recorder, const Outcome& outcome) {
     const MotionLayout layout{campaign_.scene.hinges.size()};
     const double since = outcome.latches.empty() ? 0 : outcome.latches.back().time;

@@ -16,7 +16,7 @@ namespace wingspread {
 namespace {
 
 constexpr std::size_t most_times = 400; // of a trace: a picture has some 600 pixels
-constexpr std::size_t most_rows = 400;  // of the posterior: points that can be told apart
+constexpr std::size_t most_rows = 400;  // of the posterior: more points hide each other
 
 /// All rows of a CSV file without its header.
 std::vector<std::vector<std::string>> rows_of(const std::filesystem::path& path,
@@ -38,7 +38,7 @@ Json number_of(const std::string& cell) {
   return value ? page_number(*value) : Json(nullptr);
 }
 
-/// Evenly chosen ones of `count` rows.
+/// At most `most` of `count` rows from `first` on, evenly chosen.
 std::vector<std::size_t> chosen(std::size_t first, std::size_t count, std::size_t most) {
   std::vector<std::size_t> rows;
   const std::size_t kept = std::min(count, most);

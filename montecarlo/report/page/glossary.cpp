@@ -33,8 +33,8 @@ constexpr std::array outputs{
     Entry{"HINGE.final_angle", "the hinge's angle at t_end, from its latched angle"},
     Entry{
         "HINGE.motor_energy",
-        "work of the hinge's motor on the wing while the hinge's latch is not engaged; below 0 of "
-        "a motor that brakes"},
+        "work of the hinge's motor on the wing while the hinge's latch is not engaged; below 0 if "
+        "the motor brakes"},
     Entry{"BODY.peak_bending_moment",
           "largest |moment| in the joints of a flexible body over the whole run"},
     Entry{"mode_K.frequency", "natural frequency of the draw's wing with every latch engaged, "

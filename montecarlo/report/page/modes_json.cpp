@@ -29,7 +29,7 @@ Eigen::Vector2d center_of_mass(const WingModes& modes, const NaturalMode& mode, 
   return moment / mass;
 }
 
-/// How a free base moves for a unit of the mode: nothing accelerates the common centre of mass.
+/// Motion of a free base for a unit of the mode, by which the common centre of mass stays at rest.
 Json base_json(const WingModes& modes, const NaturalMode& mode) {
   if (modes.wing.scene.base.motion != BaseMotion::free) return nullptr;
   constexpr double small = 1e-4; // rad: a difference of first order

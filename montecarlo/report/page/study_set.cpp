@@ -226,7 +226,7 @@ Json levels_json(const Json& repeat) {
   return levels;
 }
 
-/// The draws that were simulated by themselves, the largest part of the sum first.
+/// The strata of a rare event, the largest part of the sum first.
 Json strata_json(const Json& study) {
   constexpr std::size_t most = 12;
   std::vector<Json> strata;
@@ -286,7 +286,7 @@ Json fit_study_set(const std::filesystem::path& folder, const std::string& label
   return set;
 }
 
-/// Calls `read`; errors in the files name the folder.
+/// Calls `read`, and names the folder in its errors.
 template <class Read> auto reading(const std::filesystem::path& folder, Read read) {
   try {
     return read();

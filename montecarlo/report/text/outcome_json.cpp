@@ -53,7 +53,7 @@ Json events_json(const Scene& scene, const std::vector<HingeEvent>& events) {
   return json;
 }
 
-/// Of hinges that are held.
+/// Hold moments of the hinges that have a release.
 Json holds_json(const Scene& scene, const Outcome& outcome) {
   if (outcome.hold_moment.empty() || outcome.status == Status::failed) return nullptr;
   Json json = Json::object();
@@ -73,7 +73,7 @@ Json peaks_json(const Scene& scene, const std::vector<Peak>& peaks, Status statu
   return json;
 }
 
-/// By flexible body.
+/// Bending moments, by flexible body.
 Json bending_json(const Scene& scene, const Outcome& outcome) {
   if (outcome.bending_moment.empty() || outcome.status == Status::failed) return nullptr;
   Json json = Json::object();
@@ -84,7 +84,7 @@ Json bending_json(const Scene& scene, const Outcome& outcome) {
   return json;
 }
 
-/// Of hinges with a motor.
+/// Energies of the motors, by hinge.
 Json motors_json(const Scene& scene, const Outcome& outcome) {
   if (outcome.motor_energy.empty() || outcome.status == Status::failed) return nullptr;
   Json json = Json::object();
@@ -124,7 +124,7 @@ Json energy_json(const EnergyAudit& energy) {
 
 namespace {
 
-/// Adds what a scene without holds, motors, and latches that may miss does not have.
+/// Adds the keys that only scenes with holds, motors, or latches that may miss have.
 void add_life(const Scene& scene, const Outcome& outcome, Json& json) {
   const auto is_held = [](const Hinge& hinge) { return hinge.release.has_value(); };
   const auto may_miss = [](const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); };

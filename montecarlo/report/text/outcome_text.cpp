@@ -57,7 +57,7 @@ std::string peak_columns(const std::vector<Peak>& peaks, std::size_t hinge) {
   return fmt::format("{:>14.4f}{:>12.6f}", peaks[hinge].value, peaks[hinge].time);
 }
 
-/// What holds bore; empty where no hinge is held.
+/// The moments that holds bore; empty if no hinge is held.
 std::string holds(const Scene& scene, const Outcome& outcome) {
   if (outcome.hold_moment.empty() || outcome.status == Status::failed) return "";
   std::string text = fmt::format("\n{:<24}{:>15}{:>12}\n", "HOLD", "moment, N·m", "at, s");
@@ -68,7 +68,7 @@ std::string holds(const Scene& scene, const Outcome& outcome) {
   return text;
 }
 
-/// What motors gave; empty where no hinge has one.
+/// The energies of motors; empty if no hinge has one.
 std::string motors(const Scene& scene, const Outcome& outcome) {
   if (outcome.motor_energy.empty() || outcome.status == Status::failed) return "";
   std::string text = fmt::format("\n{:<24}{:>15}\n", "MOTOR", "energy, J");

@@ -13,7 +13,7 @@ namespace wingspread {
 
 [[nodiscard]] std::string replay_text(const Replayed& replayed);
 
-/// The options of `simulate` that give a scene these settings, each after a blank; empty for the defaults.
+/// The options of `simulate` for these settings, each after a blank; empty for the defaults.
 [[nodiscard]] std::string options_of(const Integration& integration);
 
 } // namespace wingspread
