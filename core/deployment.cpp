@@ -104,7 +104,8 @@ template <class Value> void keep_first(std::vector<Value>& all, std::size_t coun
   if (all.size() > count) all.resize(count);
 }
 
-/// The outcome of a segmented scene as that of the given one: joints go, but for the largest moment of each body.
+/// Converts the outcome of a segmented scene to the given scene: drops the joints, but keeps the largest moment in the
+/// joints of each body.
 [[nodiscard]] Outcome without_joints(const SegmentedScene& made, Outcome&& out) {
   const std::size_t bodies = made.joints.size(), hinges = bodies; // a tree has as many
   if (!out.peak_moment.empty()) {
@@ -122,7 +123,7 @@ template <class Value> void keep_first(std::vector<Value>& all, std::size_t coun
   return std::move(out);
 }
 
-/// An observer of a segmented scene that tells another what it sees of the given one.
+/// An observer of the segmented scene that passes samples without joints to `observer`.
 [[nodiscard]] Observer without_joints(std::size_t hinges, const Observer& observer) {
   if (!observer) return {};
   return [hinges, &observer](Sample sample) {
@@ -333,7 +334,7 @@ Occupancy DeploymentPack::run_segmented(Scene scene, const Next& next, const Don
           return name;
         }
       }
-      // unphysical, or a draw has moved a hinge to another segment
+      // The scene is unphysical, or a draw has moved a hinge to another segment, which gives another tree.
       done(*name, alone.run(scene, how_, goal_, observer_of(*name, watch)));
     }
     return std::nullopt;

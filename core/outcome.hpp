@@ -26,14 +26,14 @@ struct Integration {
 struct Goal {
   bool peak_moment = true;
   bool peak_force = true;
-  bool overtravel = true;        ///< watch how far hinges turn beyond their stowed angles
-  bool hold_moment = true;       ///< watch what holds bear
-  bool base_motion = false;      ///< end no sooner than the peaks of a free base's motion are final
-  bool motor_energy = true;      ///< watch what motors give
-  bool audit = true;             ///< watch how far the energy drifts up to the first latch
+  bool overtravel = true;        ///< fill Outcome::overtravel
+  bool hold_moment = true;       ///< fill Outcome::hold_moment
+  bool base_motion = false;      ///< end only once the peaks of a free base's motion are final
+  bool motor_energy = true;      ///< fill Outcome::motor_energy
+  bool audit = true;             ///< fill EnergyAudit::drift_before_first_latch
   bool end_state = true;         ///< fill Outcome::final and Outcome::energy
   bool final_angle = true;       ///< fill Outcome::final_angle
-  bool to_rest = false;          ///< end no sooner than all hinges are stuck for good, or at t_end
+  bool to_rest = false;          ///< end only once all hinges are stuck for good, or at t_end
   bool to_t_end = false;         ///< integrate to t_end whatever happens
   bool first_latch_only = false; ///< end at the first latch
   bool mode_frequencies = false; ///< fill Outcome::mode_frequencies
@@ -42,11 +42,11 @@ struct Goal {
   bool sample_motion_only = false; ///< samples without moments and energies
 };
 
-/// `deployed`: every latch is engaged at the end, and no hold still holds a hinge. Of a hinge without a latch nothing
-/// else is asked. `stalled`: at least one latch is not engaged, and it is proven that none will engage any more, though
-/// hinges may still swing; or a hinge, with a latch or without, is still held at the end. Outcome::reason names the
-/// proof: everything sticks, energy is missing, or a hinge was never released. A scene without latches ends
-/// `timed_out`, unless a hinge is still held.
+/// `deployed`: at the end every latch is engaged and no hinge is held. A hinge without a latch need not do more.
+/// `stalled`: it is proven that no open latch will engage any more, though hinges may still swing; or a hinge, with a
+/// latch or without, is still held at the end. Outcome::reason names the proof: everything sticks, energy is missing,
+/// or a hinge was never released. `timed_out`: t_end came first. A scene without latches ends so, unless a hinge is
+/// still held.
 enum class Status { deployed, stalled, timed_out, invalid, failed };
 [[nodiscard]] const char* to_string(Status status);
 
@@ -114,12 +114,12 @@ struct Outcome {
   std::string reason;              ///< why status is stalled, invalid or failed; else empty
   std::vector<Phase> phases;       ///< in order of time
   double t_end = 0;                ///< time at which the integration ended, s
-  std::vector<LatchEvent> latches; ///< in order of time; of a latch that let go, each engagement
+  std::vector<LatchEvent> latches; ///< every engagement, in order of time
   std::vector<HingeEvent> let_go;  ///< engaged latches that let go, in order of time
   std::vector<HingeEvent>
       missed; ///< passes of the latched angle too fast for the latch, in order of time
   std::vector<HingeEvent> releases; ///< holds that let go, in order of time
-  /// Of a stalled run, hinges that are held at its end and that no other held hinge keeps waiting.
+  /// Hinges that are still held at the end of a stalled run, without those that wait for another held hinge.
   std::vector<int> never_released;
   std::vector<Peak> peak_moment; ///< N·m; empty when not asked for
   std::vector<Peak> peak_force;  ///< N; empty when not asked for
@@ -133,13 +133,13 @@ struct Outcome {
   /// The largest moment in the joints of each flexible body, by Scene::bodies, N·m; empty when no moments are asked
   /// for, or without flexible bodies. Zero for a rigid body.
   std::vector<Peak> bending_moment;
-  /// Of the scene with all latches engaged, whatever became of the run, lowest first, Hz; empty unless asked for, and
-  /// where the scene is unphysical or has no rest.
+  /// Natural frequencies of the scene with all latches engaged, even if the run did not deploy; lowest first, Hz. Empty
+  /// if not asked for, or if the scene is unphysical or has no rest.
   std::vector<double> mode_frequencies;
   /// How far each hinge turned beyond its stowed angle up to t_end, rad, ≥ 0; empty when not asked for.
   /// Final if peaks_final, unless the run stalled.
   std::vector<double> overtravel;
-  /// Up to t_end; nothing if the base is not free.
+  /// Largest changes of the base's angle and rate up to t_end; nothing if the base is not free.
   std::optional<BasePeaks> base_peaks;
   /// Whether it is proven that no peak of moments and forces would rise after t_end. If false, peaks may
   /// still rise, or no proof exists: on a base that turns faster and faster, or if a hinge has neither

@@ -60,8 +60,8 @@ Json sensitivity_json(const RankSensitivity& all, const Json& about) {
         {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
         {"moves_nothing", "dispersions of which no coefficient differs from 0 at the confidence "
                           "shared over all outputs"},
-        {"follow_from_others", "dispersions of whose ranks half the variance or more is explained "
-                               "by the others: prcc has none of their joint effect"}}},
+        {"follow_from_others", "dispersions of which the others explain half of the ranks' "
+                               "variance or more: prcc omits their joint effect"}}},
       {"outputs", outputs},
       {"do_not_vary", all.unvaried},
       {"moves_nothing", all.idle},

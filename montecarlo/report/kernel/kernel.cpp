@@ -1,5 +1,6 @@
-/// The kernel in the page: core and distributions, compiled to WebAssembly (kernel.cmake). The page fills `input` with
-/// the campaign's numbers, draws a run or sets draws itself, changes parameters, runs, and reads results and samples.
+/// The kernel in the page: core and distributions, compiled to WebAssembly (build_kernel.sh). The page fills `input`
+/// with the campaign's numbers, draws a run or sets draws itself, changes parameters, runs, and reads results and
+/// samples.
 ///
 ///     input(count) → fill → open() → draw(run) | median() → run(changes) → result(), samples()
 #include "core/mechanics/structure.hpp"

@@ -63,7 +63,7 @@
     });
     return [...groups].map(([text, labels]) => `${listed(labels)}: ${text}`).join("; ");
   }
-  // In place of the headline of a campaign that lacks runs.
+  // The headline of a campaign that lacks runs.
   function unfinished(rows) {
     return h(
       "p.headline.open.incomplete",
@@ -190,7 +190,7 @@
         " ",
         h("span.nowrap", h("button.run", { onclick: () => W.selectRun(at, run) }, String(run)), k + 1 < all.length ? "," : null),
       ]);
-  // How many runs break a requirement, by cause, each with the runs that tell most.
+  // How many runs break a requirement, by cause; beside each cause its worst runs.
   function brokenRuns(one, set, at) {
     const first = (count, runs) => (count > Math.min(3, (runs || []).length) ? " worst:" : count === 1 ? " run" : " runs");
     const line = (text, count, runs) =>

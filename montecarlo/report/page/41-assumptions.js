@@ -4,7 +4,7 @@
   const W = window.wingspread;
   const { h } = W;
 
-  // What a page of runs without rows has, and what it lacks.
+  // A paragraph on the parts and the precision of a page without rows; null if all sets have rows.
   W.withoutRowsNote = function () {
     const sets = W.sets.filter((set) => set.rows === false);
     return sets.length
@@ -16,7 +16,7 @@
       : null;
   };
 
-  // What the model leaves out, where a reader of the verdicts looks for assumptions.
+  // The section on the assumptions of the model.
   W.assumptions = function () {
     const scene = ((W.set().inputs || {}).scene || []).map((one) => one.path),
       named = (pattern) => [...new Set(scene.map((path) => (pattern.exec(path) || [])[1]).filter(Boolean))],

@@ -106,7 +106,7 @@
   const cautions = (set, lever) =>
     [jumpCaution(set, lever), torqueCaution(set, lever)].filter(Boolean).map((text) => h("small.caution", text));
 
-  // The needs of other sets that fail the same requirement, of a lever's draws.
+  // The changes of a lever's draws that other sets need, which fail the same requirement.
   function elsewhere(one, set, block, lever) {
     return W.sets
       .filter((other) => other !== set && other.campaign === set.campaign)

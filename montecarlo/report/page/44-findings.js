@@ -16,7 +16,7 @@
     });
     return sentences.filter(Boolean).map((text) => h("p.lead", text));
   }
-  // Where more runs than may did not deploy: how many, and what would change it; once for each set.
+  // For each set in which too many runs did not deploy: how many, and by which changes it would pass.
   function deployments(rows) {
     const items = W.sets.map(function (set, at) {
       const failed = rows.filter(

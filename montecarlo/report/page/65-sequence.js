@@ -182,7 +182,7 @@
     });
   }
 
-  // Null for a wing without holds and whose latches cannot miss: its latch times say all.
+  // Null for a wing without holds whose latches cannot miss: its sequence is in the latch times.
   W.sequence = function (set) {
     if (!of(set) || !lanesOf(set).length) return null;
     return [h("h3", "Sequence of releases and captures"), timeLine(set), table(set)];

@@ -166,7 +166,7 @@
   }
 
   function table(set, made, plain, label) {
-    // Bending moments and frequencies are not among what the kernel hands over.
+    // The kernel's result has no bending moments and no frequencies.
     const known = (output) =>
       /^(deployment_time$|base\.)/.test(output.name) || set.wing.hinges.some((hinge) => hinge.name === output.hinge);
     const shown = set.outputs
