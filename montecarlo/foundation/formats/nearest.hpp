@@ -8,8 +8,8 @@
 
 namespace wingspread {
 
-/// The fewest insertions, deletions and substitutions of bytes, and swaps of two neighbours, that turn one word into the
-/// other; no byte is changed twice (optimal string alignment). Cost O(|a| |b|).
+/// The fewest insertions, deletions and substitutions of bytes, and swaps of two neighbours, that turn one word into
+/// the other; no byte is changed twice (optimal string alignment). Cost O(|a| |b|).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The known word nearest to `word`, the first of several; empty if more than half of the longer word would change.

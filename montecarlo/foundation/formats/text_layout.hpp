@@ -24,8 +24,8 @@ inline constexpr int table_width = 100;
 /// A single word may be longer.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t indent);
 
-/// Every line of a text, broken at blanks to stay within `table_width`; what goes on below is indented by four columns more
-/// than the line. A line with columns (three blanks in a row) stays as it is.
+/// Every line of a text, broken at blanks to stay within `table_width`; what goes on below is indented by four columns
+/// more than the line. A line with columns (three blanks in a row) stays as it is.
 [[nodiscard]] std::string wrapped_lines(std::string_view text);
 
 /// Five significant digits with trailing zeros, so that columns line up; "–" of NaN.

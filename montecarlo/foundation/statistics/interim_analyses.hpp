@@ -8,15 +8,16 @@
 ///
 ///   ρ_k = P(F_1 > a_1, …, F_{k−1} > a_{k−1}, F_k ≤ a_k)                                       (1)
 ///
-/// Planned analyses (checkpoints of `until`) share α equally (bonferroni.hpp). An extension is not planned: whoever adds
-/// runs after "fail" has the chance of another pass. The first analysis that can pass at all has spent up to α by itself,
-/// because it was a fixed number of runs. Each later one spends at most half of what is left of α:
+/// Planned analyses (checkpoints of `until`) share α equally (bonferroni.hpp). An extension is not planned: whoever
+/// adds runs after "fail" has the chance of another pass. The first analysis that can pass at all has spent up to α by
+/// itself, because it was a fixed number of runs. Each later one spends at most half of what is left of α:
 ///
 ///   ρ_k ≤ (α − ρ_1 − … − ρ_{k−1})/2                                                           (2)
 ///
 /// So Σ ρ_k ≤ α for any number of extensions, and another one is always possible. (1) is exact: the distribution of F_k
-/// on the paths that have not passed follows from that of F_{k−1} by adding Bin(n_k − n_{k−1}, 1 − p). A path with fewer
-/// failures passes no later, so P = p is the worst case of P ≤ p. Half is a choice: any share below 1 keeps Σ ρ_k ≤ α.
+/// on the paths that have not passed follows from that of F_{k−1} by adding Bin(n_k − n_{k−1}, 1 − p). A path with
+/// fewer failures passes no later, so P = p is the worst case of P ≤ p. Half is a choice: any share below 1 keeps Σ ρ_k
+/// ≤ α.
 ///
 /// Bounds of extension k (k ≥ 2) use the risk α/(k(k − 1)), in sum α: those of all extensions hold together at c.
 /// Source: C. Jennison, B. W. Turnbull, Group Sequential Methods (2000), chapters 7 (spending) and 12 (binomial).

@@ -13,8 +13,8 @@ using Matrix = Eigen::MatrixXd;
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-/// s_ij of a row i with all rows, of one column: a bit for each row j, set where s is 1 and where it is −1. A product of
-/// two columns is then a count of bits, some 30 times as fast as one of numbers.
+/// s_ij of a row i with all rows, of one column: a bit for each row j, set where s is 1 and where it is −1. A product
+/// of two columns is then a count of bits, some 30 times as fast as one of numbers.
 class Signs {
 public:
   Signs(std::span<const double> column, std::size_t row, std::size_t rows) {

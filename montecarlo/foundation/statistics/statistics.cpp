@@ -93,7 +93,8 @@ std::vector<double> sorted_present(std::span<const double> values) {
 
 void sort_values(std::span<double> values) {
   boost::sort::pdqsort_branchless(values.begin(), values.end());
-  // −0 and 0 are equal to the comparison: put −0 first, so that the sign of a minimum does not depend on the rows' order.
+  // −0 and 0 are equal to the comparison: put −0 first, so that the sign of a minimum does not depend on the rows'
+  // order.
   const auto [first, last] = std::equal_range(values.begin(), values.end(), 0.0);
   std::partition(first, last, [](double zero) { return std::signbit(zero); });
 }

@@ -54,7 +54,8 @@ struct Dispersions {
   Json resolved; ///< the JSON in SI, with values instead of file names; an `each` is not expanded
 };
 
-/// The coordinates of the unit cube in which a run is drawn: one for each dispersion, and one for all columns of `rows`.
+/// The coordinates of the unit cube in which a run is drawn: one for each dispersion, and one for all columns of
+/// `rows`.
 struct Coordinates {
   std::vector<std::string> names;
   std::vector<std::size_t> of; ///< the coordinate of each dispersion

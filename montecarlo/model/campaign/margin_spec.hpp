@@ -42,8 +42,8 @@ struct MarginSpec {
 [[nodiscard]] Json write_margin(const MarginSpec& margin, const StaticMarginSpec& motorization,
                                 const Scene& scene);
 
-/// The parameters that together scale a hinge's spring, with its offset: its torques stowed and latched, or the scale of
-/// its table.
+/// The parameters that together scale a hinge's spring, with its offset: its torques stowed and latched, or the scale
+/// of its table.
 [[nodiscard]] std::vector<SceneParameter> spring_torques(const Scene& scene, int hinge);
 /// Whether one of the parameters scales the hinge's spring (its scale counts too).
 [[nodiscard]] bool sizes_spring(std::span<const SceneParameter> scaled, const Scene& scene,

@@ -94,9 +94,9 @@ struct OutputColumn {
 };
 
 /// The columns of the families for a scene: hinge by hinge in the scene's order, then flexible bodies' bending moments
-/// (with the peak moments), a free base's, the modes', then `deployment_time`, which is always present. An elastic joint
-/// has peaks only. A hinge without a latch has no latch_time and latch_rate, but rate_at
-/// other hinges' latching. A hinge has no rate_at its own latching: that is its latch_rate.
+/// (with the peak moments), a free base's, the modes', then `deployment_time`, which is always present. An elastic
+/// joint has peaks only. A hinge without a latch has no latch_time and latch_rate, but rate_at other hinges' latching.
+/// A hinge has no rate_at its own latching: that is its latch_rate.
 [[nodiscard]] std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outputs);
 
 /// The goal of a run that has these outputs. Without peaks a run ends at the last latch. With final_angle it ends at
@@ -108,8 +108,9 @@ struct OutputColumn {
 
 /// The column's value in a run; NaN if it did not happen.
 ///
-/// A latching counts whatever the run's status; of a latch that let go, the one that holds at the end of the run. Peaks and overtravel are NaN in a failed run, whose later values are
-/// unknown; in a timed-out run they are those up to t_end. `deployment_time` needs all latches.
+/// Latch times and rates are given whatever the run's status. If a latch let go, they are those of the engagement that
+/// holds at the end of the run. Peaks and overtravel are NaN in a failed run, because later values are unknown; in a
+/// timed-out run they are those up to t_end. `deployment_time` needs all latches.
 [[nodiscard]] double output_of(const OutputColumn& column, const Outcome& outcome);
 
 /// The names of the latched hinges in order of time: "root>mid>tip".

@@ -1,5 +1,5 @@
-/// What all draws have in common: parameters whose nominal value is lost, because a dispersion sets them in every run; and
-/// whether draws differ at all.
+/// What all draws have in common: parameters whose nominal value is lost, because a dispersion sets them in every run;
+/// and whether draws differ at all.
 #pragma once
 
 #include "distributions/prepared_distribution.hpp"

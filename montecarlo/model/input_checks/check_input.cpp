@@ -35,8 +35,8 @@ Outcome check_motion(const Scene& scene, const Integration& integration, InputWa
   return nominal;
 }
 
-/// The scene as written, so that warnings name the numbers of its file. It has none for a draw that acts through tables:
-/// that draw is at its median.
+/// The scene as written, so that warnings name the numbers of its file. It has none for a draw that acts through
+/// tables: that draw is at its median.
 Scene written_scene(Campaign campaign) {
   std::erase_if(campaign.dispersions, [](const Dispersion& each) { return each.through.empty(); });
   return nominal_scene(campaign);

@@ -254,8 +254,9 @@ std::optional<double> nominal_of(const Campaign& campaign, const std::string& ou
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-/// Whether a limit on an angle or a rate differs from the nominal value by about 57.3, either way. A limit leaves a margin:
-/// up to a factor of 3 on either side. A limit of less than half a degree, or one meant in degrees, is none of these.
+/// Whether a limit on an angle or a rate differs from the nominal value by about 57.3, either way. A limit leaves a
+/// margin: up to a factor of 3 on either side. A limit of less than half a degree, or one meant in degrees, is none of
+/// these.
 bool looks_converted(double limit, double nominal, const std::string& unit) {
   constexpr double margin = 3;
   if (!unit.starts_with("rad") || nominal == 0) return false;

@@ -9,7 +9,8 @@ namespace wingspread {
 /// Warns of each dispersion by the first rule that it breaks (an `each` at its first match):
 ///
 /// - scale: the mean is outside 0.5 to 2;
-/// - add: the mean exceeds a quarter of the nominal value, or the central 95 % of the draws exceed it (for a coordinate: the
+/// - add: the mean exceeds a quarter of the nominal value, or the central 95 % of the draws exceed it (for a
+/// coordinate: the
 ///   length of its vector). A factor meant for "scale" breaks this rule;
 /// - set: the median is more than 30 times the nominal value or less than 1/30 (inches for metres: 39); draws about 1
 ///   replace a nominal factor other than 1, or a nominal value that is far from them ("scale" is meant);
@@ -31,8 +32,9 @@ void check_correlations(const Campaign& campaign, InputWarnings& warnings);
 void check_outputs(const Campaign& campaign, InputWarnings& warnings);
 
 /// Warns of requirements that no run or every run meets: a limit on the other side of zero than the nominal value, a
-/// negative limit of a magnitude, a limit on an angle or a rate that is in degrees or has been converted twice (by about
-/// 57.3 from the nominal value), and a limit on a peak while the base's rate grows (no peak is then proven final).
+/// negative limit of a magnitude, a limit on an angle or a rate that is in degrees or has been converted twice (by
+/// about 57.3 from the nominal value), and a limit on a peak while the base's rate grows (no peak is then proven
+/// final).
 /// @param nominal the nominal deployment
 void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings);
 

@@ -154,7 +154,8 @@ private:
                                 : "");
     return "";
   }
-  /// The expectation of the first reader that states one; and of the first that takes units, if the value may have some.
+  /// The expectation of the first reader that states one; and of the first that takes units, if the value may have
+  /// some.
   static std::string description_of(const Instances& all) {
     std::string first, quantity;
     for (const Instance& each : all)

@@ -6,7 +6,8 @@
 
 namespace wingspread {
 
-/// A line of a JSON file, and what it says. Lines without a note repeat what earlier ones say for another body or hinge.
+/// A line of a JSON file, and what it says. Lines without a note repeat what earlier ones say for another body or
+/// hinge.
 struct AnnotatedLine {
   std::string json;
   std::string note{};

@@ -20,8 +20,8 @@ struct StarterLimits {
                                               const std::string& scene_file,
                                               const StarterLimits& limits);
 
-/// Twice the longest deployment and three times the largest moments of the nominal wing in the campaign's cases, rounded
-/// up to two digits. Nothing if a nominal wing does not deploy.
+/// Twice the longest deployment and three times the largest moments of the nominal wing in the campaign's cases,
+/// rounded up to two digits. Nothing if a nominal wing does not deploy.
 [[nodiscard]] std::optional<StarterLimits> starter_limits(const WingDesign& design);
 
 } // namespace wingspread

@@ -9,8 +9,8 @@
 ///
 /// Body k has its inner hinge at (−L_k/2, s_k p/2) and its outer hinge at (L_k/2, −s_k p/2), from its centre of mass.
 /// The next body has its inner hinge at height s_{k+1} p/2 = −s_k p/2: deployed at angles 0, all centres are in one
-/// line. Stowed, the root turns by 90°, and hinge k by s_k 180° back over body k − 1, on the face of their hinge: body k
-/// lies flat at a distance of (k − 1/2) p from the wall. The wing on the other side is the mirror image.
+/// line. Stowed, the root turns by 90°, and hinge k by s_k 180° back over body k − 1, on the face of their hinge: body
+/// k lies flat at a distance of (k − 1/2) p from the wall. The wing on the other side is the mirror image.
 #pragma once
 
 #include "montecarlo/foundation/formats/quantity.hpp"

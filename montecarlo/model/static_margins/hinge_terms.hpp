@@ -2,8 +2,8 @@
 /// Kinetic energy, stops, gravity and air are not counted. A torque test both ways (`measured`) gives its mean to the
 /// spring and half its difference to the friction.
 ///
-/// A motor counts with its moment at rest: its stall torque under the fastest command towards the latch. One that is never
-/// commanded towards the latch resists.
+/// A motor counts with its moment at rest: its stall torque under the fastest command towards the latch. One that is
+/// never commanded towards the latch resists.
 ///
 /// Dampers and viscous friction vanish at rest. With a stated rate they resist as at that rate, in addition to the
 /// friction at rest.
