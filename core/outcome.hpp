@@ -141,9 +141,9 @@ struct Outcome {
   std::vector<double> overtravel;
   /// Largest changes of the base's angle and rate up to t_end; nothing if the base is not free.
   std::optional<BasePeaks> base_peaks;
-  /// Whether it is proven that no peak of moments and forces would rise after t_end. If false, peaks may
-  /// still rise, or no proof exists: on a base that turns faster and faster, or if a hinge has neither
-  /// an engaged latch nor a spring towards rest.
+  /// Whether it is proven that no peak of moments and forces would rise after t_end. If false, peaks may still rise, or
+  /// there is no proof. None exists on a base that turns faster and faster, or if a hinge has neither an engaged latch
+  /// nor a spring towards rest.
   bool peaks_final = false;
   Configuration final; ///< at t_end; empty unless Goal::end_state
   EnergyAudit energy;  ///< zeros unless Goal::end_state or audit

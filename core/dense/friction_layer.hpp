@@ -1,10 +1,10 @@
 /// Limits steps through the layer |φ̇| < ω_s in which regularized friction changes its sign.
 ///
-/// The friction −τ_c φ̇/√(φ̇² + ω_s²) has its singularities at φ̇ = ±i ω_s. A step that takes a rate
-/// many times its distance to them, √(φ̇² + ω_s²), across zero has few stages in the
-/// layer, or none: its result is wrong and its error estimate does not show it. A step whose rate changes by at
-/// most a few times the least distance samples the layer, and its estimate can be trusted. Such steps form a
-/// geometric series towards zero and away from it.
+/// The friction −τ_c φ̇/√(φ̇² + ω_s²) has its singularities at φ̇ = ±i ω_s. Their distance to a rate is √(φ̇² + ω_s²). A
+/// step that takes the rate across zero by many times this distance has few stages in the layer, or none. Its result is
+/// wrong, and its error estimate does not show it. A step whose rate changes by at most a few times the least distance
+/// samples the layer, and its estimate can be trusted. Such steps form a geometric series towards zero and away from
+/// it.
 ///
 /// | symbol | meaning                                                        |       |
 /// |--------|----------------------------------------------------------------|-------|

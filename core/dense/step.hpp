@@ -62,8 +62,8 @@ template <class T> struct Step {
   }
 
 private:
-  /// Whether a difference of coordinate k's ways may come from the rounding of its values at the ends: extrapolation
-  /// raises it to 32 ε (tests of the methods' orders).
+  /// Whether a difference in coordinate k may come from the rounding of its values at the ends. Extrapolation raises
+  /// that rounding to 32 ε (tests of the methods' orders).
   [[nodiscard]] Truth<T> is_rounding(const T& difference, int k) const {
     using std::abs;
     return !(abs(difference) > T(32 * epsilon_of<T>) * (abs(x[k]) + abs(x1[k])));

@@ -6,8 +6,8 @@
 /// | M      | moment on the hinge's body  | N·m        |
 /// | P      | potential, −dP/dφ = M       | J          |
 ///
-/// Every function adds to a sum, so that one loop over the laws (for_each_law in real_hinge.hpp) serves the
-/// right-hand side, the stiff methods, the peak search, the lanes of packs and the energy audit alike.
+/// Every function adds to a sum, so one loop over the laws (for_each_law in real_hinge.hpp) serves all callers: the
+/// right-hand side, the stiff methods, the peak search, the lanes of packs and the energy audit.
 #pragma once
 
 #include "core/number/scalar.hpp"

@@ -4,9 +4,9 @@
 ///         + [in contact] far stop(φ, φ̇) + [latch bears] dissipation(φ, φ̇)                       (1)
 ///
 /// with spring and harness by tables (curve_torque.hpp), measured friction (friction.hpp), a damper (damper.hpp), a
-/// stop (stop.hpp) at either side and a latch's dissipation (latch_laws.hpp). Whether the damper acts, a stop is in
-/// contact and the latch bears are modes of the run, which change at events: inside a step every law is smooth. Whether
-/// the latch engages and lets go: latch_laws.hpp.
+/// stop (stop.hpp) at either side and a latch's dissipation (latch_laws.hpp). Three conditions are modes of the run:
+/// whether the damper acts, a stop is in contact, and the latch bears. They change at events only, so inside a step
+/// every law is smooth. Whether the latch engages and lets go: latch_laws.hpp.
 ///
 /// The right-hand side sums the tables of a hinge to one polynomial between two knots (TablePiece).
 ///

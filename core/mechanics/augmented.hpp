@@ -1,9 +1,9 @@
 /// The O(n) recursion for (M + E) q̈ = τ: hinges may be locked or carry an inertia E of their own; all rates are 0.
 ///
 /// A hinge with an added inertia E has the moment τ − E φ̈. A locked hinge is the limit E → ∞, for which locked.hpp has
-/// the equations of motion. The axis moment then depends on the parent's rotation, so that a moment crosses the hinge
-/// as well as a force, and the source's 3×3 form [Yudintsev, eqs. 3-5] is needed, here referred to the hinge's point
-/// as in recursion.hpp, whose symbols these continue:
+/// the equations of motion. The axis moment then depends on the parent's rotation, so a moment crosses the hinge as
+/// well as a force. The source's 3×3 form [Yudintsev, eqs. 3-5] is needed; here it is referred to the hinge's point.
+/// Symbols continue those of recursion.hpp:
 ///
 /// | symbol  | meaning                                                   | shape   | unit        |
 /// |---------|-----------------------------------------------------------|---------|-------------|

@@ -14,8 +14,8 @@
 
 namespace wingspread {
 
-/// Mass properties and motion of all bodies in inertial axes, relative to the base's origin: positions and velocities
-/// less the base's own, so that a distant or fast spacecraft loses no digits.
+/// Mass properties and motion of all bodies in inertial axes, relative to the base's origin. The base's own position
+/// and velocity are left out, so that a distant or fast spacecraft loses no digits.
 template <class T> struct TotalMotion {
   T kinetic = T(0);                 ///< (1), J
   T mass = T(0);                    ///< Σ m, kg

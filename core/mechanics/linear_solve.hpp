@@ -84,9 +84,9 @@ void loop_resistances(const System<T, Topology, M>& system, const State<T>& x,
   }
 }
 
-/// Upper bound of (M⁻¹)_ii, 1/(kg·m²): 1/J_i + 1/J_p, with J the inertias of the hinge's bodies i and p about their own
-/// centres of mass, and 1/J_p = 0 for a base that does not move freely. Joints between bodies only make them less free
-/// to turn [Gauss's principle].
+/// Upper bound of (M⁻¹)_ii, 1/(kg·m²): 1/J_i + 1/J_p. J_i and J_p are the inertias of the hinge's two bodies about
+/// their own centres of mass; 1/J_p = 0 for a base that does not move freely. It is a bound because joints only make
+/// bodies less free to turn [Gauss's principle].
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T mobility_bound(const System<T, Topology, M>& system, int i) {
   const auto alone = [&](int body) {

@@ -11,8 +11,8 @@
 ///     h += H          I += 2 qᵀ H + N          d += m − ω² Hᵀ l                           (10)
 ///
 /// A free hinge has H = 0, N = 0 and m = τ, with which (8)-(10) are the equations of recursion.hpp. The same
-/// expressions serve both: a free hinge's numbers have the bits of `gather` and `accelerate`, so that the lanes of a
-/// pack with and without locked hinges go together.
+/// expressions serve both, and a free hinge's numbers have the bits of `gather` and `accelerate`. So lanes with and
+/// without locked hinges can share a pack.
 #pragma once
 
 #include "core/mechanics/recursion.hpp"

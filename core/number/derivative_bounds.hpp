@@ -39,8 +39,8 @@ derivative_bounds(const Quintic<T>& p, const DifferenceScale<T>& scale) {
           scale.fourth * largest_magnitude(T(c1 - c0), T(c2 - c1))};
 }
 
-/// The same bounds for a step so short that the coefficients differ by little more than their rounding δ: third
-/// and fourth differences up to 8 δ and 16 δ, the sums of binomial coefficients, count as 0.
+/// The same bounds for a step so short that the coefficients differ by little more than their rounding δ. Third
+/// differences up to 8 δ and fourth ones up to 16 δ count as 0 (8 and 16 are the sums of the binomial coefficients).
 template <class T>
 [[nodiscard]] DerivativeBounds<T>
 derivative_bounds_beyond_rounding(const Quintic<T>& p, const DifferenceScale<T>& scale) {

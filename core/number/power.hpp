@@ -1,5 +1,5 @@
-/// Powers with the same bits for a double and in every lane of a pack: rough ones for step control, with
-/// errors of about 1e-7, and a precise one for laws of hinges, with an error of some roundings.
+/// Powers with the same bits for a double and in every lane of a pack. Rough ones, with errors of about 1e-7, serve
+/// step control. A precise one, with an error of some roundings, serves laws of hinges.
 #pragma once
 
 #include "core/number/pack.hpp"

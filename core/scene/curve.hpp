@@ -70,7 +70,7 @@ public:
   [[nodiscard]] double steepest_fall() const { return steepest_fall_; }
   /// Largest |d²y/dx²| inside a piece.
   [[nodiscard]] double sharpest_bend() const { return sharpest_bend_; }
-  /// Largest excess of the curve inside a piece over its values at the ends: rounding only, but more for a sum of
+  /// Largest excess of the curve inside a piece over its values at the ends. It is only rounding, except for a sum of
   /// curves, which need not be monotone.
   [[nodiscard]] double overshoot() const { return overshoot_; }
 

@@ -1,11 +1,11 @@
 /// Predictions of all measured numbers at points of the parameter space, by runs of the tests.
 ///
-/// A trace is compared at its own times. A run is sampled on a fixed grid by the integrator's dense output, and the
-/// grid is interpolated: angles by cubic Hermite polynomials of angle and rate, other columns linearly. With a fixed
-/// grid the prediction is as smooth in the parameters as the motion. The integrator's steps are no such grid, because
-/// they move with the parameters.
+/// A trace is compared at its own times. A run is sampled on a fixed grid by the integrator's dense output. Between the
+/// grid's times, angles are interpolated by cubic Hermite polynomials of angle and rate, other columns linearly. With a
+/// fixed grid the prediction is as smooth in the parameters as the motion. The integrator's steps are no such grid,
+/// because they move with the parameters.
 /// Interpolation error of an angle: h⁴/384 times its fourth derivative, and about h²/50 times the jump of an
-/// acceleration at a latch; h is 10 to 20 ms, so 2e-5 rad for a jump of 3 rad/s².
+/// acceleration at a latch. h is 10 to 20 ms, so the error is 2e-5 rad for a jump of 3 rad/s².
 ///
 /// Values that are outputs come from separate runs, which end once the outputs are known.
 #pragma once

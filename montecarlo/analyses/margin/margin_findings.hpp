@@ -41,8 +41,8 @@ struct MarginEdge {
 [[nodiscard]] double window_confidence(const Campaign& campaign, const MarginResult& result,
                                        const Window& window);
 
-/// A lower bound of the confidence that all requirements hold in all cases at a confirmed scale: one that was fixed
-/// before the confirmation runs, all of whose verdicts are "pass".
+/// A lower bound of the confidence that all requirements hold in all cases at a confirmed scale. Such a scale is fixed
+/// before the confirmation runs, and all their verdicts are "pass".
 [[nodiscard]] double confirmation_confidence(const Campaign& campaign, const MarginResult& result);
 
 /// The failing conditions to report. If several conditions of a case fail only because runs did not deploy, one of them

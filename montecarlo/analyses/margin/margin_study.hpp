@@ -17,8 +17,8 @@
 /// The confirmation seed is derived from the campaign's seed. It is not seed + 1, because users often take seed + 1 for
 /// fresh draws, and would then get the draws that confirmed the scale.
 ///
-/// A run ends when the outputs of the requirements are known. If none is a peak, it ends at the last latch: a run that
-/// would fail numerically after the last latch counts as deployed here, and as failed in `run` with peaks.
+/// A run ends when the outputs of the requirements are known. If none is a peak, it ends at the last latch. A run that
+/// would fail numerically after its last latch then counts as deployed here, and as failed in `run` with peaks.
 ///
 /// The campaign's cases (cold, hot, end of life) have their own nominal wing and the same draws. The requirements hold
 /// in all cases; the worst case sets the edge.

@@ -1,9 +1,9 @@
 /// Static margins of weaker springs. Successful runs alone do not justify weaker springs: a wing may deploy by momentum
 /// although its springs could not move it from rest everywhere.
 ///
-/// If the campaign requires static margins, these bound the window like every requirement. If not, springs weaker than
-/// the present ones are ruled out when a static margin of the nominal wing (ECSS, NASA, GEVS, AIAA, with the campaign's
-/// factors) decreases and is below 0.
+/// If the campaign requires static margins, these bound the window like every requirement. If not, weaker springs are
+/// ruled out if they lower a static margin of the nominal wing to below 0. The margins are those of ECSS, NASA, GEVS
+/// and AIAA, with the campaign's factors.
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"

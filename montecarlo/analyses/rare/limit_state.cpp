@@ -39,8 +39,8 @@ Goal goal_for(const std::optional<OutputColumn>& column) {
   return goal;
 }
 
-/// Maps a share of any sign to a value above 0, monotonically: the identity above the knee; below, an exponential that
-/// continues it with equal value and slope.
+/// Maps a share of any sign monotonically to a value above 0. Above the knee it is the identity; below, an exponential
+/// with the same value and slope at the knee.
 double positive_part(double share) {
   // Heuristic. A knee far above 0.01 hides differences between runs near the event. With a knee far below, g of these
   // runs is equal in double precision. Both cost runs; neither biases the estimate.

@@ -1,8 +1,8 @@
 /// Strata of a campaign's draws: rare values of discrete laws are drawn by themselves.
 ///
 /// Subset simulation climbs from level to level along quantities that vary continuously. It misses an event that needs
-/// one rare value (a release that fails, probability 1e-5): no run of the first level has the value, and the chains
-/// climb elsewhere. The probability of such a value is known exactly, so
+/// one rare value, like a release that fails with probability 1e-5. No run of the first level has the value, and the
+/// chains climb elsewhere. The probability of such a value is known exactly, so
 ///
 ///     P = Σ_s w_s P_s                                                                       (1)
 ///

@@ -21,8 +21,8 @@ using Eigen::VectorXd;
 /// Heuristic: fewest runs beyond the number of draws. With fewer, the adjusted R² and the jackknife's bounds are mostly
 /// chance.
 constexpr long fewest_spare_runs = 10;
-/// Largest number of runs of the fit (its first runs, of a random design): slopes are then known to 1 % of the output's
-/// spread per spread of the draw, and the time is bounded.
+/// Largest number of runs of the fit; of a random design the first ones are used. With so many, a standardised slope
+/// has a standard error of 1/√10,000 = 1 %, and the time is bounded.
 constexpr std::size_t most_fitted = 10'000;
 /// A draw is a linear combination of others if less than this share of its variance is its own: rounding leaves 1e-15.
 constexpr double least_own = 1e-9;

@@ -62,8 +62,9 @@ struct RunsMade {
 /// Bounds for independent draws: by rank_correlation.hpp for Spearman's coefficient, by the jackknife over parts of the
 /// runs for the partial one. Bounds for replicates: by the jackknife over the replicates.
 ///
-/// Cost for n runs and k dispersions: O(n k²) once per group of outputs present in the same runs, O(n k) per output;
-/// times 17 for the jackknife (16 parts and the whole), or times the replicates plus one.
+/// Cost for n runs and k dispersions: O(n k²) for each group of outputs that are present in the same runs, and O(n k)
+/// for each output. The jackknife multiplies it by 17 (16 parts and the whole), or by the number of replicates plus
+/// one.
 [[nodiscard]] RankSensitivity rank_sensitivity(const Results& results, double confidence,
                                                const RunsMade& made = {});
 

@@ -17,9 +17,9 @@ namespace {
 
 using std::chrono::microseconds;
 
-/// Pauses between polls of the transport. Heuristic: 4 ms while rank 0's threads work, so that polling (25 µs each)
-/// takes below 1 % of a processor and other ranks have chunks in store meanwhile; 50 µs at the end, when only answers
-/// are missing. A longer pause starves the ranks, a shorter one takes time from rank 0's threads.
+/// Pauses between polls of the transport. Heuristic: 4 ms while rank 0's threads work. Polling (25 µs each) then takes
+/// less than 1 % of a processor, and the other ranks have enough chunks in store for the pause. 50 µs at the end, when
+/// only answers are missing. A longer pause starves the ranks, a shorter one takes time from rank 0's threads.
 constexpr microseconds between_looks{4000}, at_the_end{50};
 
 /// Sends the chunks of one plan to the ranks that ask for them.

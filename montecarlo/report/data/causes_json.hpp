@@ -9,8 +9,8 @@
 
 namespace wingspread {
 
-/// Largest number of runs for the effects of a random design (its first runs): the standard error of a rank correlation
-/// is then 1/√10,000 = 0.01, and the time is bounded.
+/// Largest number of runs for the effects; of a random design the first ones are used. The standard error of a rank
+/// correlation is then 1/√10,000 = 0.01, and the time is bounded.
 inline constexpr std::size_t most_effect_runs = 10'000;
 
 /// Correlations of each draw with each output; null without draws, and of fewer than four runs.

@@ -1,11 +1,12 @@
 /// Differences between two sets: COMPARISON of page/DATA.md.
 ///
 /// Means of paired sets (both have the same draws): the mean of the differences run by run, over runs with the output
-/// in both sets, with Student's interval; for a replicated design the interval is that of the replicates' means. Means
-/// of other sets: the difference of the means with Welch's interval; replicated designs have no interval. Shares: the
-/// difference of two shares, each with Clopper and Pearson's bounds at 1 − α/2, so that the bounds of the difference
-/// hold at 1 − α (Bonferroni). For paired sets the two are the shares of runs with the status in one set only; for
-/// other sets they are the sets' shares. Source: B. L. Welch, Biometrika 34 (1947) 28–35.
+/// in both sets. The interval is Student's; for a replicated design it is that of the replicates' means.
+/// Means of other sets: the difference of the means with Welch's interval; replicated designs have no interval.
+/// Shares: the difference of two shares. Each has Clopper and Pearson's bounds at 1 − α/2, so that the bounds of the
+/// difference hold at 1 − α (Bonferroni). For paired sets the two are the shares of runs with the status in one set
+/// only; for other sets they are the sets' shares.
+/// Source: B. L. Welch, Biometrika 34 (1947) 28–35.
 #pragma once
 
 #include "montecarlo/report/data/page_source.hpp"

@@ -1,8 +1,9 @@
 /// An empirical distribution function at some of its steps (knots), with its confidence band.
 ///
 /// Independent draws: the band of Dvoretzky, Kiefer and Wolfowitz with Massart's constant, F ± √(ln(2/α)/(2n)). It
-/// holds for the whole curve at once, for any distribution and any n. Replicates of a design: the interval of Korn and
-/// Graubard at each knot separately (replicate_bounds.hpp). Source: P. Massart, Ann. Probab. 18 (1990) 1269–1283.
+/// holds for the whole curve at once, for any distribution and any n.
+/// Replicates of a design: the interval of Korn and Graubard at each knot separately (replicate_bounds.hpp).
+/// Source: P. Massart, Ann. Probab. 18 (1990) 1269–1283.
 #pragma once
 
 #include "montecarlo/foundation/statistics/replicate_bounds.hpp"
@@ -22,8 +23,8 @@ struct CurveKnot {
   Bounds band{};
 };
 
-/// The ranks, 1 to n, of the knots of a curve of n values: half of them evenly spaced, a quarter towards each end as a
-/// geometric series, because requirements concern the tails. Ascending, distinct.
+/// The ranks, 1 to n, of the knots of a curve of n values. Half of them are evenly spaced. Towards each end a quarter
+/// forms a geometric series, because requirements concern the tails. Ascending, distinct.
 /// @pre n ≥ 1, most ≥ 5
 [[nodiscard]] std::vector<long> curve_ranks(long n, std::size_t most);
 

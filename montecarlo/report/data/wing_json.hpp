@@ -1,8 +1,8 @@
 /// The wing to scale: WING of page/DATA.md.
 ///
 /// A scene has the positions of a body's hinges and its plate, but no outline. A body is drawn as a panel from its own
-/// hinge to the next, as thick as the hinges' offset from its middle; the last panel of a wing is symmetric about its
-/// centre of mass. A body with hinges far off any line is drawn as lines from its centre of mass to the hinges.
+/// hinge to the next. Its thickness is the hinges' offset from its middle. The last panel of a wing is symmetric about
+/// its centre of mass. A body with hinges far off any line is drawn as lines from its centre of mass to the hinges.
 ///
 /// A frame's origin is the body's own hinge, so a pose is a rotation and a translation: with θ the absolute angle,
 /// o = o_p + R(θ_p) joint_in_parent, θ = θ_p + φ.

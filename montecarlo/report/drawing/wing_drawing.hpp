@@ -7,9 +7,9 @@
 
 namespace wingspread {
 
-/// An SVG picture of three views. Each has the bodies by their plates (without one: from the hinge through the centre
-/// of mass), centres of mass, hinge axes, the sense in which each spring turns its child, names, and a scale. Same
-/// scene, same bytes.
+/// An SVG picture of three views. Each shows the bodies, centres of mass, hinge axes, the sense in which each spring
+/// turns its child, names, and a scale. A body is drawn along its plate; without a plate from the hinge through the
+/// centre of mass. Same scene, same bytes.
 /// @pre outward_order(scene) is not empty
 [[nodiscard]] std::string draw_wing(const Scene& scene);
 

@@ -176,10 +176,15 @@ private:
       }
   }
 
-  /// Sets `result`, which 66-run.js reads: status, t_end, peaks_final; the number of latches, and of each (hinge, time,
-  /// rates…); of each hinge the peak moment and its time, peak force, overtravel, hold moment, final angle and motor
-  /// energy, NaN if not asked for; the base's peak angle and rate; of releases, of passes too fast for the latch and of
-  /// latches that let go their number, and of each (hinge, time).
+  /// Sets `result`, which 66-run.js reads, in this order:
+  ///
+  ///   status, t_end, peaks_final
+  ///   number of latches; of each: hinge, time, rates…
+  ///   of each hinge: peak moment and its time, peak force, overtravel, hold moment, final angle, motor energy
+  ///   the base's peak angle and rate
+  ///   three times, for releases, missed and let_go: their number; of each: hinge, time
+  ///
+  /// NaN stands for a number that is not asked for.
   void keep_result(const Outcome& outcome) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     result = {static_cast<double>(outcome.status), outcome.t_end,

@@ -26,8 +26,8 @@ inline constexpr const char* timing_file = "timing.json";
 inline constexpr const char* summary_file = "summary.json";
 inline constexpr const char* histograms_json_file = "histograms.json";
 inline constexpr const char* histograms_csv_file = "histograms.csv";
-/// The files in place of runs.csv if the campaign was run with --no-rows: its streaming statistics, and the rows of
-/// the runs that did not deploy or break a requirement.
+/// The files in place of runs.csv after --no-rows: the streaming statistics, and the rows of runs that did not deploy
+/// or break a requirement.
 inline constexpr const char* statistics_file = "statistics.bin";
 inline constexpr const char* broken_runs_file = "broken_runs.csv";
 
@@ -89,7 +89,8 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
                              const std::function<void(const ResultRow&)>& take);
 
 /// Reads runs.csv without a torn last line; empty if the file does not exist. A file of another tool is read to its
-/// end, with or without a last line break, and must have all runs: statistics without the lost runs would be too good.
+/// end, with or without a last line break. It must have all runs, because statistics without the lost runs would be too
+/// good.
 /// @throws SpecError if the file is broken, or has a run that is not the folder's
 [[nodiscard]] ResultsFile read_stored_results(const StoredCampaign& stored);
 
