@@ -1,8 +1,8 @@
 /// Finds where a function over a step is first positive, and where it is largest, from a bound on its curvature.
 ///
 /// Between s = a and b a smooth function exceeds its larger end by at most rise·(b − a)². It is monotone there if the
-/// values at the ends differ by more than 8 rise·(b − a)². For the slope differs from the
-/// chord's by at most (b − a) times the largest second derivative, 8 rise.
+/// values at the ends differ by more than 8 rise·(b − a)². For the slope differs from the chord's by at most (b − a)
+/// times the largest second derivative, 8 rise.
 ///
 /// A function with kinks and jumps exceeds its larger end by at most bend·(b − a)² + lean·(b − a) + jump, and need
 /// not be monotone. Halving does not reduce a jump: the caller's bound must say, per interval, whether a jump is
