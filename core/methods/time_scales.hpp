@@ -8,30 +8,30 @@
 
 namespace wingspread {
 
-/// Frequency of the motion at the step's start, 1/s: the largest acceleration over the largest rate or,
-/// if larger, the rate of a latched hinge over its distance from rest. In a swing one of the two is
-/// always at least its frequency. Hinges a thousand times slower than the fastest do not count
-/// (heuristic: rounding near rest would otherwise look like a high frequency).
+/// Frequency of the fastest motion at the step's start, 1/s: of every hinge the acceleration over the rate or, if larger,
+/// the rate of a latched hinge or elastic joint over its distance from rest. In a swing one of the two is always at least
+/// its frequency. A hinge counts however slow it is beside others: an implicit step must resolve its swing to the
+/// tolerance. Hinges slower than 100 `still` do not count (heuristic: rounding and what is left of a mode that has died
+/// out would look like a high frequency).
 /// @param still rad/s: slower hinges count as at rest; what an explicit method leaves of a motion that has died out
 /// @return 0 if nothing moves
 template <class T, class AnySystem>
 [[nodiscard]] double quickness(const AnySystem& system, const Step<T>& step, const T& still) {
   using std::abs;
   const Layout& at = system.layout();
-  T fastest(0), acceleration(0), swing(0);
-  for (int i = 1; i <= at.bodies; ++i) {
-    fastest = larger(fastest, T(abs(step.x[at.rate(i)])));
-    acceleration = larger(acceleration, T(abs(step.dxdt[at.rate(i)])));
-  }
+  T fastest(0), swing(0);
+  for (int i = 1; i <= at.bodies; ++i) fastest = larger(fastest, T(abs(step.x[at.rate(i)])));
   if (!(fastest > still)) return 0;
   for (int i = 1; i <= at.bodies; ++i) {
     const LinearLaw<T>& law = system.work().laws[i];
     const T rate = abs(step.x[at.rate(i)]);
-    if (!system.work().engaged[i] || !(law.stiffness > T(0)) || rate < T(1e-3) * fastest) continue;
+    if (rate < T(100) * still) continue;
+    swing = larger(swing, T(abs(step.dxdt[at.rate(i)]) / rate));
+    if (!system.work().engaged[i] || !(law.stiffness > T(0))) continue;
     const T way = step.x[at.angle(i)] - law.latched - law.drive / law.stiffness;
     if (way != T(0)) swing = larger(swing, T(rate / abs(way)));
   }
-  return static_cast<double>(larger(swing, T(acceleration / fastest)));
+  return static_cast<double>(swing);
 }
 
 /// Time from the step's start in which no hinge turns by much more than a radian, s, at most `longest`.

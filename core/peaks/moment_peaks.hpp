@@ -262,11 +262,12 @@ raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int 
 
 /// Raises the peak to the moment at the end of a step of the method to `doubt.s`, and corrects `doubt.s` by
 /// Newton's method. @param x, dxdt the state and its derivative there
-/// @return whether another step, to the new `doubt.s`, gains more than 1e-12 of the moment; at most 4 corrections
+/// @param worth_a_step share of the moment
+/// @return whether another step, to the new `doubt.s`, gains more than that; at most 4 corrections
 template <class T, class AnySystem>
 [[nodiscard]] bool confirm_moment(DoubtfulMoment<T>& doubt, PeakOf<T>& peak,
                                   const AnySystem& system, const Step<T>& step, int i,
-                                  const State<T>& x, const State<T>& dxdt) {
+                                  const State<T>& x, const State<T>& dxdt, double worth_a_step) {
   using std::abs;
   const T M = system.moment(x, i);
   peak.raise(T(abs(M)), step.t + doubt.s * step.h);
@@ -276,8 +277,8 @@ template <class T, class AnySystem>
           : T(moment_rate(system, x, dxdt, T(step.t + doubt.s * step.h), i) / doubt.bend);
   const T gain = T(0.5) * late * late * abs(doubt.bend);
   doubt.s = doubt.s - late / step.h;
-  return M * doubt.bend < T(0) && gain > T(1e-12) * abs(M) && doubt.s > T(0) && doubt.s < T(1) &&
-         ++doubt.corrections < 4;
+  return M * doubt.bend < T(0) && gain > T(worth_a_step) * abs(M) && doubt.s > T(0) &&
+         doubt.s < T(1) && ++doubt.corrections < 4;
 }
 
 /// Moment of a stuck hinge at a step's ends, N·m.

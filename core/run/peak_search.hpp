@@ -65,7 +65,7 @@ public:
     overtravel_.assign(run_.at.bodies + 1, T(0));
     motor_energy_.assign(run_.goal.motor_energy ? run_.system.wing().motors.size() : 0, T(0));
     holds_.assign(watches_holds() ? run_.at.bodies + 1 : 0, {});
-    if (run_.goal.peak_force) forces_.start(run_.system, worth_a_step());
+    if (run_.goal.peak_force) forces_.start(run_.system, force_worth_a_step());
   }
 
   /// Takes the peaks at t⁺. @pre the right-hand side has changed, and was last evaluated there
@@ -107,7 +107,7 @@ public:
     else if (!doubt_)
       forces_.confirm(run_.system, run_.step, run_.x, run_.dxdt);
     else if (confirm_moment(*doubt_, moments_[hinge_], run_.system, run_.step, hinge_, run_.x,
-                            run_.dxdt))
+                            run_.dxdt, moment_worth_a_step()))
       return doubt_->s;
     return next_doubt();
   }
@@ -118,9 +118,12 @@ public:
 private:
   /// The relative gain from which another step to the maximum of a force is worth making. Only the
   /// steps of extrapolation are so long that the dense output misplaces the maximum.
-  [[nodiscard]] double worth_a_step() const {
+  [[nodiscard]] double force_worth_a_step() const {
     return run_.how.method == "bulirsch_stoer" ? std::max(1e-12, run_.how.rtol) : 1;
   }
+
+  /// The same of a moment: a thousandth of the tolerance, and well above rounding.
+  [[nodiscard]] double moment_worth_a_step() const { return std::max(1e-12, 1e-3 * run_.how.rtol); }
 
   /// Raises the peaks of moments and holds to those at x and t. @pre the last evaluation was there
   void include_moments(const State<T>& x, const T& t) {
