@@ -14,14 +14,12 @@ namespace wingspread {
 /// tolerance. Hinges slower than 100 `still` do not count (heuristic: rounding and what is left of a mode that has died
 /// out would look like a high frequency).
 /// @param still rad/s: slower hinges count as at rest; what an explicit method leaves of a motion that has died out
-/// @return 0 if nothing moves
+/// @return 0 if no hinge counts
 template <class T, class AnySystem>
 [[nodiscard]] double quickness(const AnySystem& system, const Step<T>& step, const T& still) {
   using std::abs;
   const Layout& at = system.layout();
-  T fastest(0), swing(0);
-  for (int i = 1; i <= at.bodies; ++i) fastest = larger(fastest, T(abs(step.x[at.rate(i)])));
-  if (!(fastest > still)) return 0;
+  T swing(0);
   for (int i = 1; i <= at.bodies; ++i) {
     const LinearLaw<T>& law = system.work().laws[i];
     const T rate = abs(step.x[at.rate(i)]);
