@@ -76,7 +76,8 @@ class Finder:
         elif kind in (Kind.BINARY_OPERATOR, Kind.COMPOUND_ASSIGNMENT_OPERATOR, Kind.CALL_EXPR) and len(children) >= 2:
             self.operator(cursor, children)
         elif kind == Kind.UNARY_OPERATOR and re.match(r"-|!(?!=)", self.of(cursor)):  # a rewritten != looks like a !
-            self.change(cursor, self.of(children[0]))
+            more = {"condition": True} if self.of(cursor)[0] == "!" else {}
+            self.change(cursor, self.of(children[0]), **more)
         elif kind == Kind.CONDITIONAL_OPERATOR and len(children) == 3:
             self.exchange(children[1], children[2])
         elif kind in LITERALS and parent.kind in HOLDS_LITERAL and cursor.extent.start.offset > parent.location.offset - (
