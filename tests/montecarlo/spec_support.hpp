@@ -132,6 +132,27 @@ template <class Read> std::string problems_of(const Json& document, Read read) {
   return SpecError(problems).what();
 }
 
+/// The objects of a document, as pointers, in which a reader passes over a key that it does not know.
+/// @param message_for what the reader says of a document: all its problems; empty if there are none
+template <class MessageFor>
+std::vector<std::string> objects_with_unread_keys(const Json& document, MessageFor message_for) {
+  const std::string unknown = "qqqqqqqqqqqqqqqqqqqq";
+  std::vector<std::string> found;
+  const auto visit = [&](const auto& self, const Json::json_pointer& at) -> void {
+    const Json& value = document[at];
+    if (value.is_object()) {
+      Json changed = document;
+      changed[at][unknown] = 1;
+      if (message_for(changed).find(unknown) == std::string::npos) found.push_back(at.to_string());
+      for (const auto& [key, member] : value.items()) self(self, at / key);
+    } else if (value.is_array()) {
+      for (std::size_t i = 0; i < value.size(); ++i) self(self, at / i);
+    }
+  };
+  visit(visit, Json::json_pointer());
+  return found;
+}
+
 /// The settings read (defaults where the document has none), and the problems.
 template <class Settings> struct Reading {
   Settings settings;

@@ -7,6 +7,7 @@ test could or should see:
 - < and <= are exchanged for integers alone: for numbers the edge has no width. Every other comparison is turned round
 - no arithmetic on texts: words of messages are no results; no reserve(), no assertion
 - no exchange of the arguments of a symmetric function, or of an object's members
+- what a template's operator is is known at its use alone: there the sign between the operands tells an operator from a call
 """
 
 import pathlib
@@ -19,7 +20,8 @@ OPERATORS = {"+": "-", "-": "+", "*": "/", "/": "*", "<": ">", ">": "<", "<=": "
              "&&": "||", "||": "&&", "+=": "-=", "-=": "+=", "*=": "/=", "/=": "*="}
 EDGES = {"<": "<=", "<=": "<", ">": ">=", ">=": ">"}
 DROPS = {"+": "lr", "-": "l", "*": "lr", "/": "l", "&&": "lr", "||": "lr"}
-SYMMETRIC = {"min", "max", "fmin", "fmax", "hypot", "swap", "hypot2", "dot"}
+SYMMETRIC = {"min", "max", "fmin", "fmax", "hypot", "swap", "hypot2", "dot", "midpoint"}  # midpoint: of floating-point numbers
+SYMMETRIC_IN_TWO = {"fused"}  # a·b + c
 FUNCTIONS = {Kind.FUNCTION_DECL, Kind.CXX_METHOD, Kind.CONSTRUCTOR, Kind.FUNCTION_TEMPLATE, Kind.CONVERSION_FUNCTION}
 SCOPES = {Kind.NAMESPACE, Kind.CLASS_DECL, Kind.STRUCT_DECL, Kind.CLASS_TEMPLATE, Kind.CLASS_TEMPLATE_PARTIAL_SPECIALIZATION,
           Kind.LINKAGE_SPEC, Kind.UNEXPOSED_DECL}
@@ -74,7 +76,8 @@ class Finder:
         elif kind in (Kind.BINARY_OPERATOR, Kind.COMPOUND_ASSIGNMENT_OPERATOR, Kind.CALL_EXPR) and len(children) >= 2:
             self.operator(cursor, children)
         elif kind == Kind.UNARY_OPERATOR and re.match(r"-|!(?!=)", self.of(cursor)):  # a rewritten != looks like a !
-            self.change(cursor, self.of(children[0]))
+            more = {"condition": True} if self.of(cursor)[0] == "!" else {}
+            self.change(cursor, self.of(children[0]), **more)
         elif kind == Kind.CONDITIONAL_OPERATOR and len(children) == 3:
             self.exchange(children[1], children[2])
         elif kind in LITERALS and parent.kind in HOLDS_LITERAL and cursor.extent.start.offset > parent.location.offset - (
@@ -89,9 +92,10 @@ class Finder:
         left, right = children[0], children[-1]
         begin, end = left.extent.end.offset, right.extent.start.offset
         sign = re.sub(r"//.*|\s", "", self.text(begin, end)) if begin < end else ""
-        if cursor.kind == Kind.CALL_EXPR and not cursor.spelling.startswith("operator"):
-            if cursor.spelling not in SYMMETRIC:
-                self.arguments(list(cursor.get_arguments()))
+        if cursor.kind == Kind.CALL_EXPR and sign not in OPERATORS:
+            name = cursor.spelling or self.of(left).split("::")[-1]
+            if not name.startswith("operator") and name not in SYMMETRIC:
+                self.arguments(list(cursor.get_arguments())[1 if name in SYMMETRIC_IN_TWO else 0:])
             return
         if sign not in OPERATORS or is_text(left) or is_text(right):
             return

@@ -75,6 +75,19 @@ TEST_CASE("a design that somebody changed is refused") {
   CHECK_THROWS_WITH(read_design(path), Catch::Contains("campaign"));
 }
 
+TEST_CASE("no object of a design has a key that is not read") {
+  const Folder folder;
+  SaltelliDesign design = design_of(quick_campaign(10));
+  design.shard = Shard{2, 3};
+  const auto message_for = [&](const Json& json) {
+    const auto file = folder.write("design.json", json.dump());
+    return message_of([&] { return read_design_file(file); });
+  };
+  const Json json = parse_json(design_text(design));
+  CHECK(message_for(json).empty());
+  CHECK(objects_with_unread_keys(json, message_for) == std::vector<std::string>{});
+}
+
 TEST_CASE("rows of a design with a gap between them are refused") {
   const Folder folder;
   const auto path = folder.path() / "design";

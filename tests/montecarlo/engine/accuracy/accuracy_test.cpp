@@ -242,6 +242,43 @@ TEST_CASE("latches too stiff for an explicit method have an implicit reference",
   CHECK(found->runs == 2);
 }
 
+// A stiff latch takes dopri5 more steps than the least limit, fewer than 100 times those of the run's own method.
+TEST_CASE("the first and the middle run decide how many steps a reference may take", "[accuracy]") {
+  constexpr double soft = 1e4, stiff = 1e7;
+  Json json = quick_campaign(40);
+  json["dispersions"] = Json::array(
+      {{{"name", "latch"},
+        {"distribution", {{"type", "discrete"}, {"values", {soft, stiff}}, {"weights", {1, 1}}}},
+        {"apply", "set"},
+        {"to",
+         {"hinges.root.latch.stiffness", "hinges.mid.latch.stiffness",
+          "hinges.tip.latch.stiffness"}}}});
+  json["outputs"] = {"latch_time", "peak_moment"};
+  const Campaign campaign = campaign_of(json);
+  const Results results = rows_of(RunPlan(campaign), {0, 40});
+  /// The first runs whose latches are so, in this order.
+  const auto accuracy_of = [&](const std::vector<double>& latches) {
+    std::vector<ResultRow> rows;
+    for (std::size_t i = 0; i < results.size() && rows.size() < latches.size(); ++i)
+      if (results.row(i).draws.front() == latches[rows.size()]) rows.push_back(results.row(i));
+    REQUIRE(rows.size() == latches.size());
+    return compare_with_reference(campaign, rows, {.threads = 1});
+  };
+  for (const auto& latches : {std::vector{stiff}, std::vector{stiff, soft, soft, soft},
+                              std::vector{soft, soft, stiff, soft}}) {
+    const Accuracy found = accuracy_of(latches);
+    CHECK(found.reference_method == "dopri5");
+    CHECK(found.runs == std::ssize(latches));
+    CHECK(found.unreached == 0);
+  }
+  for (const auto& latches :
+       {std::vector{soft, stiff, soft, soft}, std::vector{soft, soft, soft, stiff}}) {
+    const Accuracy found = accuracy_of(latches);
+    CHECK(found.reference_method == "dopri5");
+    CHECK(found.unreached == 1);
+  }
+}
+
 TEST_CASE("there is no accuracy where none is wanted, or nothing to be made again", "[accuracy]") {
   Campaign campaign = campaign_of(quick_campaign(30));
   const Results results = rows_of(RunPlan(campaign), {0, 30});

@@ -1,0 +1,132 @@
+#include "montecarlo/analyses/rare/rare_report.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <limits>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// A campaign with this many dispersions: d0, d1 …
+Campaign campaign_with(std::size_t dispersions) {
+  Campaign campaign = campaign_of(quick_campaign(10));
+  campaign.dispersions.resize(dispersions, campaign.dispersions.front());
+  for (std::size_t k = 0; k < dispersions; ++k)
+    campaign.dispersions[k].name = "d" + std::to_string(k);
+  return campaign;
+}
+
+SubsetEstimate repeat_of(bool reached, bool stuck = false) {
+  SubsetEstimate estimate;
+  estimate.reached = reached, estimate.stuck = stuck;
+  estimate.probability = reached || !stuck ? 1e-3 : 0;
+  estimate.variation = 0.2, estimate.evaluations = 1000;
+  return estimate;
+}
+
+/// One stratum with these repeats; its estimate is the result's.
+RareResult result_of(const std::vector<SubsetEstimate>& repeats) {
+  RareResult result;
+  RareEstimate& all = result.estimate;
+  all.probability = 1e-3, all.interval = {5e-4, 2e-3};
+  all.variation = 0.2, all.evaluations = 2000, all.plain_runs = 25'000;
+  result.strata.resize(1);
+  result.strata[0].estimates = repeats;
+  return result;
+}
+
+bool has(const std::string& text, const char* words) { return text.find(words) != text.npos; }
+
+} // namespace
+
+TEST_CASE("the text of a rare event has each sentence where the estimate is such, and only there",
+          "[rare]") {
+  const Campaign campaign = campaign_with(1);
+  for (const bool reached : {false, true})
+    for (const double bias : {0.0, 0.025})
+      for (const double plain_runs : {1999.0, 2001.0, infinite})
+        for (const bool stuck : {false, true}) {
+          RareResult result = result_of({repeat_of(true), repeat_of(reached, stuck)});
+          result.estimate.reached = reached;
+          result.estimate.bias = bias, result.estimate.plain_runs = plain_runs;
+          const std::string text = rare_text(result, {}, campaign);
+          CAPTURE(text);
+          CHECK(has(text, "not reached in 1 of 2 repeats") == !reached);
+          CHECK(has(text, "variation 20 %") == reached);
+          CHECK(has(text, "too large by about 2.5 % on average") == (reached && bias > 0));
+          CHECK(has(text, "Bias") == (reached && bias > 0));
+          CHECK(has(text, "would have been enough: 1999 runs") == (reached && plain_runs < 2000));
+          CHECK(has(text, "would take 2e+03 runs") ==
+                (reached && plain_runs > 2000 && plain_runs < infinite));
+          CHECK(has(text, "≲ ") == !(reached || stuck)); // an upper bound of a repeat
+          CHECK(has(text, "–") == (!reached && stuck));  // 0 has no variation
+          CHECK_FALSE(has(text, "Clopper"));
+          CHECK_FALSE(has(text, "MOST LIKELY"));
+          CHECK_FALSE(has(text, "STRATA"));
+        }
+}
+
+TEST_CASE("the text of an event that is not rare counts, and has no bias", "[rare]") {
+  RareResult result = result_of({repeat_of(true)});
+  result.estimate.reached = result.estimate.plain = true;
+  result.estimate.hits = 13, result.estimate.draws = 200, result.estimate.plain_runs = 200;
+  const std::string text = rare_text(result, {}, campaign_with(1));
+  CHECK_THAT(text, Catch::Contains("13 of 200 runs have the event") &&
+                       Catch::Contains("(Clopper–Pearson)") &&
+                       Catch::Contains("2000 runs made.\n"));
+  CHECK_FALSE(has(text, "Bias"));
+}
+
+TEST_CASE(
+    "the text of strata names the draws that are not simulated, and how many others there are",
+    "[rare]") {
+  for (const bool reached : {false, true})
+    for (const double lower : {0.0, 5e-4})
+      for (const double left_out : {0.0, 1e-6})
+        for (const std::size_t rare : {1, 12}) {
+          RareResult result = result_of({repeat_of(reached)});
+          result.strata[0].stratum.probability = 0.9;
+          result.strata[0].estimate = result.estimate;
+          for (std::size_t k = 0; k < rare; ++k) {
+            result.strata.push_back(result.strata[0]);
+            result.strata.back().stratum.rare = {{"nofire", 1.0}};
+            result.strata.back().stratum.probability = 1e-3;
+          }
+          result.estimate.reached = reached, result.estimate.interval.lower = lower;
+          result.left_out = left_out;
+          const std::string text = rare_text(result, {}, campaign_with(1));
+          CAPTURE(text);
+          CHECK(has(text, "nofire = 1"));
+          CHECK(has(text, "not simulated") == (left_out > 0));
+          CHECK(has(text, "≤ 1e-06") == (left_out > 0));
+          CHECK(has(text, "1 others, each at most 2e-06") == (rare == 12)); // of 13, 12 are shown
+          CHECK(has(text, "the upper one is an estimate") == (!reached && lower > 0));
+          CHECK(has(text, "not reached in 1 of 1 repeats") == (!reached && lower == 0));
+        }
+}
+
+TEST_CASE("the text of the likeliest run has the eight largest deviations", "[rare]") {
+  for (const std::size_t dispersions : {1, 8, 9}) {
+    const Campaign campaign = campaign_with(dispersions);
+    RareResult result = result_of({repeat_of(true)});
+    result.estimate.reached = true;
+    result.likeliest = LikeliestRun{3.5, {}, {}, Status::stalled, "it lacks energy"};
+    for (std::size_t k = 0; k < dispersions; ++k) {
+      result.likeliest->z.push_back(k % 2 == 0 ? 0.5 + 0.25 * static_cast<double>(k) : -3);
+      result.likeliest->draws.push_back(1 + 0.01 * result.likeliest->z.back());
+    }
+    const std::string text = rare_text(result, {}, campaign);
+    CAPTURE(text);
+    CHECK_THAT(text, Catch::Contains(
+                         "at the distance 3.50 in normal coordinates: stalled, it lacks energy"));
+    CHECK(has(text, "d0 ") == (dispersions < 9)); // the least
+    CHECK(has(text, "1 others, at most 0.50") == (dispersions == 9));
+    CHECK_FALSE(has(text, "correlated"));
+    if (dispersions > 1) CHECK(text.find("d1 ") < text.find("d2 ")); // 3 before 1
+  }
+}
