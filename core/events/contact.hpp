@@ -39,7 +39,7 @@ template <class T, class AnySystem>
     if (!system.wing().hinges[i].can_stick() || system.is_held(i)) continue;
     const T& rate = x[at.rate(i)];
     resting[i] = rate == T(0);
-    system.touch(i, resting[i] ? Contact::stuck : sliding(rate));
+    system.set_contact(i, resting[i] ? Contact::stuck : sliding(rate));
   }
   return resting;
 }
@@ -54,7 +54,7 @@ template <class T, class AnySystem>
   Contacts moves;
   for (int i = 1; i <= system.layout().bodies; ++i) {
     if (!system.sticks(i)) continue;
-    const T friction = system.holding_friction(x, i);
+    const T friction = system.locking_moment(x, i);
     const T most = fused(slack, system.static_limit(x, i), release_margin(system, i));
     if (i == let_go || abs(friction) > most) moves.emplace_back(i, sliding(T(-friction)));
   }
@@ -103,7 +103,7 @@ void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T
     }
     if (moves.empty() || round > most) return;
     if (round > together) moves = {*std::min_element(moves.begin(), moves.end())};
-    for (const auto& [i, contact] : moves) system.touch(i, contact);
+    for (const auto& [i, contact] : moves) system.set_contact(i, contact);
   }
 }
 

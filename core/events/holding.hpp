@@ -97,7 +97,7 @@ public:
   template <class AnySystem>
   [[nodiscard]] static T excess(const AnySystem& system, const State<T>& x, int i) {
     using std::abs;
-    return (abs(system.holding_friction(x, i)) -
+    return (abs(system.locking_moment(x, i)) -
             T(1 + 2 * release_tolerance) * system.static_limit(x, i)) -
            release_margin(system, i);
   }

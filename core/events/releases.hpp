@@ -32,9 +32,9 @@ public:
       if (hold.is_elastic)
         system_.restrain(i, true);
       else
-        system_.touch(i, Contact::held);
+        system_.set_contact(i, Contact::held);
       ++held_;
-      system_.made_elsewhere().watches[i] =
+      system_.writable_workspace().watches[i] =
           hold.fails == T(0) && hold.event == Release::Event::passed;
     }
     find_next();
@@ -77,9 +77,9 @@ public:
         if (system_.is_restrained(i))
           system_.restrain(i, false);
         else
-          system_.touch(i, Contact::none);
+          system_.set_contact(i, Contact::none);
         system_.start_motor(i, step.t);
-        system_.made_elsewhere().watches[i] = false;
+        system_.writable_workspace().watches[i] = false;
         --held_;
         record.releases.push_back(hinge_event(system_.wing(), system_.layout(), step.x, step.t, i));
         any = again = true;
@@ -152,7 +152,7 @@ private:
       happened = i == due || passes_now(step, i);
     if (!happened) return;
     due_[i] = step.t + hold.delay;
-    system_.made_elsewhere().watches[i] = false;
+    system_.writable_workspace().watches[i] = false;
   }
 
   [[nodiscard]] bool passes_now(const Step<T>& step, int i) const {

@@ -20,18 +20,18 @@ template <class T> struct HingeTerms {
   T kinetic_friction;     ///< τ_c of the exact friction, N·m
   T static_friction;      ///< τ_s of the exact friction, the largest moment it holds, N·m
   /// The largest level that a measured spring (torque test both ways) adds to either model, N·m; 0 without one.
-  T more_regularized, more_exact;
+  T measured_regularized, measured_exact;
   bool has_latch;
   T stiffness;   ///< k of the engaged latch, N·m/rad
   T damping;     ///< d of the engaged latch, N·m·s/rad
   T dissipation; ///< k c of a smoothed latch, N·m·s/rad²; an event latch uses LatchDissipation
 
   /// Whether the friction is exact, so that the hinge can stick.
-  [[nodiscard]] bool can_stick() const { return static_friction + more_exact > T(0); }
+  [[nodiscard]] bool can_stick() const { return static_friction + measured_exact > T(0); }
   /// Largest moment of regularized friction, N·m.
-  [[nodiscard]] T most_regularized() const { return regularized_friction + more_regularized; }
+  [[nodiscard]] T most_regularized() const { return regularized_friction + measured_regularized; }
   /// Largest moment that exact friction holds, N·m.
-  [[nodiscard]] T most_static() const { return static_friction + more_exact; }
+  [[nodiscard]] T most_static() const { return static_friction + measured_exact; }
   /// Largest moment of friction of either model, N·m.
   [[nodiscard]] T most_friction() const { return most_regularized() + most_static(); }
 };
@@ -52,7 +52,7 @@ template <class T> void set_joint(HingeTerms<T>& terms, const Hinge& hinge, cons
   terms.slip_rate = T(1);
 }
 
-/// Sets all terms but more_regularized and more_exact, which it clears.
+/// Sets all terms but measured_regularized and measured_exact, which it clears.
 /// Assigned in place: copying a freshly written struct stalls store forwarding.
 template <class T> void set_hinge(HingeTerms<T>& terms, const Hinge& hinge) {
   if (hinge.joint) return set_joint(terms, hinge, *hinge.joint);
@@ -75,7 +75,7 @@ template <class T> void set_hinge(HingeTerms<T>& terms, const Hinge& hinge) {
       exact ? scale * T(hinge.friction.static_level.value_or(hinge.friction.coulomb)) : T(0);
   terms.viscous = scale * T(hinge.friction.viscous);
   terms.slip_rate = T(hinge.friction.regularization_rate);
-  terms.more_regularized = terms.more_exact = T(0);
+  terms.measured_regularized = terms.measured_exact = T(0);
   terms.has_latch = hinge.latch.has_value();
   terms.stiffness = T(hinge.latch ? hinge.latch->stiffness : 0);
   terms.damping = T(hinge.latch ? hinge.latch->damping : 0);

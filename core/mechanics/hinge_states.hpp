@@ -34,7 +34,7 @@ public:
   [[nodiscard]] const Workspace<T>& work() const { return work_; }
   [[nodiscard]] const T& epsilon() const { return epsilon_; }
   /// The workspace, to write: for tolerances, and for the results of evaluations made elsewhere (in a lane of a pack).
-  [[nodiscard]] Workspace<T>& made_elsewhere() { return work_; }
+  [[nodiscard]] Workspace<T>& writable_workspace() { return work_; }
 
   /// Engages the latch of hinge i, which has reached its latched angle.
   void engage(int i) {
@@ -54,7 +54,7 @@ public:
   }
 
   /// Sets the state of hinge i's exact friction or rigid hold.
-  void touch(int i, Contact contact) {
+  void set_contact(int i, Contact contact) {
     work_.stuck += wingspread::is_locked(contact) - wingspread::is_locked(work_.contact[i]);
     work_.contact[i] = contact;
     if constexpr (is_one_number<T>)
@@ -87,7 +87,7 @@ public:
       work_.motors[i] = started_motor(wing_.motors[i], t);
   }
   /// Sets the commanded rates of all motors to those at t.
-  void command(const T& t) {
+  void set_commands(const T& t) {
     for (int i = 1; i < motors_end(); ++i) work_.motors[i].now = commanded_rate(work_.motors[i], t);
   }
   /// Whether the commands of all motors are constant from now on. The motor of a held hinge counts as constant.
@@ -146,7 +146,7 @@ public:
 
   /// Moment of the friction, or of the hold, that keeps hinge i at rest, N·m.
   /// @pre hinge i is locked, and the last evaluation was at x
-  [[nodiscard]] T holding_friction(const State<T>& x, int i) const {
+  [[nodiscard]] T locking_moment(const State<T>& x, int i) const {
     return work_.holding[i] - sliding_moment(x, i);
   }
 

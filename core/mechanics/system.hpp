@@ -137,7 +137,7 @@ private:
     const T* const angles = x.data() + first_coordinate;
     const T* const rates = angles + freedoms();
     const LinearLaw<T>* const laws = work_.laws.data();
-    const bool rubs = is_static<Topology> && wing_.rubs_alone() && !layout_.smoothed;
+    const bool rubs = is_static<Topology> && wing_.has_friction_alone() && !layout_.smoothed;
     topology().outward([&](int i) __attribute__((always_inline)) {
       T m = linear_moment(laws[i], angles[i - 1], rates[i - 1]);
       if (rubs) m = m + regularized_friction_moment(wing_.hinges[i], rates[i - 1]);

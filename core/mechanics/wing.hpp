@@ -73,7 +73,7 @@ template <class T> struct Wing {
   /// Whether any moment is not linear in angles and rates.
   [[nodiscard]] bool is_nonlinear() const { return has_regularized_friction || is_real(); }
   /// Whether regularized friction is the only nonlinear moment.
-  [[nodiscard]] bool rubs_alone() const { return has_regularized_friction && !is_real(); }
+  [[nodiscard]] bool has_friction_alone() const { return has_regularized_friction && !is_real(); }
 };
 
 namespace detail {
@@ -173,7 +173,8 @@ namespace detail {
 template <class T>
 void set_real(HingeTerms<T>& terms, RealHingeTerms<T>& real, const Hinge& hinge) {
   real = real_hinge_terms<T>(hinge, terms.sense);
-  (real.friction.regularized ? terms.more_regularized : terms.more_exact) = real.friction.most;
+  (real.friction.regularized ? terms.measured_regularized : terms.measured_exact) =
+      real.friction.most;
 }
 
 /// @pre the terms of all hinges are set

@@ -64,7 +64,7 @@ public:
       expand(system, from);
       h = smaller(h, longest(system.layout(), from.x, rtol, atol));
       sum(system, from.x, h, x1, error);
-      system.made_elsewhere().evaluations += order;
+      system.writable_workspace().evaluations += order;
     }
     system(x1, dxdt1, from.t + h);
   }

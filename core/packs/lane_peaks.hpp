@@ -248,7 +248,7 @@ private:
       step.interpolate(system.layout(), s, x_);
       system(x_, dxdt_, step.t + s * step.h);
       for (LockedLoad& load : locked_)
-        load.inside[k] = abs(load.of_hold ? system.holding_friction(x_, load.hinge)
+        load.inside[k] = abs(load.of_hold ? system.locking_moment(x_, load.hinge)
                                           : system.work().holding[load.hinge]);
     }
     if (!samples_made_) sampled_ = P(0.0);

@@ -73,7 +73,7 @@ public:
         step.interpolate(run_.at, s, run_.x);
       show(run_.x, T(t));
     }
-    run_.system.made_elsewhere().evaluations = evaluations;
+    run_.system.writable_workspace().evaluations = evaluations;
   }
 
   /// Makes the outcome of a run that has ended.

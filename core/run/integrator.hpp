@@ -115,10 +115,10 @@ public:
             peaks_.motor_energy(),
             *asked_.x1,
             *asked_.dxdt1,
-            run_.system.made_elsewhere().forces,
+            run_.system.writable_workspace().forces,
             run_.held_before,
             events_.excess_before(),
-            run_.system.made_elsewhere().holding,
+            run_.system.writable_workspace().holding,
             peaks_.base(),
             asked_.stage == Stage::step ? &peaks_.moments_may_rise() : nullptr,
             may_happen_};
@@ -130,8 +130,8 @@ public:
   /// Counts the lane's steps, and takes its last trial step for the one asked for.
   /// @param result empty_lane_result() of this run, filled by its lane
   void resume(const LaneResult& result) {
-    run_.system.made_elsewhere().evaluations += result.evaluations;
-    run_.system.command(T(run_.step.t + result.h)); // the lane's last evaluation
+    run_.system.writable_workspace().evaluations += result.evaluations;
+    run_.system.set_commands(T(run_.step.t + result.h)); // the lane's last evaluation
     if (result.trial_steps > 0) {
       const long steps = stepping_.resume(result);
       ending_.count_lane_steps(steps);
@@ -192,7 +192,7 @@ private:
     may_happen_.assign(run_.at.bodies + 1, true);
     run_.step.t = T(0);
     system.reset();
-    system.made_elsewhere().least_motion = T(run_.how.atol);
+    system.writable_workspace().least_motion = T(run_.how.atol);
     system.want_forces(run_.goal.peak_force);
     system.start(run_.step.x);
     system.find_sides(run_.step.x);
@@ -305,8 +305,8 @@ private:
     Step<T>& step = run_.step;
     diary_.watch_energy();
     if (run_.system.work().stuck > 0) {
-      run_.system.made_elsewhere().holding = peaks_.held_at_end();
-      run_.system.command(step.t);
+      run_.system.writable_workspace().holding = peaks_.held_at_end();
+      run_.system.set_commands(step.t);
       begin_step();
     }
     diary_.notify();

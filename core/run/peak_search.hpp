@@ -173,7 +173,7 @@ private:
     const HeldMoments<T> ends{run_.held_before[hold_] - run_.system.sliding_moment(step.x, hold_),
                               held_at_end_[hold_] - run_.system.sliding_moment(step.x1, hold_)};
     const auto load = [this](const T& s) {
-      return run_.system.holding_friction(run_.evaluate_at(s), hold_);
+      return run_.system.locking_moment(run_.evaluate_at(s), hold_);
     };
     held_.over_step(run_.system, step);
     PeakOf<T>& peak = holds_[hold_];
@@ -188,7 +188,7 @@ private:
   /// What the hold of hinge i bears at x. @pre the last evaluation was there
   [[nodiscard]] T load_of_hold(const State<T>& x, int i) const {
     return run_.system.is_restrained(i) ? run_.system.elastic_hold(x, i)
-                                        : run_.system.holding_friction(x, i);
+                                        : run_.system.locking_moment(x, i);
   }
 
   /// The same of an elastic hold: linear in angle and rate, so that its hull dismisses a step.

@@ -95,7 +95,7 @@ std::optional<double> limit_at(double mean, const FitParameter& parameter,
 }
 
 /// Indices of the dispersions that vary and are not fitted: a test holds them at their medians.
-std::vector<std::size_t> held_ones(const Campaign& campaign, const FitSpec& spec) {
+std::vector<std::size_t> held_dispersions(const Campaign& campaign, const FitSpec& spec) {
   std::vector<std::size_t> held;
   for (std::size_t i = 0; i < campaign.dispersions.size(); ++i)
     if (varies(campaign.dispersions[i].distribution) &&
@@ -249,7 +249,7 @@ private:
   }
 
   void summarize_held() {
-    const std::vector<std::size_t> held = held_ones(campaign_, spec_);
+    const std::vector<std::size_t> held = held_dispersions(campaign_, spec_);
     for (const std::size_t i : held) {
       const PreparedDistribution law(campaign_.dispersions[i].distribution);
       const LawMoments prior = moments_of(law);

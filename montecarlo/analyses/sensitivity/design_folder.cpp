@@ -116,7 +116,7 @@ DesignFolderWriter::DesignFolderWriter(const std::filesystem::path& folder,
     refuse_other_design(folder, design);
     ResultsFile read = read_design_runs(folder, plan, runs_of(design).first);
     refuse_other_rows(plan, read.results, folder / design_runs_file);
-    rows_.go_on_behind(std::move(read), runs_of(design).first);
+    rows_.continue_after(std::move(read), runs_of(design).first);
   } else {
     write_file(folder / design_file, design_text(design));
   }

@@ -125,7 +125,7 @@ Json energy_json(const EnergyAudit& energy) {
 namespace {
 
 /// Adds the keys that only scenes with holds, motors, or latches that may miss have.
-void add_life(const Scene& scene, const Outcome& outcome, Json& json) {
+void add_sequence(const Scene& scene, const Outcome& outcome, Json& json) {
   const auto is_held = [](const Hinge& hinge) { return hinge.release.has_value(); };
   const auto may_miss = [](const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); };
   if (std::ranges::any_of(scene.hinges, is_held)) {
@@ -183,7 +183,7 @@ Json outcome_json(const Scene& scene, const Outcome& outcome) {
               {"rhs_evaluations", outcome.work.rhs_evaluations}}}};
   if (std::ranges::any_of(scene.bodies, [](const Body& body) { return body.flexible.has_value(); }))
     json["peak_bending_moment"] = bending_json(scene, outcome);
-  add_life(scene, outcome, json);
+  add_sequence(scene, outcome, json);
   return json;
 }
 

@@ -178,7 +178,7 @@ void FolderWriter::go_on(const RunPlan& plan) {
   refuse_other_campaign(there, stored_.campaign, stored_.stamp);
   ResultsFile read = read_stored_results(there);
   refuse_other_rows(plan, read.results, stored_.folder / runs_file);
-  rows_.go_on_behind(std::move(read), stored_.runs().first);
+  rows_.continue_after(std::move(read), stored_.runs().first);
   if (before.runs < stored_.campaign.sampling.runs)
     note_extension(stored_.campaign, looks_before(before, rows_.count()));
   stored_.stamp = stamp_of(stored_.campaign, stored_.stamp.shard);

@@ -92,12 +92,12 @@ std::string command_for(const ShardMaker& maker, const Part& sibling, const Shar
 
 /// Adds a command for each shard that lies within the missing runs. Considers the numbers of shards that the existing
 /// folders use.
-void add_commands(const std::vector<Part>& parts, const std::vector<RunRange>& nobodys, long runs,
-                  const ShardMaker& maker, PartFaults& faults) {
+void add_commands(const std::vector<Part>& parts, const std::vector<RunRange>& missing_ranges,
+                  long runs, const ShardMaker& maker, PartFaults& faults) {
   std::map<long, const Part*, std::greater<>> siblings; // a folder for each number of shards in use
   for (const Part& part : parts)
     if (part.stamp.shard) siblings.try_emplace(part.stamp.shard->of, &part);
-  for (const RunRange& missing : nobodys) {
+  for (const RunRange& missing : missing_ranges) {
     long next = missing.first; // first run that no command makes yet
     for (const auto& [of, sibling] : siblings)
       for (Shard shard{1, of}; shard.index <= of && next < missing.last; ++shard.index) {
@@ -188,9 +188,9 @@ void find_doubles(const std::vector<Part>& parts, PartFaults& faults) {
 
 void find_missing(const std::vector<Part>& parts, long runs, const ShardMaker& maker,
                   PartFaults& faults) {
-  std::vector<RunRange> somebodys;
+  std::vector<RunRange> present;
   for (const Part& part : parts) {
-    somebodys.push_back(part.own);
+    present.push_back(part.own);
     const RunList missing = listed(missing_in(part.own, part.present));
     if (missing.empty()) continue;
     faults.add(Problem{
@@ -198,12 +198,12 @@ void find_missing(const std::vector<Part>& parts, long runs, const ShardMaker& m
         fmt::format("{} complete (run it again with --resume)", describe(part.stamp.shard))});
     faults.add(command(maker, part.out, part.stamp.shard, true));
   }
-  std::ranges::sort(somebodys, {}, &RunRange::first);
-  const std::vector<RunRange> nobodys = missing_in({0, runs}, somebodys);
-  if (nobodys.empty()) return;
-  faults.add(Problem{"", "", fmt::format("no folder with runs {}", listed(nobodys).text()),
+  std::ranges::sort(present, {}, &RunRange::first);
+  const std::vector<RunRange> missing_ranges = missing_in({0, runs}, present);
+  if (missing_ranges.empty()) return;
+  faults.add(Problem{"", "", fmt::format("no folder with runs {}", listed(missing_ranges).text()),
                      fmt::format("folders with all of the campaign's {} runs", runs)});
-  add_commands(parts, nobodys, runs, maker, faults);
+  add_commands(parts, missing_ranges, runs, maker, faults);
 }
 
 } // namespace wingspread

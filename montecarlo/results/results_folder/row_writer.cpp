@@ -9,7 +9,7 @@ namespace wingspread {
 RowWriter::RowWriter(std::filesystem::path file, const ResultNames& names)
     : file_(std::move(file)), results_(names) {}
 
-void RowWriter::go_on_behind(ResultsFile&& read, long first) {
+void RowWriter::continue_after(ResultsFile&& read, long first) {
   refuse_gaps(read.results, first, file_);
   std::error_code why;
   if (read.unterminated) std::filesystem::resize_file(file_, read.complete_bytes, why);

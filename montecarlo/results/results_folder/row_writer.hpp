@@ -18,7 +18,7 @@ public:
 
   /// Takes the rows read from the file, and cuts off bytes after its last complete row.
   /// @throws SpecError unless runs follow each other from `first` without a gap
-  void go_on_behind(ResultsFile&& read, long first);
+  void continue_after(ResultsFile&& read, long first);
 
   /// Opens the file; writes the header of a new one. Call once, before the first batch.
   /// @throws as refuse_path (machine_error.hpp) if it cannot be written, here and below

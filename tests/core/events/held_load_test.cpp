@@ -78,7 +78,7 @@ template <BaseMotion M> double most_of_friction(const oracle::RealFeatures& feat
     Scene scene = with_real_hinges(random_scene(3700 + k, options), 4700 + k, features);
     if (driven) scene.base = oracle::driven_by_table(scene, 5700 + k, 3).base;
     AnyMotion<M> motion(scene, 6700 + k, draws.log_uniform(1e-3, 0.3), draws.log_uniform(0.01, 3));
-    for (int i = 1; i <= motion.wing.size(); ++i) motion.system.touch(i, Contact::stuck);
+    for (int i = 1; i <= motion.wing.size(); ++i) motion.system.set_contact(i, Contact::stuck);
     const HeldLoadBound<double> bound = bound_of(motion);
     CAPTURE(k);
     for (const auto& [from, to] : {std::pair(0., 1.), {0., 0.5}, {0.75, 1.}, {0.4, 0.41}}) {

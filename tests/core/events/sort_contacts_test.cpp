@@ -39,7 +39,7 @@ TEST_CASE("the contacts of a long chain at rest are those that friction allows")
       CAPTURE(i);
       if (system.sticks(i)) {
         ++stick;
-        CHECK(std::abs(system.holding_friction(x, i)) <= limit * (1 + 1e-9));
+        CHECK(std::abs(system.locking_moment(x, i)) <= limit * (1 + 1e-9));
       } else {
         ++slide;
         CHECK(sliding_sense(system, i) * dxdt[system.layout().rate(i)] >

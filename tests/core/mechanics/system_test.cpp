@@ -26,7 +26,7 @@ template <BaseMotion M> struct Sticking {
         at(scene, state) {
     constraints.locked[at.wing.hinge_of[1]] = true;
     for (int i = 1; i <= n; ++i)
-      if (constraints.locked[at.wing.hinge_of[i]]) at.system.touch(i, Contact::stuck);
+      if (constraints.locked[at.wing.hinge_of[i]]) at.system.set_contact(i, Contact::stuck);
   }
 
 private:
@@ -68,7 +68,7 @@ template <BaseMotion M> void check_right_hand_side(std::uint64_t seed, int n, bo
     got.forces.col(hinge) << force.x, force.y;
     got.moments(hinge) = system.moment(x, i);
     if (wing.constraints.locked[hinge])
-      CHECK(system.holding_friction(x, i) == got.moments(hinge) - wing.constraints.tau[hinge]);
+      CHECK(system.locking_moment(x, i) == got.moments(hinge) - wing.constraints.tau[hinge]);
   }
   CAPTURE(seed, n);
   compare(got, expected, wing.constraints, 1e-12);

@@ -84,7 +84,7 @@ TEST_CASE("a moment that keeps its direction over a step does so wherever it is 
           step.x[at.rate(i)] = draws.uniform(-1, 1);
     system.find_sides(step.x);
     for (int i = 1; i <= at.bodies && !regularized; ++i)
-      system.touch(i, step.x[at.rate(i)] > 0 ? Contact::forward : Contact::backward);
+      system.set_contact(i, step.x[at.rate(i)] > 0 ? Contact::forward : Contact::backward);
     step.h = draws.log_uniform(1e-3, 0.1);
     step.dxdt.resize(at.size()), step.dxdt1.resize(at.size());
     system(step.x, step.dxdt, 0);

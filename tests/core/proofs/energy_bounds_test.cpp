@@ -17,10 +17,10 @@ template <BaseMotion M = BaseMotion::fixed> struct LatchedWing {
       : wing(with_numbers(scene)), system(wing, std::nullopt, work), at(system.layout()) {
     for (int i = 1; i <= at.bodies; ++i)
       if (wing.hinges[i].has_latch) system.engage(i);
-    for (const int i : stuck) system.touch(i, Contact::stuck);
+    for (const int i : stuck) system.set_contact(i, Contact::stuck);
     remaining.prepare(system);
     bounds.prepare(system);
-    for (const int i : stuck) system.touch(i, Contact::none);
+    for (const int i : stuck) system.set_contact(i, Contact::none);
     rest = remaining.rest();
     system.want_forces(true);
   }
