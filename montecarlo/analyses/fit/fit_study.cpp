@@ -84,21 +84,22 @@ LawMoments prior_moments(const FitParameter& parameter, const Campaign& campaign
   return moments_of(PreparedDistribution(campaign.dispersions[parameter.dispersion].distribution));
 }
 
-/// The limit of the prior at which the posterior lies, if any. A prior with one limit only has to be cut off there: one
-/// that fades out has no limit to speak of.
-std::optional<double> limit_at(double mean, const FitParameter& parameter,
+/// The limit of the prior at which the posterior's values lie, if any; none where a prior of one limit fades out.
+std::optional<double> limit_at(std::span<const double> sorted, const FitParameter& parameter,
                                const Campaign& campaign) {
   if (parameter.kind != FitParameter::Kind::dispersion) return std::nullopt;
   const PreparedDistribution law(campaign.dispersions[parameter.dispersion].distribution);
   const double lower = law.quantile(0), upper = law.quantile_complement(0);
   const bool two = std::isfinite(upper - lower);
-  const auto lies_at = [&](double limit, double next) {
+  const auto lies_at = [&](double limit, double next, double inner) {
     const double near = two ? at_limit * (upper - lower) : std::abs(next - limit);
     const bool is_cut = two || near < most_of_cut * std::abs(law.quantile(0.5) - limit);
-    return std::isfinite(limit) && is_cut && std::abs(mean - limit) < near;
+    return std::isfinite(limit) && is_cut && std::abs(inner - limit) < near;
   };
-  if (lies_at(lower, law.quantile(at_limit))) return lower;
-  return lies_at(upper, law.quantile_complement(at_limit)) ? std::optional(upper) : std::nullopt;
+  if (lies_at(lower, law.quantile(at_limit), quantile(sorted, share_at_limit))) return lower;
+  const double inner = quantile(sorted, 1 - share_at_limit);
+  return lies_at(upper, law.quantile_complement(at_limit), inner) ? std::optional(upper)
+                                                                  : std::nullopt;
 }
 
 /// Dispersions that vary and are not fitted.
@@ -243,7 +244,7 @@ private:
           {parameter.name, std::string(parameter.unit), prior.mean, prior.standard_deviation,
            mode[k], after.mean, after.std, quantile(sorted, tail), quantile(sorted, 1 - tail),
            std::sqrt(covariance(place, place)), std::abs(modes_.front().at[place]), 1,
-           limit_at(after.mean, parameter, campaign_)});
+           limit_at(sorted, parameter, campaign_)});
     }
     const auto common = static_cast<Eigen::Index>(space_.common());
     result_.u_covariance = covariance.topLeftCorner(common, common);

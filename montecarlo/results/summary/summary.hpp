@@ -167,7 +167,7 @@ struct Summary {
                                 const Replication& replication = {}, int threads = 0,
                                 std::span<const Requirement> requirements = {});
 
-/// "above every value", "below every value", "at either end, because requirements limit both sides".
+/// "above every value", "below every value", "at either end (requirements limit both sides)".
 [[nodiscard]] std::string_view words_of(MissingRank end);
 /// Why an output lacks a quantile over all runs: "976 of 1000 runs have a value; the others rank above every value".
 /// Empty if it has it.

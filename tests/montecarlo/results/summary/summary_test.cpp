@@ -147,10 +147,9 @@ TEST_CASE("limits on both sides: a run without a value may rank at either end of
     CHECK(bounds.lower == below.quantiles[i].all.bounds.lower);
     CHECK(bounds.upper == above.quantiles[i].all.bounds.upper);
     CHECK(either.quantiles[i].among->value == above.quantiles[i].among->value);
-    CHECK(
-        why_no_quantile(either, either.quantiles[i]) ==
-        "990 of 1000 runs have a value; the others rank at either end, because requirements limit "
-        "both sides");
+    CHECK(why_no_quantile(either, either.quantiles[i]) ==
+          "990 of 1000 runs have a value; the others rank at either end (requirements limit both "
+          "sides)");
   }
 }
 
