@@ -43,6 +43,29 @@ private:
 
 } // namespace
 
+TEST_CASE("fit: a parameter at a limit of its prior is marked, and told with --json too") {
+  const Folder folder;
+  Json campaign = panel_campaign(0.01);
+  campaign["dispersions"][0]["distribution"] =
+      parse_json(R"({ "type": "uniform", "lower": 0.98, "upper": 1.02 })");
+  const std::string file = folder.write("c.json", campaign.dump());
+  const std::string tests =
+      folder.write("tests.json", R"({ "tests": [ { "name": "timer", "values": [
+      { "output": "root.latch_time", "value": 2.1, "std": "10 ms" } ] } ],
+    "fit": { "parameters": ["spring"], "starts": 2, "samples": 200 } })");
+  const std::string out = folder.path() / "out";
+  const auto fit = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"fit", file, tests, "--out", out});
+    return run_program(folder, options);
+  };
+  const auto first = fit({"--json"});
+  CHECK(first.code == 0); // a fit has no requirement
+  CHECK(first.error.find("warning: spring lies at the limit 1.02 of its prior") !=
+        std::string::npos);
+  CHECK(parse_json(first.out)["at_limits"] == Json{"spring"});
+  CHECK_THAT(fit({"--resume"}).error, Catch::Contains("warning: spring lies at the limit 1.02"));
+}
+
 TEST_CASE("fit: every option does what its help says") {
   const Fit fit;
   const auto nine = fit(9, "nine", {"--json"});

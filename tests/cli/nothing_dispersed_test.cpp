@@ -70,6 +70,35 @@ TEST_CASE("runs that are all the same show no probability, and say so everywhere
   }
 }
 
+TEST_CASE("margin, rare and goals to stop at are refused where nothing is dispersed") {
+  const Folder folder;
+  const std::string file = folder.write("c.json", undispersed(Json::array()).dump());
+  const auto constant = stowed_torque_by(parse_json(R"({ "type": "constant", "value": 1 })"));
+  const std::string one_value = folder.write("o.json", undispersed(Json::array({constant})).dump());
+  const std::string out = folder.path() / "out";
+  const auto margin = run_program(folder, {"margin", file, "--scale", "hinges.*.spring.scale",
+                                           "--range", "0.9", "1.2", "--out", out});
+  CHECK(margin.code == 2);
+  CHECK_THAT(margin.error, HasFacts({"/dispersions: found none, expected a parameter that varies",
+                                     "show no probability"}));
+  const auto rare = run_program(
+      folder, {"rare", one_value, "--output", "root.latch_time", "--above", "3", "--out", out});
+  CHECK(rare.code == 2);
+  CHECK_THAT(rare.error, HasFacts({"/dispersions: found laws with a single value only"}));
+  for (const char* goal : {"requirement deployed", "deployed 1 %"}) {
+    const auto run = run_program(folder, {"run", file, "--out", out, "--until", goal});
+    CHECK(run.code == 2);
+    CHECK_THAT(run.error, HasFacts({"/until: found goals to stop at, though nothing is dispersed",
+                                    "wingspread simulate"}));
+  }
+  CHECK_FALSE(std::filesystem::exists(out));
+  Json json = undispersed(Json::array(
+      {stowed_torque_by(parse_json(R"({ "type": "normal", "mean": 1, "std": 0.01 })"))}));
+  CHECK(run_program(folder, {"run", folder.write("v.json", json.dump()), "--out", out, "--until",
+                             "deployed 50 %"})
+            .code != 2);
+}
+
 TEST_CASE("a law with any spread, in the campaign or in a case, is not warned of") {
   const Folder folder;
   Json json = undispersed(Json::array(

@@ -264,8 +264,9 @@ TEST_CASE("run --until refuses what cannot be reached for, by its option") {
   CHECK(refusal({"--until", "root.latch_tim@0.5 1"}) ==
         "error: --until: found string \"root.latch_tim\", expected an output of the campaign, or a "
         "status (did you mean \"root.latch_time\"?)\n");
-  CHECK(refusal({"--until", "deployed 2%"}) ==
-        "error: --until: found a relative_width, expected a width, for a share of runs\n");
+  CHECK_THAT(
+      refusal({"--until", "root.latch_time 2%"}),
+      HasFacts({"error: --until: found nothing, expected a number, > 0 and < 1: the quantile"}));
   CHECK_THAT(refusal({"--until", "root.latch_time@0.5 3 deg"}),
              HasFacts({"error: --until: found string \"3 deg\", expected a number, s, > 0",
                        "\"s\", \"ms\", \"min\" or \"h\""}));

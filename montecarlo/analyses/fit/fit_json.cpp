@@ -23,6 +23,14 @@ Json parameters_json(const FitResult& result) {
   return json;
 }
 
+/// The parameters that lie at a limit of their priors.
+Json limited_json(const FitResult& result) {
+  Json json = Json::array();
+  for (const FittedParameter& each : result.parameters)
+    if (each.limit) json.push_back(each.name);
+  return json;
+}
+
 Json held_json(const FitResult& result) {
   Json json = Json::object();
   for (const HeldDispersion& each : result.held)
@@ -124,6 +132,7 @@ Json fit_json(const FitResult& result, const FitSpec& spec, const Json& about) {
   json.update({{"finished", result.finished},
                {"findings", fit_findings(result, spec)},
                {"parameters", parameters_json(result)},
+               {"at_limits", limited_json(result)},
                {"held", held_json(result)},
                {"correlation", correlation_json(result)},
                {"sampler",

@@ -65,9 +65,10 @@ inline constexpr double too_close = 5;
 /// A parameter this far from its prior's median contradicts the prior: the prior's probability is 6e-5.
 inline constexpr double conflict_sigmas = 4;
 
-/// A posterior mean within this share of the prior's range from a limit of the prior counts as lying at the limit.
-/// Heuristic: a uniform prior puts 1 % there.
-inline constexpr double at_limit = 0.01;
+/// A posterior lies at a limit of its prior if at least `share_at_limit` of it is in the part next to the limit that has
+/// `at_limit` of the prior. Heuristic: a posterior that falls off from the limit by 1/e within a thirtieth of the range has
+/// so much; one that the tests put twice its standard deviation inside the limit has not.
+inline constexpr double at_limit = 0.01, share_at_limit = 0.25;
 
 /// Quantiles 5, 50 and 95 % of an output with the priors and with the posterior.
 struct PredictedOutput {

@@ -102,9 +102,11 @@ void add_misfits(const FitResult& result, const FitSpec& spec, std::vector<std::
                                  each.name, each.prior_sigmas));
   for (const FittedParameter& each : result.parameters)
     if (each.limit)
-      list.push_back(fmt::format("{} lies at the limit {:.6g} of its prior: the tests ask for a "
-                                 "value beyond it",
-                                 each.name, *each.limit));
+      list.push_back(
+          fmt::format("{} lies at the limit {:.6g} of its prior: the tests ask for a "
+                      "value beyond it, and the posterior is cut there. Widen its law, or "
+                      "look for what the model lacks",
+                      each.name, *each.limit));
 }
 
 std::string parameters_text(const FitResult& result) {
@@ -112,11 +114,12 @@ std::string parameters_text(const FitResult& result) {
       fmt::format("{}{:>24}{:>24}{:>26}{:>10}\n", in_column("PARAMETER", name_width),
                   "prior mean ± sd", "posterior mean ± sd", "95 % interval", "sd left");
   for (const FittedParameter& each : result.parameters)
-    text += fmt::format("{}{:>24}{:>24}{:>26}{:>10}\n", in_column("  " + each.name, name_width),
-                        fmt::format("{:.5g} +- {:.3g}", each.prior_mean, each.prior_std),
-                        fmt::format("{:.5g} +- {:.3g}", each.mean, each.std),
-                        fmt::format("{:.5g} to {:.5g}", each.lower, each.upper),
-                        percent(each.std_ratio, 0));
+    text += fmt::format(
+        "{}{:>24}{:>24}{:>26}{:>10}{}\n", in_column("  " + each.name, name_width),
+        fmt::format("{:.5g} +- {:.3g}", each.prior_mean, each.prior_std),
+        fmt::format("{:.5g} +- {:.3g}", each.mean, each.std),
+        fmt::format("{:.5g} to {:.5g}", each.lower, each.upper), percent(each.std_ratio, 0),
+        each.limit ? fmt::format("\n    at the limit {:.6g} of its prior", *each.limit) : "");
   return text;
 }
 

@@ -137,6 +137,19 @@ std::size_t most_strained(const ScaleLook& look) {
   return static_cast<std::size_t>(std::ranges::max_element(strains) - strains.begin());
 }
 
+std::string_view rule_of(const MarginSearch& search) {
+  if (search.as_good.lower == search.as_good.upper) return "least strain";
+  return *search.recommended == 1 ? "present springs" : "geometric mean";
+}
+
+std::string why_this_one(const MarginSearch& search) {
+  const auto [lower, upper] = search.as_good;
+  if (lower == upper) return "";
+  return fmt::format(". All scales from {} to {} are as good: {}", lower, upper,
+                     *search.recommended == 1 ? "the present springs are among them and are kept"
+                                              : "their geometric mean is recommended");
+}
+
 std::string why_withheld(const MarginSearch& search) {
   switch (search.withheld) {
   case Withheld::nothing:

@@ -63,6 +63,13 @@ concessions(const Campaign& campaign, const MarginResult& result, const MarginSe
 /// The condition with the largest strain at a scale (recommendation.hpp); the first of equals.
 [[nodiscard]] std::size_t most_strained(const ScaleLook& look);
 
+/// Which scales are as good as the recommended one, and why it is the one: ", and as few from 1.2 to 1.6: their geometric
+/// mean is recommended". Empty if no other is. @pre a scale is recommended
+[[nodiscard]] std::string why_this_one(const MarginSearch& search);
+
+/// The rule by which the recommended scale was chosen: "least strain", "present springs" or "geometric mean".
+[[nodiscard]] std::string_view rule_of(const MarginSearch& search);
+
 /// The reason why no scale is recommended; empty if one is.
 [[nodiscard]] std::string why_withheld(const MarginSearch& search);
 

@@ -124,6 +124,8 @@ private:
           scale * parameter.in(report_.campaign.scene);
     return {{"scale", scale},
             {"values", values},
+            {"as_good", {{"from", search_.as_good.lower}, {"to", search_.as_good.upper}}},
+            {"rule", rule_of(search_)},
             {"strain", strain(search_.seen.at(scale))},
             {"most_strained", name(most_strained(search_.seen.at(scale)))},
             {"given_up", given_up()},
@@ -179,9 +181,12 @@ Json definitions() {
       {"verdict", "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; what did not "
                   "deploy or happen counts against it; disproved: the opposite is shown"},
       {"recommended",
-       "the scale of the window with the least strain; of several the present springs, or "
-       "the middle; none where an edge was not found; confirmed by draws of a seed of "
-       "its own"},
+       "the scale of the window with the least strain; none where an edge was not found; "
+       "confirmed by draws of a seed of its own"},
+      {"as_good",
+       "the scales around the recommended one with the same strain, ends within the tolerance"},
+      {"rule", "of several scales as good the present springs, if they are among them, else the "
+               "geometric mean of the ends"},
       {"strain", "of the requirement that is worst off: runs that break it over n (1 - p)"},
       {"given_up",
        "against the present springs (scale 1): requirements that more runs break or whose "

@@ -52,12 +52,18 @@ enum class Withheld {
   short_of_torque, ///< the window has only weaker springs, and their static margins are below 0
 };
 
+/// A stretch of scales.
+struct ScaleRange {
+  double lower = 0, upper = 0;
+};
+
 /// One search: the parameters scaled together, and its results.
 struct MarginSearch {
   std::string name; ///< the hinge, or "joint" for all parameters together
   std::vector<SceneParameter> scaled;
   std::map<double, ScaleLook> seen{}; ///< by scale
   std::optional<double> recommended{};
+  ScaleRange as_good{}; ///< scales with the strain of the recommended one, which is among them
   Withheld withheld = Withheld::nothing;
   std::optional<Shortfall>
       passed_over{}; ///< the scale with less strain whose static margin is below 0

@@ -24,6 +24,12 @@ void refuse_unsuitable(const Campaign& campaign) {
     problems.push_back({"", "/margin", "nothing",
                         "the parameters to scale: a \"margin\" here, or the options --scale PATH… "
                         "--range A B, e.g. --scale 'hinges.*.spring.scale' --range 0.5 2"});
+  if (!has_spread(campaign))
+    problems.push_back(
+        {"", "/dispersions",
+         campaign.dispersions.empty() ? "none" : "laws with a single value only",
+         "a parameter that varies: all runs at a scale are the same run, and show no "
+         "probability"});
   if (campaign.requirements.empty())
     problems.push_back(
         {"", "/requirements", "none", "at least one: the requirements limit the window"});

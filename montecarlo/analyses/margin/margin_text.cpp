@@ -108,10 +108,11 @@ private:
     std::string text = line("recommended", scale, confirmation());
     const std::size_t worst = most_strained(search_.seen.at(scale));
     const Verdict& verdict = verdict_of(search_.seen.at(scale), conditions_[worst].condition);
-    text += below(verdict.broken.empty()
-                      ? "no run breaks any requirement there"
-                      : fmt::format("closest to its limit: {}: {} of {} runs break it", name(worst),
-                                    verdict.broken.size(), verdict.runs));
+    text += below((verdict.broken.empty()
+                       ? "no run breaks any requirement there"
+                       : fmt::format("closest to its limit: {}: {} of {} runs break it",
+                                     name(worst), verdict.broken.size(), verdict.runs)) +
+                  why_this_one(search_));
     if (search_.passed_over)
       text += below(fmt::format("scale {} breaks fewer runs, but its static margin is too low: {}",
                                 search_.passed_over->scale, to_string(*search_.passed_over)));

@@ -87,13 +87,11 @@ private:
 
   void choose_best(const Candidates& candidates) {
     const Stretch best = best_stretch(candidates);
-    const bool open = best.first == best.last || candidates[best.first].strain > 0;
-    if (open && (halve(candidates, best.last) || halve_below(candidates, best.first))) return;
+    if (halve(candidates, best.last) || halve_below(candidates, best.first)) return;
     const double middle = middle_of(candidates, best);
-    if (search_.seen.contains(middle))
-      search_.recommended = middle;
-    else
-      look(middle);
+    if (!search_.seen.contains(middle)) return look(middle);
+    search_.recommended = middle;
+    search_.as_good = {candidates[best.first].scale, candidates[best.last].scale};
   }
 
   [[nodiscard]] double middle_of(const Candidates& candidates, const Stretch& best) const {

@@ -6,11 +6,11 @@
 /// | 1 − p    | the share of runs that may break it, by its requirement                        |
 /// | σ(s)     | strain: max of k / (n (1 − p)) over the conditions, as observed                |
 ///
-/// Weak springs strain some conditions (deployment, static margins), strong springs strain others (moments, rates). So
-/// σ has its minimum between the edges. Often the minimum is 0, and neighbouring scales share it, because no run breaks
-/// any condition there. If the present springs are among these scales, they are kept; else the geometric middle of the
-/// widest stretch of such scales is taken. If the minimum is above 0, or only one scale has it, the cells beside it are
-/// first halved down to the tolerance.
+/// Weak springs strain some conditions (deployment, static margins), strong springs strain others (moments, rates). So σ
+/// has its minimum between the edges. Neighbouring scales may share the minimum; often it is 0, because no run breaks any
+/// condition. Then the present springs are kept if they lie among these scales; else the geometric mean of the ends of the
+/// widest such stretch is taken. The cells beside the stretch are halved down to the tolerance, so that its ends, and with
+/// them the mean, do not depend on the grid.
 ///
 /// No scale is recommended if the window lacks an edge, because the distance to that edge is unknown. Scales that a
 /// static margin below 0 rules out (weaker_springs.hpp) are passed over. The best of them is reported if it has less
@@ -37,7 +37,7 @@ struct RecommendationMeans {
   std::function<std::optional<Shortfall>(double)> shortfall;
 };
 
-/// Sets MarginSearch::recommended, or `withheld`, and `passed_over`.
+/// Sets MarginSearch::recommended and `as_good`, or `withheld`, and `passed_over`.
 void recommend(const RecommendationMeans& means, MarginSearch& search);
 
 } // namespace wingspread

@@ -4,6 +4,7 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/model/campaign/set_by_draws.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -192,8 +193,10 @@ private:
 RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& options,
                                Evaluator& evaluator,
                                const std::function<void(const StudyProgress&)>& progress) {
-  if (campaign.dispersions.empty())
-    throw SpecError({{"", "/dispersions", "none", "at least one: there is nothing to vary"}});
+  if (!vary(campaign.dispersions))
+    throw SpecError({{"", "/dispersions",
+                      campaign.dispersions.empty() ? "none" : "laws with a single value only",
+                      "at least one that varies"}});
   const LimitState limit_state(campaign, options.event);
   NormalRuns runs(campaign, limit_state, evaluator);
   return StrataSimulation(campaign, options, runs, progress).run();

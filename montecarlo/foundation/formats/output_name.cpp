@@ -1,5 +1,6 @@
 #include "montecarlo/foundation/formats/output_name.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace wingspread {
@@ -21,6 +22,10 @@ constexpr std::array per_hinge{
 constexpr std::array of_base{Quantity{"base.peak_angle", "rad"},
                              Quantity{"base.peak_rate", "rad/s"}};
 constexpr std::string_view rate_at = ".rate_at.";
+constexpr std::array<std::string_view, 12> never_negative{
+    "latch_time",  "deployment_time", "peak_moment", "peak_force", "peak_bending_moment",
+    "hold_moment", "overtravel",      "captures",    "held",       "frequency",
+    "peak_angle",  "peak_rate"};
 
 } // namespace
 
@@ -37,6 +42,10 @@ OutputName parse_output_name(std::string_view name) {
     return {std::string(name.substr(0, at)), "rate_at",
             std::string(name.substr(at + rate_at.size())), "rad/s"};
   return {"", std::string(name), "", ""};
+}
+
+bool is_never_negative(const OutputName& name) {
+  return std::ranges::find(never_negative, name.quantity) != never_negative.end();
 }
 
 } // namespace wingspread

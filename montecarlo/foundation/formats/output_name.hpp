@@ -16,4 +16,7 @@ struct OutputName {
 /// Splits a name. A hinge's name may contain dots.
 [[nodiscard]] OutputName parse_output_name(std::string_view name);
 
+/// Whether no value of the output is below 0: a time, a magnitude or a number.
+[[nodiscard]] bool is_never_negative(const OutputName& name);
+
 } // namespace wingspread

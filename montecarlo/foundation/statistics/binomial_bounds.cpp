@@ -61,10 +61,13 @@ RankBounds quantile_rank_bounds(long n, double p, double confidence) {
 
 RankBounds quantile_rank_bounds(const PartialRanks& ranks, double p, double confidence) {
   const RankBounds all = quantile_rank_bounds(ranks.all(), p, confidence);
-  const auto among_present = [&](std::optional<long> rank) {
-    return rank ? ranks.among_present(*rank) : std::nullopt;
+  const auto among_present = [&](std::optional<long> rank, MissingRank end) {
+    if (ranks.end != MissingRank::either) end = ranks.end;
+    return rank ? PartialRanks{ranks.present, ranks.missing, end}.among_present(*rank)
+                : std::nullopt;
   };
-  return {among_present(all.lower), among_present(all.upper)};
+  return {among_present(all.lower, MissingRank::below),
+          among_present(all.upper, MissingRank::above)};
 }
 
 Bounds quantile_bounds(std::span<const double> sorted, const PartialRanks& ranks, double p,

@@ -46,8 +46,15 @@ std::vector<long> replicate_sizes(std::span<const ReplicateValue> values, int re
 Bounds replicate_quantile_bounds(std::span<const ReplicateValue> sorted, int replicates, double p,
                                  double confidence, const MissingOfReplicates& missing) {
   if (replicates < 2 || sorted.empty()) return {};
-  const PartialRanks ranks{
-      std::ssize(sorted), std::reduce(missing.counts.begin(), missing.counts.end()), missing.below};
+  if (missing.end == MissingRank::either) {
+    const auto bounds = [&](MissingRank end) {
+      return replicate_quantile_bounds(sorted, replicates, p, confidence, {missing.counts, end});
+    };
+    return {bounds(MissingRank::below).lower, bounds(MissingRank::above).upper};
+  }
+  const bool below = missing.end == MissingRank::below;
+  const PartialRanks ranks{std::ssize(sorted),
+                           std::reduce(missing.counts.begin(), missing.counts.end()), missing.end};
   const long n = ranks.all();
   const auto sizes_of = [&](auto end, bool with_missing) {
     std::vector<long> sizes = replicate_sizes({sorted.begin(), end}, replicates);
@@ -56,11 +63,9 @@ Bounds replicate_quantile_bounds(std::span<const ReplicateValue> sorted, int rep
     return sizes;
   };
   const std::vector<long> sizes = sizes_of(sorted.end(), true);
-  const auto error_below = [&](auto end) {
-    return share_of(sizes_of(end, missing.below), sizes).error;
-  };
+  const auto error_below = [&](auto end) { return share_of(sizes_of(end, below), sizes).error; };
   const auto place = ranks.among_present(quantile_rank(n, p));
-  const auto edge = missing.below ? sorted.begin() : sorted.end(); // next to the missing values
+  const auto edge = below ? sorted.begin() : sorted.end(); // next to the missing values
   const auto tied =
       place ? std::ranges::equal_range(sorted, sorted[static_cast<std::size_t>(*place - 1)].value,
                                        {}, &ReplicateValue::value)

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "montecarlo/foundation/statistics/bounds.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <span>
 
@@ -17,10 +18,10 @@ struct ReplicateValue {
   int replicate; ///< in [0, R)
 };
 
-/// Values that are missing from a sample: how many of each replicate, and whether they rank below every value or above.
+/// Values that are missing from a sample: how many of each replicate, and where they rank.
 struct MissingOfReplicates {
   std::span<const long> counts{}; ///< R numbers, or none if nothing is missing
-  bool below = false;
+  MissingRank end = MissingRank::above;
 };
 
 /// Bounds of a quantile from replicates: the values at which the pooled distribution function F is p ∓ t s. Here t is
@@ -30,6 +31,7 @@ struct MissingOfReplicates {
 /// search then finds places where the replicates agree by chance. Bounds from two replicates so computed missed in 10
 /// to 20 % of all cases instead of 2.5 %.
 /// No bound if F does not reach p ∓ t s, or a missing value ranks there; none for R < 2 or if all replicates agree.
+/// Where missing values rank at either end, the lower bound has them below, the upper one above.
 /// Cost O(n). Source: R. S. Woodruff, J. Amer. Statist. Assoc. 47 (1952) 635–646.
 /// @param sorted the present values, smallest first
 [[nodiscard]] Bounds replicate_quantile_bounds(std::span<const ReplicateValue> sorted,

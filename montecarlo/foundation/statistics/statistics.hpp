@@ -78,21 +78,27 @@ void sort_values(std::span<double> values);
 /// @param sorted smallest first
 [[nodiscard]] double quantile(std::span<const double> sorted, double p);
 
-/// Ranks over a sample of which some values are missing. A missing value ranks above every value, or below.
+/// Where missing values rank: above every value, below every value, or at either of these ends.
+enum class MissingRank { above, below, either };
+
+/// Ranks over a sample of which some values are missing.
 struct PartialRanks {
   long present, missing = 0;
-  bool missing_below = false;
+  MissingRank end = MissingRank::above;
 
   [[nodiscard]] long all() const { return present + missing; }
-  /// The rank among the present values of a rank among all, both from 1; nothing if a missing value has that rank.
+  /// The rank among the present values of a rank among all, both from 1; nothing if a missing value has that rank, or
+  /// the missing values rank at either end.
   [[nodiscard]] std::optional<long> among_present(long rank) const {
-    const long place = missing_below ? rank - missing : rank;
+    if (end == MissingRank::either && missing > 0) return std::nullopt;
+    const long place = end == MissingRank::below ? rank - missing : rank;
     return place < 1 || place > present ? std::nullopt : std::optional(place);
   }
 };
 
 /// The sample quantile over all values, the missing ones too. NaN if a missing value has its rank: the quantile p does
-/// not exist if fewer than a share p of the values are present (mirrored if missing values rank below). Cost O(1).
+/// not exist if fewer than a share p of the values are present (mirrored if missing values rank below). No quantile
+/// exists if missing values rank at either end. Cost O(1).
 /// @param sorted the present values, smallest first
 [[nodiscard]] double quantile(std::span<const double> sorted, const PartialRanks& ranks, double p);
 

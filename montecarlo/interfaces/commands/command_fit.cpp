@@ -45,6 +45,14 @@ private:
   bool shown_;
 };
 
+/// Warns of parameters at limits of their priors where the printed output does not begin with it.
+void warn_of_limits(const Json& fit) {
+  for (const auto& [name, parameter] : fit.at("parameters").items())
+    if (parameter.contains("at_limit"))
+      fmt::print(stderr, "warning: {} lies at the limit {:.6g} of its prior: widen its law\n", name,
+                 parameter["at_limit"].get<double>());
+}
+
 int exit_of(bool finished) { return finished ? exit_code::done : exit_code::not_met; }
 
 int report_unfinished() {
@@ -76,7 +84,7 @@ int fit(const FitCommandOptions& given) {
     return exit_code::interrupted;
   FitFolder folder(given.out, about_fit(campaign, spec), given.resume);
   if (folder.is_finished()) {
-    (void)show_finished(given.out / fit_json_file, given.json);
+    warn_of_limits(show_finished(given.out / fit_json_file, given.json));
     return exit_of(true);
   }
   options.most_runs = given.runs.value_or(0);
@@ -89,8 +97,9 @@ int fit(const FitCommandOptions& given) {
                             [&](const EnsembleState& state) { progress.show(state); });
     }
     folder.write(result, campaign, spec, options.pool, interrupt.flag());
-    fmt::print("{}", given.json ? read_text(given.out / fit_json_file).value_or("")
-                                : fit_text(result, spec));
+    const std::string written = read_text(given.out / fit_json_file).value_or("");
+    fmt::print("{}", given.json ? written : fit_text(result, spec));
+    if (given.json) warn_of_limits(Json::parse(written));
     return result.finished ? exit_of(true) : report_unfinished();
   } catch (const Stopped&) {
     if (!folder.is_finished()) folder.log().sync();
@@ -130,7 +139,8 @@ Writes posterior.csv (a row a sample), fit.json, traces.csv (measured, fitted, b
 campaign.json, which draws whole rows of posterior.csv: `wingspread run DIR/campaign.json` is the
 prediction. Prints first whether the model fits at all, then the parameters, what the tests do not
 see, and what further tests ("candidates") would tell. Dispersions that are not fitted are held at
-their medians. Exit code 1: the chains are not finished. A model that does not fit is told, with 0.
+their medians. Exit code 1: the chains are not finished. A model that does not fit is told, with 0; so is
+a parameter at a limit of its prior ("at_limits" in fit.json).
 
 Example:
   wingspread fit campaign.json tests.json --out fit

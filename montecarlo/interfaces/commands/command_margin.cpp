@@ -217,8 +217,10 @@ sets it, and how many runs break it on either side.
   An end of the range is not an edge: if no requirement fails there, the range is widened until one
 does, up to "widest". Without both edges there is no recommendation.
   The recommended scale maximises the margin of the worst requirement: the share of runs that may
-break it over the share that does. The report says what this costs against the present springs. The
-recommendation is confirmed by runs with a seed of their own. Weaker springs are not recommended if
+break it over the share that does. Where a range of scales is equally good, the report says which:
+the present springs are kept if they are in it, else the geometric mean of its ends is recommended.
+The report says what this costs against the present springs. The recommendation is confirmed by runs
+with a seed of their own. Weaker springs are not recommended if
 static margins of the nominal wing would become negative; a warning names those that are negative
 at the recommended scale. If no scale works, the report names the
 requirements that rule it out.

@@ -36,7 +36,7 @@ std::string refuse_until(const std::string& text) {
   if (parse_stopping_goal(text)) return "";
   return fmt::format(
       "found \"{}\", expected e.g. \"root.peak_moment@0.99 5 N*m\" (its 0.99 quantile "
-      "with an interval 5 N·m wide), \"root.peak_moment@0.99 2%\", \"deployed 0.01\" or "
+      "with an interval 5 N·m wide), \"root.peak_moment@0.99 2%\", \"deployed 1%\" or "
       "\"requirement deployed\"",
       text);
 }
@@ -112,7 +112,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_shard_option(command, options.shard, "Make only part I of N of the runs, e.g. 2/5");
   command
       .add_option("--until", options.until,
-                  "Stop once this is known, e.g. \"deployed 0.01\" (see below)")
+                  "Stop once this is known, e.g. \"deployed 1%\" (see below)")
       ->type_name("GOAL")
       ->allow_extra_args(false)
       ->check(refuse_until);
@@ -138,12 +138,14 @@ the cases. All cases use the same draws. The exit code is the worst of all cases
 campaign's confidence. Several goals must be reached together:
   "root.peak_moment@0.99 5 N*m"  the 0.99 quantile; a plain number is in SI units: N·m
   "root.peak_moment@0.99 2%"     the same, as a share of the quantile
-  "deployed 0.01"                the share of runs that deploy (or stall, …: any status)
+  "deployed 1%"                  the share of runs that deploy (or stall, …: any status, or HINGE.held):
+                                 the interval is 0.01 wide, from 98.5 to 99.5 % for example
   "requirement deployed"         the requirement, by name or output, has passed or failed
 The goals are checked after 1000, 2000, 4000, … runs and nowhere else, so a campaign always stops
 at the same run; its number of runs is the maximum. Each of these interim analyses adds a chance of
 a wrong answer, so all bounds and verdicts share their risk among them and hold wherever the
-campaign stops. --until excludes shards, and draws that depend on each other.
+campaign stops. --until excludes shards, draws that depend on each other, and campaigns in which
+nothing is dispersed.
 
 If a requirement is not met, do not add runs of the same draws until it passes: that inflates the
 risk of a wrong verdict. Use --until, or a new --seed and a number of runs fixed beforehand.

@@ -3,9 +3,11 @@
 #include "core/scene/curve.hpp"
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/random_stream.hpp"
+#include "montecarlo/model/campaign/set_by_draws.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <iterator>
 #include <set>
@@ -20,6 +22,14 @@ std::string campaign_hash(const Json& resolved) {
   Json hashed = resolved;
   hashed.erase(stamp_key);
   return fmt::format("{:016x}", stream_name(hashed.dump()).hash); // FNV-1a
+}
+
+bool has_spread(const Campaign& campaign) {
+  const auto varies_in = [](const CaseSpec& spec) {
+    return std::ranges::any_of(
+        spec.distributions, [](const CaseDistribution& own) { return varies(own.distribution); });
+  };
+  return vary(campaign.dispersions) || std::ranges::any_of(campaign.cases, varies_in);
 }
 
 std::vector<SceneParameter> dispersed_parameters(std::span<const Dispersion> dispersions) {

@@ -56,6 +56,9 @@ struct Campaign {
 /// those of `simulate`, static margins, input checks, summary.json and the report. Correlations do not move medians.
 [[nodiscard]] Scene nominal_scene(const Campaign& campaign);
 
+/// Whether draws differ, in the campaign or in one of its cases: else all runs of a case are one and the same.
+[[nodiscard]] bool has_spread(const Campaign& campaign);
+
 /// The parameters that the dispersions change, each once, in the order of their first change.
 [[nodiscard]] std::vector<SceneParameter>
 dispersed_parameters(std::span<const Dispersion> dispersions);

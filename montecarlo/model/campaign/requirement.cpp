@@ -146,11 +146,16 @@ double confidence_alone(std::span<const Requirement> all, const Requirement& req
                     std::ranges::count(all, requirement.group, &Requirement::group));
 }
 
-bool ranks_missing_below(std::span<const Requirement> requirements, const std::string& output,
-                         double p) {
-  return p < 0.5 && std::ranges::any_of(requirements, [&](const Requirement& each) {
-           return each.output == output && each.min;
-         });
+MissingRank missing_rank(std::span<const Requirement> requirements, const std::string& output) {
+  bool above = false, below = false;
+  for (const Requirement& each : requirements) {
+    if (each.output != output) continue;
+    const bool both = each.absolute && !is_never_negative(parse_output_name(output));
+    above = above || each.max || both;
+    below = below || each.min || both;
+  }
+  if (above && below) return MissingRank::either;
+  return below ? MissingRank::below : MissingRank::above;
 }
 
 const std::string& name_of(const Requirement& requirement) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "montecarlo/foundation/formats/json_reader.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/model/static_margins/required_margin.hpp"
 
 #include <optional>
@@ -38,10 +39,11 @@ struct Requirement {
 /// The name for stopping rules: the requirement's name, or its output if it has none.
 [[nodiscard]] const std::string& name_of(const Requirement& requirement);
 
-/// Whether a run without the output ranks below every value for the quantile p, not above. It ranks at the end where it
-/// hurts: below if the output has a `min` and p is below the median; else above.
-[[nodiscard]] bool ranks_missing_below(std::span<const Requirement> requirements,
-                                       const std::string& output, double p);
+/// Where a run without the output ranks in all quantiles of the output: at the end that breaks its requirements. Above
+/// every value without a requirement and for a `max`; below every value for a `min`; at either end where requirements
+/// limit the output on both sides, as a `min` and a `max` do, or `abs` of an output that has a sign.
+[[nodiscard]] MissingRank missing_rank(std::span<const Requirement> requirements,
+                                       const std::string& output);
 
 /// Reads an array of requirements and notes problems.
 /// @param outputs     the campaign's columns; null if scene or outputs have problems: then names are not looked up

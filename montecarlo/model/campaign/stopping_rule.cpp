@@ -17,6 +17,8 @@ namespace {
 constexpr long first_checkpoint = 1000;
 constexpr std::string_view decision_prefix = "requirement ";
 constexpr const char* quantile_expected = "a number, > 0 and < 1: the quantile that is meant";
+constexpr const char* share_expected =
+    "a width, for a share of runs: 0.01 is one in a hundred of all runs";
 
 void refuse_unknown_output(const JsonCursor& at, const std::string& output,
                            const std::vector<std::string>& outputs) {
@@ -45,17 +47,17 @@ void read_width(JsonObject& object, WidthGoal& goal) {
   object.optional("relative_width", goal.width, "a number, > 0", is_positive);
 }
 
-/// Reads the quantile: required for an output, refused for a status.
+/// Reads the quantile: required for an output, refused for a share of runs.
 void read_quantile(JsonObject& object, WidthGoal& goal) {
   const auto quantile = object.find("quantile");
   if (!object.is_object() || goal.output.empty()) return;
-  if (!status_named(goal.output)) {
+  if (!is_share(goal.output)) {
     goal.quantile.emplace();
     object.required("quantile", *goal.quantile, quantile_expected, is_proper_share);
     return;
   }
   if (quantile) quantile->refuse("no quantile of a share of runs");
-  if (goal.relative) object.at().refuse("a relative_width", "a width, for a share of runs");
+  if (goal.relative) object.at().refuse("a relative_width", share_expected);
 }
 
 DecisionGoal read_decision_goal(JsonObject& object, const std::vector<std::string>* requirements) {
@@ -139,6 +141,10 @@ std::optional<Json> take_width(std::string_view& text) {
 
 } // namespace
 
+bool is_share(std::string_view output) {
+  return status_named(output) || parse_output_name(output).quantity == "held";
+}
+
 void read_stopping_rule(const JsonCursor& at, const std::vector<std::string>* outputs,
                         const std::vector<std::string>* requirements, StoppingRule& rule) {
   if (!at.value().is_array())
@@ -169,7 +175,8 @@ std::optional<Json> parse_stopping_goal(std::string_view text) {
     goal["quantile"] = *quantile;
   }
   goal["output"] = std::string(name);
-  goal[percent ? "relative_width" : "width"] = percent ? Json(width->get<double>() / 100) : *width;
+  const bool relative = percent && !is_share(name); // a share's own unit is %
+  goal[relative ? "relative_width" : "width"] = percent ? Json(width->get<double>() / 100) : *width;
   return goal;
 }
 

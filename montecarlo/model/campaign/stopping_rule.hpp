@@ -17,10 +17,10 @@
 
 namespace wingspread {
 
-/// A goal for the width of a confidence interval: of an output's quantile, or of a status's share of runs.
+/// A goal for the width of a confidence interval: of an output's quantile, or of a share of runs.
 struct WidthGoal {
   std::string output;             ///< a column of the results, or a status
-  std::optional<double> quantile; ///< in (0, 1); nothing for a status
+  std::optional<double> quantile; ///< in (0, 1); nothing for a share of runs
   double width = 0;               ///< upper less lower bound, > 0, in the output's unit
   bool relative = false;          ///< the width is a share of the quantile's magnitude
 };
@@ -35,6 +35,9 @@ using StoppingGoal = std::variant<WidthGoal, DecisionGoal>;
 /// All goals have to be met. Without goals the campaign makes all runs.
 using StoppingRule = std::vector<StoppingGoal>;
 
+/// Whether the name means a share of runs: a status, or an output that is 1 or 0 (HINGE.held).
+[[nodiscard]] bool is_share(std::string_view output);
+
 /// Reads an array of goals and notes problems.
 /// @param outputs      the campaign's columns; null if scene or outputs have problems: then names are not looked up
 /// @param requirements the requirements' names; null if they have problems
@@ -43,8 +46,8 @@ void read_stopping_rule(const JsonCursor& at, const std::vector<std::string>* ou
 
 [[nodiscard]] Json write_stopping_rule(const StoppingRule& rule);
 
-/// Parses "root.peak_moment@0.99 5", "root.peak_moment@0.99 5 N*m", "root.peak_moment@0.99 2%", "deployed 0.01" or
-/// "requirement deployed" into the goal's JSON; nothing for other text.
+/// Parses "root.peak_moment@0.99 5", "root.peak_moment@0.99 5 N*m", "root.peak_moment@0.99 2%", "deployed 0.01",
+/// "deployed 1 %" (the same) or "requirement deployed" into the goal's JSON; nothing for other text.
 [[nodiscard]] std::optional<Json> parse_stopping_goal(std::string_view text);
 [[nodiscard]] std::string to_string(const StoppingGoal& goal);
 

@@ -333,13 +333,7 @@ void check_dispersions(const Campaign& campaign, InputWarnings& warnings) {
 }
 
 void check_spread(const Campaign& campaign, InputWarnings& warnings) {
-  const auto varies_in = [](const CaseSpec& spec) {
-    return std::ranges::any_of(
-        spec.distributions, [](const CaseDistribution& own) { return varies(own.distribution); });
-  };
-  if (campaign.sampling.runs < 2 || vary(campaign.dispersions) ||
-      std::ranges::any_of(campaign.cases, varies_in))
-    return;
+  if (campaign.sampling.runs < 2 || has_spread(campaign)) return;
   warnings.add("/dispersions",
                campaign.dispersions.empty() ? "none" : "laws with a single value only",
                fmt::format("a parameter that varies: all {} runs are the same run, and show no "

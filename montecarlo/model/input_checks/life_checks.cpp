@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace wingspread {
 namespace {
+
+constexpr double instant = 1e-6;    // s: in this time nothing moves
+constexpr double least_load = 1e-9; // N·m; heuristic: round-off of a wing without torques
 
 /// "root waits for mid waits for root", of a hold that waits for itself; else empty.
 std::string cycle_of(const Scene& scene, int hinge) {
@@ -46,6 +50,32 @@ void check_release(const Scene& scene, int h, double t_end, InputWarnings& warni
                  "how far that hinge has turned from its stowed angle, up to its latched angle");
 }
 
+/// What each hold would bear at the start if it were rigid, N·m by hinge; empty where the run fails.
+std::vector<Peak> loads_at_start(Scene scene, Integration integration) {
+  for (Hinge& hinge : scene.hinges) hinge.hold.reset();
+  integration.t_end = instant;
+  Goal goal;
+  goal.peak_moment = goal.peak_force = false;
+  return Deployment().run(scene, integration, goal).hold_moment;
+}
+
+/// Warns of elastic holds that start without the load that they bear at rest.
+void check_holds(const Scene& scene, const Integration& integration, InputWarnings& warnings) {
+  const auto is_elastic = [](const Hinge& hinge) { return hinge.release && hinge.hold; };
+  if (std::ranges::none_of(scene.hinges, is_elastic)) return;
+  const std::vector<Peak> loads = loads_at_start(scene, integration);
+  for (std::size_t h = 0; h < loads.size(); ++h)
+    if (is_elastic(scene.hinges[h]) && loads[h].value > least_load)
+      warnings.add(
+          fmt::format("/hinges/{}/hold", h),
+          fmt::format(
+              "a hold that starts unstrained under {:.4g} N·m: it rings, and {}.hold_moment "
+              "is up to twice that, {:.4g} N·m (less with damping)",
+              loads[h].value, scene.hinges[h].name, 2 * loads[h].value),
+          "a rigid hold for the load at rest, or a `damping` that ends the ring before the "
+          "release");
+}
+
 void check_capture(const Scene& scene, int h, const Outcome& nominal, InputWarnings& warnings) {
   const std::string at = fmt::format("/hinges/{}/latch", h);
   const Hinge& hinge = scene.hinges[h];
@@ -74,6 +104,7 @@ void check_capture(const Scene& scene, int h, const Outcome& nominal, InputWarni
 
 void check_life(const Scene& scene, const Integration& integration, const Outcome& nominal,
                 InputWarnings& warnings) {
+  check_holds(scene, integration, warnings);
   for (int h = 0; h < std::ssize(scene.hinges); ++h) {
     if (scene.hinges[h].release) check_release(scene, h, integration.t_end, warnings);
     if (scene.hinges[h].latch && scene.hinges[h].latch->can_miss())

@@ -1,11 +1,12 @@
 #include "montecarlo/model/input_checks/motor_checks.hpp"
 
-#include "montecarlo/model/static_margins/hinge_terms.hpp"
+#include "montecarlo/model/static_margins/motor_command.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace wingspread {
@@ -21,19 +22,6 @@ double fastest(const Motor& motor) {
   double most = 0;
   for (const double rate : motor.rates) most = std::max(most, std::abs(motor.scale * rate));
   return most;
-}
-
-/// The way of the command up to `time` after the release, rad, by the chords of a table.
-double commanded_way(const Motor& motor, double time) {
-  if (!motor.table) return motor.rate * time;
-  double way = motor.rates.front() * std::clamp(motor.time.front(), 0.0, time);
-  for (std::size_t k = 1; k < motor.time.size(); ++k) {
-    const double from = std::clamp(motor.time[k - 1], 0.0, time);
-    const double to = std::clamp(motor.time[k], 0.0, time);
-    way += (to - from) * motor.table->value_at(std::midpoint(from, to));
-  }
-  way += motor.rates.back() * std::max(time - std::max(motor.time.back(), 0.0), 0.0);
-  return motor.scale * way;
 }
 
 void check_command(const std::string& at, const Hinge& hinge, double time, bool latched,
@@ -54,6 +42,7 @@ void check_command(const std::string& at, const Hinge& hinge, double time, bool 
                  "a faster command, or a later t_end");
 }
 
+/// @param stall of the commands while the latch is engaged
 void check_latch(const std::string& at, const Hinge& hinge, const StallTorques& stall,
                  InputWarnings& warnings) {
   const Latch& latch = *hinge.latch;
@@ -89,8 +78,11 @@ void check_motor(const Scene& scene, int h, double t_end, const Outcome& nominal
   double released = 0;
   for (const HingeEvent& event : nominal.releases)
     if (event.hinge == h) released = event.time;
-  check_command(at, hinge, t_end - released, holding_latch(nominal, h) != nullptr, warnings);
-  if (hinge.latch) check_latch(at, hinge, stall, warnings);
+  const LatchEvent* latched = holding_latch(nominal, h);
+  check_command(at, hinge, t_end - released, latched != nullptr, warnings);
+  const double engaged =
+      latched ? latched->time - released : std::numeric_limits<double>::infinity();
+  if (hinge.latch) check_latch(at, hinge, stall_torques(motor, engaged), warnings);
 }
 
 } // namespace

@@ -174,7 +174,9 @@ std::string describe_latch(const std::optional<Latch>& latch) {
                                                                 degrees_text(*latch->capture_rate))
                                                   : "";
   const std::string holding =
-      latch->holding_moment ? fmt::format(", lets go from {} N·m on", *latch->holding_moment) : "";
+      latch->holding_moment
+          ? fmt::format(", lets go of a load towards stowed from {} N·m on", *latch->holding_moment)
+          : "";
   return fmt::format("; latch {:.7g} N·m/rad, {}{}{}{}", latch->stiffness, damping, backlash,
                      capture, holding);
 }

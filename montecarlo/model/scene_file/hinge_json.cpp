@@ -170,6 +170,12 @@ void read_latch(const JsonCursor& at, std::optional<Latch>& latch) {
     if (const auto found = object.find(key); found && found->read(value, dimension)) limit = value;
   };
   read_limit("capture_rate", latch->capture_rate, Dimension{"rad/s", "≥ 0"});
+  if (const auto moment = object.find("holding_moment"))
+    moment->note(
+        Question::What::quantity,
+        "a number, N·m, > 0, or a string of a number and its unit, such as \"12 N*m\": a load "
+        "towards stowed opens the engaged latch from this moment on; a load the other way "
+        "never does");
   read_limit("holding_moment", latch->holding_moment, Dimension{"N·m", "> 0"});
   object.refuse_others();
 }

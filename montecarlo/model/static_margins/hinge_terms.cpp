@@ -2,6 +2,7 @@
 
 #include "core/laws/damper.hpp"
 #include "core/scene/torque.hpp"
+#include "montecarlo/model/static_margins/motor_command.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,17 @@ double root_between(const HingeTorque& torque, const Hinge& hinge, double from, 
        middle = std::midpoint(from, to))
     ((torque_at(torque, hinge, middle) > 0) == sense ? from : to) = middle;
   return to;
+}
+
+/// Places along the pieces of a motor's table by which a hinge that follows the command passes.
+std::vector<double> places_along(const Motor& motor, const Hinge& hinge) {
+  std::vector<double> knots;
+  for (const double time : motor.time) {
+    const double x =
+        commanded_way(motor, std::max(time, 0.0)) / std::abs(hinge.latched - hinge.stowed);
+    if (x > 0 && x < 1) knots.push_back(x);
+  }
+  return parts_between(std::move(knots));
 }
 
 /// The x at which the hinge has an angle.
@@ -72,24 +84,11 @@ double damping_at(const Hinge& hinge, double x, double rate) {
 
 } // namespace
 
-StallTorques stall_torques(const Motor& motor) {
-  double slowest = motor.rate, fastest = motor.rate;
-  if (motor.table) { // its curve is largest and smallest at knots
-    const auto [least, most] = std::ranges::minmax(motor.rates);
-    slowest = std::min(motor.scale * least, motor.scale * most);
-    fastest = std::max(motor.scale * least, motor.scale * most);
-  }
-  const auto at = [&](double rate) {
-    return std::clamp(motor.gain * rate, -motor.torque_limit, motor.torque_limit);
-  };
-  return {at(slowest), at(fastest)};
-}
-
 double add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& extras,
                  TorqueTerms& terms) {
   const double size = std::abs(gear);
   const double spring = gear * torque_at(hinge.spring, hinge, x);
-  const double motor = hinge.motor ? gear * stall_torques(*hinge.motor).most : 0;
+  const double motor = hinge.motor ? gear * stall_torque_at(hinge, x) : 0;
   const TorqueTerms& other = extras.other;
   terms.available += size * other.available + std::max(spring, 0.0) + std::max(motor, 0.0);
   terms.spring += size * other.spring + std::max(-spring, 0.0) + std::max(-motor, 0.0);
@@ -126,6 +125,10 @@ std::vector<double> places_of_least(const Hinge& hinge) {
       const std::vector<double> places = places_along(*torque->table, hinge);
       points.insert(points.end(), places.begin(), places.end());
     }
+  if (hinge.motor && hinge.motor->table) {
+    const std::vector<double> places = places_along(*hinge.motor, hinge);
+    points.insert(points.end(), places.begin(), places.end());
+  }
   if (hinge.damper && hinge.damper->window)
     for (const double angle : *hinge.damper->window)
       if (const double x = travel_at(hinge, angle); x > 0 && x < 1) points.push_back(x);

@@ -2,8 +2,8 @@
 /// Kinetic energy, stops, gravity and air are not counted. A torque test both ways (`measured`) gives its mean to the
 /// spring and half its difference to the friction.
 ///
-/// A motor counts with its moment at rest: its stall torque under the fastest command towards the latch. One that is
-/// never commanded towards the latch resists.
+/// A motor counts with its moment at rest under the fastest command that is still to come at the place (motor_command.hpp).
+/// One whose commands to come all lead away from the latch resists.
 ///
 /// Dampers and viscous friction vanish at rest. With a stated rate they resist as at that rate, in addition to the
 /// friction at rest.
@@ -26,12 +26,6 @@ struct HingeExtras {
   double rate = 0;     ///< rate for the dampers' torque, rad/s, ≥ 0; 0: dampers are not counted
 };
 
-/// The moments that a motor exerts at rest under its slowest and its fastest command, N·m along the travel.
-struct StallTorques {
-  double least, most;
-};
-[[nodiscard]] StallTorques stall_torques(const Motor& motor);
-
 /// The hinge's terms at x of its travel (0 stowed … 1 latched), the extras included. A spring that pulls back counts as
 /// resistance S; a harness that helps counts as 0. FR is the friction level at rest: `static` of the exact model, else
 /// `coulomb`, plus half the difference of a torque test both ways.
@@ -46,8 +40,8 @@ double add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& e
 /// Both ends of the travel, and where spring or harness changes sign; x, ascending.
 [[nodiscard]] std::vector<double> turning_points(const Hinge& hinge);
 
-/// All places where a margin can have its minimum: the turning points, places along every table, and the edges of the
-/// damper's window; x, ascending.
+/// All places where a margin can have its minimum: the turning points, places along every table (of a motor's command
+/// too), and the edges of the damper's window; x, ascending.
 [[nodiscard]] std::vector<double> places_of_least(const Hinge& hinge);
 
 /// Divides each piece between 0, the knots and 1 into eight equal parts. Returns all ends of parts, ascending.

@@ -23,10 +23,10 @@ void merge_behind(std::vector<Value>& values, std::size_t sorted, Number number)
 /// Keeps the first runs of a column sorted while their number grows.
 class Growing {
 public:
-  Growing(const Column& column, const Replication& replication, bool missing_below,
+  Growing(const Column& column, const Replication& replication, MissingRank end,
           SettledColumn& settled)
-      : column_(column), replication_(replication), missing_below_(missing_below),
-        settled_(settled), missing_of_(static_cast<std::size_t>(replication.replicates), 0) {}
+      : column_(column), replication_(replication), end_(end), settled_(settled),
+        missing_of_(static_cast<std::size_t>(replication.replicates), 0) {}
 
   void grow_to(std::size_t rows) {
     const std::size_t before = settled_.sorted.size();
@@ -69,19 +69,18 @@ private:
     return replication_.replicates > 0
                ? replicate_quantile_bounds(
                      settled_.replicated, replicates_, p, confidence,
-                     {std::span(missing_of_).first(static_cast<std::size_t>(replicates_)),
-                      missing_below_})
+                     {std::span(missing_of_).first(static_cast<std::size_t>(replicates_)), end_})
                : quantile_bounds(settled_.sorted, ranks(), p, confidence);
   }
 
   [[nodiscard]] PartialRanks ranks() const {
     const long present = std::ssize(settled_.sorted);
-    return {present, static_cast<long>(rows_) - present, missing_below_};
+    return {present, static_cast<long>(rows_) - present, end_};
   }
 
   const Column& column_;
   const Replication& replication_;
-  bool missing_below_;
+  MissingRank end_;
   SettledColumn& settled_;
   std::size_t rows_ = 0;
   int replicates_ = 0;           ///< number of replicates with rows so far
@@ -103,11 +102,11 @@ std::vector<long> convergence_runs(long all, std::size_t most, long first) {
 }
 
 SettledColumn settle_column(const Column& column, double p, double confidence,
-                            const Replication& replication, std::size_t most, bool missing_below) {
+                            const Replication& replication, std::size_t most, MissingRank end) {
   SettledColumn settled;
   settled.convergence.p = p;
   if (column.values.empty()) return settled;
-  Growing growing(column, replication, missing_below, settled);
+  Growing growing(column, replication, end, settled);
   for (const long runs : convergence_runs(std::ssize(column.values), most)) {
     growing.grow_to(static_cast<std::size_t>(runs));
     settled.convergence.points.push_back(growing.point(p, confidence));

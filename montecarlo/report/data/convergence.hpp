@@ -37,9 +37,9 @@ struct SettledColumn {
 /// Sorts a column and computes its convergence. Cost: one sort and four passes.
 /// @param p          level of the quantile, in (0, 1)
 /// @param confidence two-sided confidence of every bound
-/// @param missing_below whether missing values rank below every value, not above
+/// @param end where missing values rank
 [[nodiscard]] SettledColumn settle_column(const Column& column, double p, double confidence,
                                           const Replication& replication, std::size_t most,
-                                          bool missing_below = false);
+                                          MissingRank end = MissingRank::above);
 
 } // namespace wingspread

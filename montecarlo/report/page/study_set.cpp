@@ -152,9 +152,14 @@ Json margin_block(const Json& search, const std::vector<RequirementScales>& rows
   for (const RequirementScales& row : rows)
     requirements.push_back(requirement_json(row, confidence));
   const Json& recommended = search["recommended"];
+  const Json as_good =
+      recommended.is_null() || !recommended.contains("as_good")
+          ? Json(nullptr) // of an older version
+          : Json::array({recommended["as_good"]["from"], recommended["as_good"]["to"]});
   return {{"scales", rows.empty() ? std::vector<double>{} : rows.front().scales},
           {"requirements", std::move(requirements)},
           {"recommended", recommended.is_null() ? Json(nullptr) : recommended["scale"]},
+          {"as_good", as_good},
           {"why_none", search["why_none"]},
           {"window", {edge("lower"), edge("upper")}}};
 }

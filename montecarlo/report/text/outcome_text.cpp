@@ -95,13 +95,14 @@ std::string peaks(const Scene& scene, const Outcome& outcome) {
 
 std::string final_state(const Scene& scene, const Outcome& outcome) {
   const Configuration& final = outcome.final;
-  const bool watched = !outcome.overtravel.empty();
+  const bool watched = !outcome.overtravel.empty(), known = outcome.status != Status::failed;
   std::string text = fmt::format("\n{:<24}{:>14}{:>16}{}\n", "END", "angle, deg", "rate, rad/s",
                                  watched ? "   overtravel, deg" : "");
   for (std::size_t i = 0; i < scene.hinges.size(); ++i)
-    text += fmt::format("  {:<22}{:>14}{:>16.6g}{}\n", scene.hinges[i].name,
-                        degrees_text(final.angles[i]), final.rates[i],
-                        watched ? fmt::format("{:>18}", degrees_text(outcome.overtravel[i])) : "");
+    text += fmt::format(
+        "  {:<22}{:>14}{:>16.6g}{}\n", scene.hinges[i].name, degrees_text(final.angles[i]),
+        final.rates[i],
+        watched ? fmt::format("{:>18}", known ? degrees_text(outcome.overtravel[i]) : "–") : "");
   if (scene.base.motion != BaseMotion::fixed)
     text += fmt::format("  {:<22}{:>14}{:>16.6g}\n", "base", degrees_text(final.base_angle),
                         final.base_rate);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -13,10 +12,6 @@ namespace wingspread {
 namespace {
 
 constexpr std::string_view latch_order_column = "latch_order";
-constexpr std::array<std::string_view, 12> never_negative{
-    "latch_time",  "deployment_time", "peak_moment", "peak_force", "peak_bending_moment",
-    "hold_moment", "overtravel",      "captures",    "held",       "frequency",
-    "peak_angle",  "peak_rate"};
 
 /// The parts of "root>mid>tip".
 std::vector<std::string> split_order(std::string_view order) {
@@ -34,7 +29,7 @@ std::vector<std::string> split_order(std::string_view order) {
 RowCheck::RowCheck(const ResultNames& names) {
   for (std::size_t i = 0; i < names.outputs.size(); ++i) {
     const OutputName name = parse_output_name(names.outputs[i]);
-    if (std::ranges::find(never_negative, name.quantity) != never_negative.end())
+    if (is_never_negative(name))
       not_negative_.push_back({names.outputs[i], i, std::string_view(name.unit) == "s"});
     if (name.quantity == "latch_time") latches_.push_back({name.hinge, i});
     if (name.quantity == "deployment_time") deployment_time_ = i;

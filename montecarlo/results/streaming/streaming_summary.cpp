@@ -33,7 +33,7 @@ QuantileValue quantile_of(const RankedPopulation& values, const PartialRanks& ra
 /// Quantiles over all runs, and among those with a value.
 QuantileEstimate estimate_quantile(const RankedPopulation& values, const PartialRanks& ranks,
                                    double p, double confidence) {
-  QuantileEstimate estimate{p, quantile_of(values, ranks, p, confidence), {}, ranks.missing_below};
+  QuantileEstimate estimate{p, quantile_of(values, ranks, p, confidence), {}};
   if (ranks.missing > 0 && ranks.present > 0)
     estimate.among = quantile_of(values, {ranks.present}, p, confidence);
   return estimate;
@@ -77,7 +77,8 @@ Histogram histogram_of(const RankedPopulation& values, const Bins& bins) {
 OutputSummary output_summary(const std::string& name, const StreamingStatistics::Output& output,
                              long runs, const StatisticsSpec& spec,
                              std::span<const Requirement> requirements) {
-  OutputSummary summary{name, {}, 0, runs - output.values.count(), {}, {}};
+  OutputSummary summary{
+      name, {}, 0, runs - output.values.count(), {}, {}, missing_rank(requirements, name)};
   const RankedPopulation values(output.values);
   const bool any = values.count() > 0;
   summary.moments = output.sums.moments(output.scale, any ? values.min() : undefined,
@@ -85,8 +86,7 @@ OutputSummary output_summary(const std::string& name, const StreamingStatistics:
   summary.mean_error = summary.moments.std / std::sqrt(static_cast<double>(values.count()));
   for (const double p : spec.quantiles)
     summary.quantiles.push_back(estimate_quantile(
-        values, {values.count(), summary.missing, ranks_missing_below(requirements, name, p)}, p,
-        spec.confidence));
+        values, {values.count(), summary.missing, summary.missing_end}, p, spec.confidence));
   summary.histogram = histogram_of(values, spec.bins);
   return summary;
 }
@@ -99,12 +99,12 @@ public:
 
   [[nodiscard]] const RankedPopulation& numbers() const { return values_; }
   /// The value at a rank counted from above, 1 for the largest; nothing if a run worse than any number has that rank.
-  /// @param below whether runs worse than any number rank at the lower end
-  [[nodiscard]] std::optional<OrderStatistic> from_above(long rank, bool below) const {
-    return from_below(values_.count() + worse_ + 1 - rank, below);
+  /// @param end where runs worse than any number rank
+  [[nodiscard]] std::optional<OrderStatistic> from_above(long rank, MissingRank end) const {
+    return from_below(values_.count() + worse_ + 1 - rank, end);
   }
-  [[nodiscard]] std::optional<OrderStatistic> from_below(long rank, bool below) const {
-    const auto place = PartialRanks{values_.count(), worse_, below}.among_present(rank);
+  [[nodiscard]] std::optional<OrderStatistic> from_below(long rank, MissingRank end) const {
+    const auto place = PartialRanks{values_.count(), worse_, end}.among_present(rank);
     return place ? std::optional(values_.at(*place)) : std::nullopt;
   }
 
@@ -126,9 +126,11 @@ Bounds limits_of(const RankedRequired& values, long runs, const ToleranceLimitSp
   Bounds limits;
   if (spec.side != Side::upper)
     limits.lower =
-        number_of(values.from_below(order, spec.side == Side::lower), &OrderStatistic::lower);
+        number_of(values.from_below(order, spec.side == Side::lower ? MissingRank::below
+                                                                    : MissingRank::above),
+                  &OrderStatistic::lower);
   if (spec.side != Side::lower)
-    limits.upper = number_of(values.from_above(order, false), &OrderStatistic::upper);
+    limits.upper = number_of(values.from_above(order, MissingRank::above), &OrderStatistic::upper);
   return limits;
 }
 
@@ -137,7 +139,8 @@ void add_values(const RankedRequired& values, Verdict& verdict) {
   const Requirement& requirement = verdict.requirement;
   const bool is_min = requirement.min.has_value();
   const auto from_worst = [&](long place) { // place 0 is the worst run
-    return is_min ? values.from_below(place + 1, true) : values.from_above(place + 1, false);
+    return is_min ? values.from_below(place + 1, MissingRank::below)
+                  : values.from_above(place + 1, MissingRank::above);
   };
   if (verdict.runs > 0)
     verdict.observed =

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <map>
 
 namespace wingspread {
 namespace {
@@ -286,6 +287,38 @@ std::string quiet_outputs(const std::vector<OutputSummary>& outputs) {
   return described_quiet(quiet);
 }
 
+namespace {
+
+/// @param names of the outputs that some run lacks, by where those runs rank
+std::string described_ranks(const std::map<MissingRank, std::vector<std::string>>& names) {
+  if (names.empty()) return "";
+  std::string text = "Runs without a value rank above every value";
+  for (const auto& [end, outputs] : names)
+    if (end != MissingRank::above)
+      text += fmt::format("; {} in {}", words_of(end), fmt::join(outputs, ", "));
+  return text;
+}
+
+} // namespace
+
+std::string missing_ranks(std::span<const CaseSummary> cases) {
+  std::map<MissingRank, std::vector<std::string>> names;
+  for (std::size_t i = 0; i < cases.front().summary.outputs.size(); ++i) {
+    const OutputSummary& output = cases.front().summary.outputs[i];
+    if (std::ranges::any_of(
+            cases, [i](const CaseSummary& each) { return each.summary.outputs[i].missing > 0; }))
+      names[output.missing_end].push_back(output.name);
+  }
+  return described_ranks(names);
+}
+
+std::string missing_ranks(const std::vector<OutputSummary>& outputs) {
+  std::map<MissingRank, std::vector<std::string>> names;
+  for (const OutputSummary& output : outputs)
+    if (output.missing > 0) names[output.missing_end].push_back(output.name);
+  return described_ranks(names);
+}
+
 std::string compact_cases_table(const std::vector<CaseSummary>& cases, std::string_view title,
                                 std::string_view folder) {
   std::string text = std::string(title) + '\n';
@@ -295,6 +328,12 @@ std::string compact_cases_table(const std::vector<CaseSummary>& cases, std::stri
     text += compact_outcomes(block) + compact_outputs(cases, block) + compact_requirements(block);
   }
   if (const std::string quiet = quiet_outputs(cases); !quiet.empty()) text += '\n' + quiet;
+  if (const std::string ranks = missing_ranks(cases); !ranks.empty())
+    text += "\n  " +
+            wrapped("Quantiles are over all runs. " + ranks +
+                        ". –: too few runs have a value; --all has the quantile among these.",
+                    2) +
+            '\n';
   text += stopping_lines(cases) + worst_accuracy(cases) + warning_lines(warnings(cases));
   for (const CaseSummary& each : cases)
     if (each.partial) text += fmt::format("\n{} lacks runs of the campaign\n", each.name);

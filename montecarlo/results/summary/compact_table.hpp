@@ -19,6 +19,12 @@ namespace wingspread {
 [[nodiscard]] std::string quiet_outputs(std::span<const CaseSummary> cases);
 [[nodiscard]] std::string quiet_outputs(const std::vector<OutputSummary>& outputs);
 
+/// Where the runs without a value rank in the quantiles, naming the outputs in which it is not above every value:
+/// "Runs without a value rank above every value; below in root.latch_rate (its requirement is a min)". Empty if every
+/// run has every output. @param cases the same outputs in each
+[[nodiscard]] std::string missing_ranks(std::span<const CaseSummary> cases);
+[[nodiscard]] std::string missing_ranks(const std::vector<OutputSummary>& outputs);
+
 /// The integration error beside the standard error of the mean: a line, or with `all` a table. Empty if it was not
 /// measured.
 [[nodiscard]] std::string accuracy_text(const Summary& summary, bool all);

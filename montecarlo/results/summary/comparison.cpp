@@ -4,6 +4,7 @@
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/results/summary/compact_table.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "montecarlo/results/summary/table.hpp"
 #include "montecarlo/results/summary/warnings.hpp"
@@ -209,6 +210,8 @@ std::string cases_table(const std::vector<CaseSummary>& cases, std::string_view 
     const Cases block = Cases(cases).subspan(first, std::min(most_beside, cases.size() - first));
     text += outcome_lines(block) + all_output_lines(block) + requirement_lines(cases, block);
   }
+  if (const std::string ranks = missing_ranks(cases); !ranks.empty())
+    text += '\n' + wrapped("Quantiles are over all runs. " + ranks + '.', 0) + '\n';
   text += stopping_lines(cases);
   for (const CaseSummary& each : cases)
     if (each.partial) text += fmt::format("\n{} lacks runs of the campaign\n", each.name);

@@ -11,12 +11,22 @@
 namespace wingspread {
 namespace {
 
+/// The number of runs with a status, or with 1 in an output that is 1 or 0.
+long hits_of(const std::string& share, const Results& results) {
+  if (const auto status = status_named(share)) return std::ranges::count(results.status, *status);
+  const auto column = std::ranges::find(results.outputs, share, &Column::name);
+  assert(column != results.outputs.end());
+  const long hits = std::ranges::count(column->values, 1.0);
+  column->values.release();
+  return hits;
+}
+
 GoalFound find(const WidthGoal& goal, const Results& results,
                std::span<const Requirement> requirements, double confidence) {
   GoalFound found{goal, {}, false};
   if (results.size() == 0) return found;
-  if (const auto status = status_named(goal.output)) {
-    const long hits = std::ranges::count(results.status, *status);
+  if (!goal.quantile) {
+    const long hits = hits_of(goal.output, results);
     const Interval interval = clopper_pearson(hits, static_cast<long>(results.size()), confidence);
     found.width = interval.upper - interval.lower;
     found.met = *found.width <= goal.width;
@@ -28,8 +38,7 @@ GoalFound find(const WidthGoal& goal, const Results& results,
   column->values.release();
   const long missing = std::ssize(column->values) - std::ssize(sorted);
   const double p = *goal.quantile;
-  const PartialRanks ranks{std::ssize(sorted), missing,
-                           ranks_missing_below(requirements, goal.output, p)};
+  const PartialRanks ranks{std::ssize(sorted), missing, missing_rank(requirements, goal.output)};
   const Bounds bounds = quantile_bounds(sorted, ranks, p, confidence);
   if (!bounds.lower || !bounds.upper) return found;
   found.width = *bounds.upper - *bounds.lower;

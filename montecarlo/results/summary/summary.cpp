@@ -113,10 +113,10 @@ struct SortedColumn {
     column.values.release();
   }
 
-  [[nodiscard]] QuantileEstimate quantile_at(double p, double confidence, bool below) const {
+  [[nodiscard]] QuantileEstimate quantile_at(double p, double confidence, MissingRank end) const {
     const long count = std::ssize(present);
     QuantileEstimate estimate{
-        p, value_of(p, confidence, {count, missing, below}, {missing_of, below}), {}, below};
+        p, value_of(p, confidence, {count, missing, end}, {missing_of, end}), {}};
     if (missing > 0 && count > 0) estimate.among = value_of(p, confidence, {count}, {});
     return estimate;
   }
@@ -140,12 +140,13 @@ OutputSummary summarize_output(const Column& column, const StatisticsSpec& spec,
   const double mean_error =
       sorted.replicates > 0 ? replicate_mean_error(sorted.replicated, sorted.replicates, all.mean)
                             : all.std / std::sqrt(static_cast<double>(all.count));
+  const MissingRank end = missing_rank(requirements, column.name);
   std::vector<QuantileEstimate> quantiles;
   for (const double p : spec.quantiles)
-    quantiles.push_back(
-        sorted.quantile_at(p, spec.confidence, ranks_missing_below(requirements, column.name, p)));
-  return {column.name,    all,       mean_error,
-          sorted.missing, quantiles, histogram(sorted.present, spec.bins)};
+    quantiles.push_back(sorted.quantile_at(p, spec.confidence, end));
+  return {
+      column.name, all, mean_error, sorted.missing, quantiles, histogram(sorted.present, spec.bins),
+      end};
 }
 
 /// The reasons, and each output.
@@ -207,12 +208,24 @@ StatusShare status_share(Status status, long count, long runs, double confidence
   return share;
 }
 
+std::string_view words_of(MissingRank end) {
+  switch (end) {
+  case MissingRank::below:
+    return "below every value";
+  case MissingRank::either:
+    return "at either end (requirements limit both sides)";
+  case MissingRank::above:
+    break;
+  }
+  return "above every value";
+}
+
 std::string why_no_quantile(const OutputSummary& output, const QuantileEstimate& quantile) {
   const long count = output.moments.count;
   if (!std::isnan(quantile.all.value)) return "";
   if (count == 0) return "no run has a value";
-  return fmt::format("{} of {} runs have a value; the others rank {} every value", count,
-                     count + output.missing, quantile.missing_below ? "below" : "above");
+  return fmt::format("{} of {} runs have a value; the others rank {}", count,
+                     count + output.missing, words_of(output.missing_end));
 }
 
 std::string why_no_bound(const Summary& summary, const OutputSummary& output) {

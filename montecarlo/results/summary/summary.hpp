@@ -2,9 +2,9 @@
 /// (table.hpp) are written.
 ///
 /// Each output is summarised over the runs in which it happened, and the number of other runs is reported. Its
-/// quantiles are over all runs: a run without the output ranks above every value, or below (ranks_missing_below). So
-/// the quantile p does not exist if fewer than a share p of the runs have the output. The same results give the same
-/// summary, bit for bit.
+/// quantiles are over all runs: a run without the output ranks above every value, below, or at either end
+/// (missing_rank in requirement.hpp). So the quantile p does not exist if fewer than a share p of the runs have the
+/// output, mirrored where they rank below. The same results give the same summary, bit for bit.
 #pragma once
 
 #include "montecarlo/engine/accuracy/accuracy.hpp"
@@ -67,7 +67,6 @@ struct QuantileEstimate {
   QuantileValue all; ///< over all runs
   /// Over the runs that have a value; nothing if all have one, or none.
   std::optional<QuantileValue> among{};
-  bool missing_below = false; ///< runs without a value rank below every value, not above
 };
 
 struct ToleranceLimitEstimate {
@@ -82,6 +81,7 @@ struct OutputSummary {
   long missing = 0;      ///< runs in which it did not happen
   std::vector<QuantileEstimate> quantiles; ///< over all runs
   Histogram histogram;
+  MissingRank missing_end = MissingRank::above; ///< where those runs rank in all of its quantiles
   std::vector<ToleranceLimitEstimate> tolerance_limits{}; ///< over all runs (verdict.hpp)
   /// Value in the nominal run: NaN if the output did not happen there, nothing if there was no nominal run.
   std::optional<double> nominal{};
@@ -167,6 +167,8 @@ struct Summary {
                                 const Replication& replication = {}, int threads = 0,
                                 std::span<const Requirement> requirements = {});
 
+/// "above every value", "below every value", "at either end (requirements limit both sides)".
+[[nodiscard]] std::string_view words_of(MissingRank end);
 /// Why an output lacks a quantile over all runs: "976 of 1000 runs have a value; the others rank above every value".
 /// Empty if it has it.
 [[nodiscard]] std::string why_no_quantile(const OutputSummary& output,

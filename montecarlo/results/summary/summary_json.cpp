@@ -65,9 +65,8 @@ Json definitions(const Summary& summary) {
                            : "none: the draws depend on each other"}};
   if (std::ranges::any_of(summary.outputs, [](const auto& each) { return each.missing > 0; }))
     json["quantile_missing"] =
-        "quantiles are over all n runs: a run without a value ranks above every value, or below "
-        "for p < 0.5 if a requirement has a min; null if such a run has the rank; "
-        "among_runs_with_value: over the runs with a value";
+        "quantiles are over all n runs: those without a value rank as missing_ranks says; null "
+        "where one of them has the rank; among_runs_with_value: over the others alone";
   if (summary.nominal)
     json["nominal"] = "of the run with every dispersion at the median of its law, tables included";
   if (summary.without_rows) {
@@ -223,6 +222,7 @@ Json output_json(const Summary& summary, const OutputSummary& output) {
                {"skewness", json_number(m.skewness)},
                {"kurtosis", json_number(m.kurtosis)},
                {"quantiles", quantiles_json(summary, output)}});
+  if (output.missing > 0) json["missing_ranks"] = words_of(output.missing_end);
   if (!output.tolerance_limits.empty()) json["tolerance"] = tolerance_json(summary, output);
   return json;
 }

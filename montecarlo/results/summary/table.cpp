@@ -171,15 +171,13 @@ std::string missing_quantiles(const Summary& summary) {
                                     in_digits(quantile.among->value),
                                     unit.empty() ? "" : ' ' + unit));
     if (found.empty()) continue;
-    const std::string line =
-        fmt::format("{}: {} of {} runs have a value; among these: {}", output.name,
-                    output.moments.count, summary.runs, fmt::join(found, ", "));
+    const std::string line = fmt::format(
+        "{}: {} of {} runs have a value; the others rank {}. Among runs with a value: {}",
+        output.name, output.moments.count, summary.runs, words_of(output.missing_end),
+        fmt::join(found, ", "));
     text += "  " + wrapped(line, 4) + '\n';
   }
-  if (text.empty()) return "";
-  return "\nNO QUANTILE over all runs: those without a value rank above every value, for a min "
-         "below\n" +
-         text;
+  return text.empty() ? "" : "\nNO QUANTILE over all runs\n" + text;
 }
 
 /// Splits the columns into blocks so that lines keep within the width. @param all also outputs that are_quiet()
@@ -192,12 +190,13 @@ std::string outputs(const Summary& summary, bool all) {
     text += output_block(summary, std::span(columns).subspan(first, count), all);
   }
   if (!all) text += quiet_outputs(summary.outputs);
-  const auto incomplete = [](const OutputSummary& output) { return output.missing > 0; };
-  if (std::ranges::any_of(summary.outputs, incomplete))
-    text +=
-        fmt::format("\nMean, std: over the runs in which the output happened, of {}. Quantiles: "
-                    "over all runs.\n",
-                    summary.runs);
+  if (const std::string ranks = missing_ranks(summary.outputs); !ranks.empty())
+    text += '\n' +
+            wrapped(fmt::format("Mean, std: over the runs in which the output happened, of "
+                                "{}. Quantiles: over all runs. {}.",
+                                summary.runs, ranks),
+                    0) +
+            '\n';
   return text + missing_quantiles(summary);
 }
 

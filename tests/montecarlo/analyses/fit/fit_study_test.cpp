@@ -296,6 +296,29 @@ TEST_CASE("a posterior at a limit of its prior is told") {
   CHECK_THAT(findings(1.0), !Catch::Contains("at the limit"));
 }
 
+TEST_CASE("a prior that is cut on one side only has a limit there, and one that fades out none") {
+  const Folder folder;
+  folder.write("t1.csv", panel_trace(0.7, 1, 0, 0.005, 1));
+  const auto limit_of = [&](const char* law) {
+    Json json = panel_campaign();
+    json["dispersions"][0]["distribution"] = parse_json(law);
+    const Campaign campaign = campaign_of(json);
+    Json tests = parse_json(one_way);
+    tests["fit"]["samples"] = 100, tests["fit"]["parameters"] = {"spring"};
+    const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
+    const FitResult result = fitted(campaign, spec);
+    const Json fit = fit_json(result, spec, Json::object());
+    CHECK(fit["at_limits"] == (result.parameters[0].limit ? Json{"spring"} : Json::array()));
+    CHECK((fit_text(result, spec).find("\n    at the limit 0.95 of its prior") !=
+           std::string::npos) == result.parameters[0].limit.has_value());
+    return result.parameters[0].limit;
+  };
+  CHECK(
+      limit_of(R"({ "type": "normal", "mean": 1, "std": 0.05, "truncate": { "lower": 0.95 } })") ==
+      0.95);
+  CHECK_FALSE(limit_of(R"({ "type": "lognormal", "mu_log": 0, "sigma_log": 0.05 })"));
+}
+
 TEST_CASE("numbers that no run has, or that cannot be compared, are refused with their place") {
   const Folder folder;
   const Campaign campaign = campaign_of(panel_campaign());

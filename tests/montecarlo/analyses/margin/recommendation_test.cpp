@@ -1,6 +1,8 @@
+#include "montecarlo/analyses/margin/margin_findings.hpp"
 #include "montecarlo/analyses/margin/recommendation.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -66,6 +68,8 @@ TEST_CASE("the scale is the one whose worse side is best, and is searched for", 
   CHECK(*search.recommended ==
         Approx(1.0667).epsilon(0.02)); // 5 of either: whole runs, 0.0125 and 0.025 apart
   CHECK(search.withheld == Withheld::nothing);
+  CHECK(search.as_good.lower <= *search.recommended);
+  CHECK(*search.recommended <= search.as_good.upper);
   CHECK_FALSE(search.passed_over);
   CHECK(wing.looks <= 20);
   CHECK(strain(search.seen.at(*search.recommended)) <= 0.6);
@@ -75,16 +79,37 @@ TEST_CASE("of several that are equally good the present springs are kept", "[mar
   Wing wing{[](double s) { return line(-s, -0.7, 100); },
             [](double s) { return line(s, 1.1, 100); },
             {0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.1, 1.2, 1.3}};
-  CHECK(wing.recommended().recommended == 1.0);
-  CHECK(wing.looks == 0);
+  const MarginSearch search = wing.recommended();
+  CHECK(search.recommended == 1.0);
+  CHECK(search.as_good.lower == Approx(0.695).epsilon(0.01)); // from there on half a run breaks it
+  CHECK(search.as_good.upper == Approx(1.105).epsilon(0.01));
+  CHECK(rule_of(search) == "present springs");
+  CHECK(wing.looks <= 8);
 }
 
 TEST_CASE("where the present springs are not as good, the middle of what is", "[margin]") {
   Wing wing{[](double s) { return line(-s, -1.2, 100); },
             [](double s) { return line(s, 1.6, 100); },
             {1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8}};
-  CHECK(*wing.recommended().recommended == Approx(std::sqrt(1.2 * 1.6)).epsilon(1e-3));
-  CHECK(wing.looks == 1);
+  const MarginSearch search = wing.recommended();
+  CHECK(search.as_good.lower == Approx(1.195).epsilon(0.01));
+  CHECK(search.as_good.upper == Approx(1.605).epsilon(0.01));
+  CHECK(*search.recommended ==
+        Approx(std::sqrt(search.as_good.lower * search.as_good.upper)).epsilon(1e-4));
+  CHECK(rule_of(search) == "geometric mean");
+  CHECK(why_this_one(search) ==
+        fmt::format(". All scales from {} to {} are as good: their geometric mean is recommended",
+                    search.as_good.lower, search.as_good.upper));
+}
+
+TEST_CASE("where a range of scales is as good, the grid does not decide which is taken",
+          "[margin]") {
+  Wing wing{[](double s) { return line(-s, -1.2, 100); },
+            [](double s) { return line(s, 1.6, 100); },
+            {1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8}};
+  const double fine = *wing.recommended().recommended;
+  wing.scales = {1, 1.12, 1.27, 1.44, 1.66, 1.8};
+  CHECK(*wing.recommended().recommended == Approx(fine).epsilon(0.01));
 }
 
 TEST_CASE("a middle that fails splits the window, and the wider part is taken", "[margin]") {

@@ -124,7 +124,8 @@ TEST_CASE("quantile bounds with missing values are those with infinite ones in t
   for (const bool below : {false, true})
     for (int trial = 0; trial < 300; ++trial) {
       const PartialRanks ranks{static_cast<long>(20 + random() % 60),
-                               static_cast<long>(random() % 30), below};
+                               static_cast<long>(random() % 30),
+                               below ? MissingRank::below : MissingRank::above};
       const std::vector<double> present = sorted_sample(static_cast<int>(ranks.present), random);
       std::vector<double> all = present;
       const double in_place = std::numeric_limits<double>::infinity() * (below ? -1 : 1);
@@ -141,6 +142,24 @@ TEST_CASE("quantile bounds with missing values are those with infinite ones in t
       }
     }
   CHECK((lost > 50 && kept > 300));
+}
+
+TEST_CASE("quantile bounds hold at both ends where missing values may rank at either") {
+  std::mt19937_64 random(93);
+  int kept = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const long missing = static_cast<long>(random() % 10);
+    const std::vector<double> present = sorted_sample(80, random);
+    const double p = 0.01 + 0.98 * uniform(random);
+    const auto at = [&](MissingRank end) {
+      return quantile_bounds(present, {80, missing, end}, p, 0.9);
+    };
+    const Bounds found = at(MissingRank::either);
+    CHECK(found.lower == at(MissingRank::below).lower);
+    CHECK(found.upper == at(MissingRank::above).upper);
+    if (found.lower && found.upper && missing > 0) ++kept;
+  }
+  CHECK(kept > 100);
 }
 
 TEST_CASE("quantile bounds still cover where values are tied") {

@@ -77,7 +77,14 @@ TEST_CASE("replicate quantile bounds with missing values: infinite ones in their
     std::ranges::stable_sort(all, {}, &ReplicateValue::value);
     const double p = 0.02 + 0.96 * uniform(random);
     const Bounds wanted = replicate_quantile_bounds(all, replicates, p, 0.8),
-                 found = replicate_quantile_bounds(present, replicates, p, 0.8, {missing, below});
+                 found = replicate_quantile_bounds(
+                     present, replicates, p, 0.8,
+                     {missing, below ? MissingRank::below : MissingRank::above});
+    const auto at = [&](MissingRank end) {
+      return replicate_quantile_bounds(present, replicates, p, 0.8, {missing, end});
+    };
+    REQUIRE(at(MissingRank::either).lower == at(MissingRank::below).lower);
+    REQUIRE(at(MissingRank::either).upper == at(MissingRank::above).upper);
     for (const auto end : {&Bounds::lower, &Bounds::upper}) {
       const auto value = wanted.*end;
       const bool exists = value && std::isfinite(*value);

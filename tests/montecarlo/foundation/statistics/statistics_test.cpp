@@ -132,13 +132,12 @@ TEST_CASE("a quantile with missing values is that with infinite ones in their pl
   int existing = 0, absent = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const PartialRanks ranks{static_cast<long>(1 + random() % 30), static_cast<long>(random() % 9),
-                             random() % 2 == 0};
+                             random() % 2 == 0 ? MissingRank::below : MissingRank::above};
+    const bool below = ranks.end == MissingRank::below;
     const std::vector<double> present = sorted_sample(static_cast<int>(ranks.present), random);
     std::vector<double> all = present;
-    const double in_place =
-        std::numeric_limits<double>::infinity() * (ranks.missing_below ? -1 : 1);
-    all.insert(ranks.missing_below ? all.begin() : all.end(),
-               static_cast<std::size_t>(ranks.missing), in_place);
+    const double in_place = std::numeric_limits<double>::infinity() * (below ? -1 : 1);
+    all.insert(below ? all.begin() : all.end(), static_cast<std::size_t>(ranks.missing), in_place);
     const double p = trial % 5 == 0 ? static_cast<double>(random() % 11) / 10 : uniform(random);
     const double found = quantile(present, ranks, p), wanted = quantile(all, p);
     REQUIRE((std::isinf(wanted) ? std::isnan(found) : found == wanted));
@@ -146,6 +145,9 @@ TEST_CASE("a quantile with missing values is that with infinite ones in their pl
   }
   CHECK((existing > 500 && absent > 100));
   CHECK(std::isnan(quantile({}, PartialRanks{0, 3}, 0.5)));
+  const std::vector<double> ten{1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  CHECK(quantile(ten, {10, 0, MissingRank::either}, 0.5) == 5); // nothing is missing
+  CHECK(std::isnan(quantile(ten, {10, 1, MissingRank::either}, 0.5)));
 }
 
 TEST_CASE("sorted_present leaves NaN out") {

@@ -229,3 +229,25 @@ TEST_CASE("Each fault of a required margin is told", "[requirement]") {
         "\"hinge\", \"min\", \"group\", \"id\", \"source\", \"rationale\", \"probability\" or "
         "\"confidence\"");
 }
+
+TEST_CASE("a run without a value ranks where it breaks the output's requirements",
+          "[requirement]") {
+  const auto rank = [](const char* list, const char* output = "root.latch_rate") {
+    Json json = parse_json(list);
+    for (Json& each : json) each["probability"] = each["confidence"] = 0.9;
+    return missing_rank(read_list_of_requirements(json), output);
+  };
+  const char *least = R"([{ "output": "root.latch_rate", "min": 1 }])",
+             *most = R"([{ "output": "root.latch_rate", "max": 1 }])",
+             *both = R"([{ "output": "root.latch_rate", "max": 1 },
+                         { "output": "root.latch_rate", "min": -1 }])",
+             *magnitude = R"([{ "output": "root.latch_rate", "max": 1, "abs": true }])",
+             *no_sign = R"([{ "output": "root.peak_moment", "min": 1, "abs": true }])";
+  CHECK(rank("[]") == MissingRank::above);
+  CHECK(rank(least) == MissingRank::below);
+  CHECK(rank(least, "root.peak_moment") == MissingRank::above); // another output's requirement
+  CHECK(rank(most) == MissingRank::above);
+  CHECK(rank(both) == MissingRank::either);
+  CHECK(rank(magnitude) == MissingRank::either); // a large rate of either sign breaks it
+  CHECK(rank(no_sign, "root.peak_moment") == MissingRank::below);
+}

@@ -39,6 +39,11 @@ TEST_CASE("Widths to stop at are read from words, and written as a campaign has 
     CHECK(to_string(rule_of(text)[0]) == text);
   }
   CHECK(to_string(rule_of("root.latch_time@0.5 2 %")[0]) == "root.latch_time@0.5 2%");
+  // of a share of runs one per cent is 0.01
+  for (const char* text : {"deployed 1 %", "deployed 1%", "deployed 0.01"})
+    CHECK(to_string(rule_of(text)[0]) == "deployed 0.01");
+  CHECK(parse_stopping_goal("root.held 1%") ==
+        parse_json(R"({ "output": "root.held", "width": 0.01 })"));
   for (const char* text : {"root.latch_time@0.5 20 ms", "root.latch_time@0.5 20ms"})
     CHECK(to_string(rule_of(text)[0]) == "root.latch_time@0.5 0.02");
   CHECK(parse_stopping_goal("my hinge.latch_rate@0.5 3 deg/s") ==
@@ -80,8 +85,10 @@ TEST_CASE("Each fault of a width to stop at is told", "[stopping]") {
         "\"relative_width\" or \"quantile\" (did you mean \"width\"?)"}}));
   CAPTURE(change.pointer, change.value);
   CHECK(facts_of(problems_of_rule(spoil(good, change))) == facts_of(change.message));
-  CHECK(problems_of_rule(parse_json(R"([{ "output": "stalled", "relative_width": 0.5 }])")) ==
-        "/0: found a relative_width, expected a width, for a share of runs");
+  CHECK(
+      problems_of_rule(parse_json(R"([{ "output": "stalled", "relative_width": 0.5 }])")) ==
+      "/0: found a relative_width, expected a width, for a share of runs: 0.01 is one in a hundred "
+      "of all runs");
 }
 
 TEST_CASE("Each fault of a requirement to be decided is told", "[stopping]") {

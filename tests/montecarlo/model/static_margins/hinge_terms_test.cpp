@@ -37,14 +37,30 @@ TEST_CASE("a motor counts with its torque at rest", "[motorization]") {
   TorqueTerms turned; // a hinge that another one turns backwards
   add_terms(hinge, 0, -2, {}, turned);
   CHECK((turned.available == 6 && turned.spring == 4));
-  Motor& motor = *hinge.motor;
-  motor.time = {0, 1, 2}, motor.rates = {-0.05, 0.1, 0}, motor.gain = 20, motor.scale = 0.5;
-  motor.table = std::make_shared<Curve>(motor.time, motor.rates, Interpolation::monotone);
-  CHECK(stall_torques(motor).most == 1);
-  CHECK(stall_torques(motor).least == -0.5);
-  motor.scale = -0.5;
-  CHECK(stall_torques(motor).most == 0.5);
-  CHECK(stall_torques(motor).least == -1);
+}
+
+// 1 rad of travel. The command covers 0.1 · 5 / 2 + 0.1 · 4 + 0.1 · 1 / 2 = 0.7 rad, and ends at 0.
+TEST_CASE("a motor whose command has ended gives nothing at rest", "[motorization]") {
+  Hinge hinge = hinge_with({0, 0}, {0, 0}, 0.5);
+  const double travel = std::abs(hinge.latched - hinge.stowed);
+  Motor& motor = hinge.motor.emplace();
+  motor.gain = 20, motor.torque_limit = 1.5;
+  motor.time = {0, 5, 9, 10}, motor.rates = {0, 0.1 * travel, 0.1 * travel, 0};
+  motor.gain /= travel;
+  motor.table = std::make_shared<Curve>(motor.time, motor.rates, Interpolation::linear);
+  for (const double x : {0.0, 0.2, 0.6}) CHECK(terms_at(hinge, x).available == 1.5); // of 2 at most
+  CHECK(terms_at(hinge, 0.65 + 0.0375).available == Approx(1)); // half of the ramp to 0
+  for (const double x : {0.71, 0.9, 1.0}) CHECK(terms_at(hinge, x).available == 0);
+  const std::vector<double> places = places_of_least(hinge);
+  CHECK(std::ranges::count_if(places, [](double x) { return 0.65 < x && x < 0.7; }) >= 7);
+  motor.rates.back() = 0.01 * travel; // goes on slowly
+  motor.table = std::make_shared<Curve>(motor.time, motor.rates, Interpolation::linear);
+  CHECK(terms_at(hinge, 0.3).available == 1.5);
+  CHECK(terms_at(hinge, 1).available == Approx(0.2));
+  motor.rates.back() = -0.01 * travel; // turns back
+  motor.table = std::make_shared<Curve>(motor.time, motor.rates, Interpolation::linear);
+  CHECK(terms_at(hinge, 1).available == 0);
+  CHECK(terms_at(hinge, 1).spring == Approx(0.2));
 }
 
 TEST_CASE("a hinge's terms: what changes its sense changes its side", "[motorization]") {

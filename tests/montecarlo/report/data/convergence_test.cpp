@@ -33,7 +33,9 @@ TEST_CASE("a convergence is of the first runs, by hand", "[page]") {
   CHECK(points[2].quantile_bounds.lower ==
         quantile_bounds(settled.sorted, with_missing, 0.5, 0.95).lower);
   CHECK(points[2].quantile == 6); // the sixth of twelve, the missing one the last
-  CHECK(settle_column(column, 0.5, 0.95, {}, 3, true).convergence.points[2].quantile == 5);
+  CHECK(
+      settle_column(column, 0.5, 0.95, {}, 3, MissingRank::below).convergence.points[2].quantile ==
+      5);
   CHECK(std::isnan(settle_column(column, 0.95, 0.95, {}, 3).convergence.points[2].quantile));
 }
 

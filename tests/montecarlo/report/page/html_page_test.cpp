@@ -85,7 +85,8 @@ TEST_CASE("a folder of a margin study is a set without runs, by hand", "[page]")
       "margin.json",
       R"({ "wingspread": { "version": "0", "seed": 18446744073709551615, "hash": "h" }, "scene": "wing",
     "searches": [ { "name": "joint", "window": { "lower": { "scale": 0.9, "range_end": false },
-      "upper": { "scale": 2, "range_end": true } }, "recommended": { "scale": 1.2 }, "why_none": null } ] })");
+      "upper": { "scale": 2, "range_end": true } },
+      "recommended": { "scale": 1.2, "as_good": { "from": 1.1, "to": 1.3 } }, "why_none": null } ] })");
   folder.write("margin.csv",
                "search,scale,case,runs,requirement,verdict,broken\n"
                "joint,0.5,nominal,100,\"A, b\",fail,100\njoint,1,nominal,100,\"A, b\",pass,1\n"
@@ -98,6 +99,7 @@ TEST_CASE("a folder of a margin study is a set without runs, by hand", "[page]")
   CHECK(margin["scales"] == Json{0.5, 1.0});
   CHECK(margin["window"] == Json{0.9, nullptr}); // the end of the range is no edge
   CHECK(margin["recommended"] == 1.2);
+  CHECK(margin["as_good"] == Json{1.1, 1.3});
   REQUIRE(margin["requirements"].size() == 2);
   CHECK(margin["requirements"][0]["passed"] == Json{0.0, 0.99});
   CHECK(margin["requirements"][0]["verdict"] == Json{"failed", "passed"});

@@ -159,6 +159,14 @@ TEST_CASE("what did not happen, or is not known, is null") {
     CHECK(json["peaks_final"].is_null());
     CHECK(json["warnings"].dump().find("t_end") == std::string::npos);
     CHECK(json["final"]["rates"]["mid"].is_null());
+    const auto row = [&] {
+      const std::string text = outcome_text(scene, outcome);
+      const std::size_t at = text.find("  tip ", text.find("\nEND"));
+      return text.substr(at, text.find('\n', at) - at);
+    };
+    CHECK_THAT(row(), Catch::EndsWith(" –")); // as null in JSON
+    outcome.status = Status::stalled;
+    CHECK_THAT(row(), Catch::EndsWith(" 57.296"));
   }
 }
 

@@ -1,3 +1,4 @@
+#include "montecarlo/results/summary/compact_table.hpp"
 #include "montecarlo/results/summary/comparison.hpp"
 
 #include <catch2/catch.hpp>
@@ -59,6 +60,14 @@ TEST_CASE("a quantile that no case, or one case, lacks is shown among runs with 
   CHECK_THAT(line("  99 %  "), Catch::EndsWith("5.0000            –"));
   CHECK_THAT(line("  99 % among runs with a value"), Catch::EndsWith("5.0000       7.2500"));
   CHECK_THAT(with, !Catch::Contains("  1 % among"));
+  const std::string note =
+      "Quantiles are over all runs. Runs without a value rank above every value";
+  CHECK_THAT(without, !Catch::Contains("Runs without a value"));
+  CHECK_THAT(with, Catch::Contains(note + ".\n"));
+  stalls.summary.outputs[0].missing_end = MissingRank::below;
+  const std::string compact = compact_cases_table({stalls}, "", "");
+  CHECK_THAT(compact, Catch::Contains(note + "; below every value in"));
+  CHECK_THAT(compact, Catch::Contains("deployment_time. –: too few runs have a value"));
 }
 
 TEST_CASE("cases.json has every requirement with its worst case, and every output by case",

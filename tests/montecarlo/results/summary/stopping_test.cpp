@@ -58,6 +58,29 @@ TEST_CASE("A width is that of the interval that the summary gives", "[stopping]"
   CHECK_FALSE(are_met({}));
 }
 
+TEST_CASE("A width of an output that is 1 or 0 is that of its share of all runs", "[stopping]") {
+  Results results(ResultNames{{}, {"root.held"}});
+  for (long run = 0; run < 200; ++run) // the last five failed
+    results.append({run,
+                    run < 195 ? Status::deployed : Status::failed,
+                    {},
+                    {run < 150   ? 1.0
+                     : run < 195 ? 0.0
+                                 : std::nan("")},
+                    "",
+                    ""});
+  Json goals = Json::array({parse_stopping_goal("root.held 13%").value()});
+  StoppingRule rule;
+  const std::vector<std::string> names{"root.held"};
+  CHECK(problems_of(goals, [&](const JsonCursor& at) {
+          read_stopping_rule(at, &names, nullptr, rule);
+        }).empty());
+  const GoalFound found = find_goals(rule, results, {}, {}, .95).front();
+  const Interval share = clopper_pearson(150, 200, .95);
+  CHECK(found.width == share.upper - share.lower);
+  CHECK(found.met); // 0.125
+}
+
 TEST_CASE("a campaign stops at the same run for any threads and interruptions", "[parallel]") {
   const Folder folder;
   const Campaign campaign = stopping_campaign("root.latch_time@0.5 0.38%");

@@ -134,6 +134,7 @@ TEST_CASE(
   CHECK(median["among_runs_with_value"]["value"] < median["value"]);
   CHECK(high["among_runs_with_value"]["value"] == summary.outputs[0].quantiles[2].among->value);
   CHECK(json["definitions"].contains("quantile_missing"));
+  CHECK(json["outputs"]["root.latch_time"]["missing_ranks"] == "above every value");
   const Json& never = json["outputs"]["never"]["quantiles"][0];
   CHECK((never["value"].is_null() && never["note"] == "no run has a value"));
   CHECK_FALSE(never.contains("among_runs_with_value"));

@@ -105,20 +105,52 @@ TEST_CASE("a quantile exists up to the share of runs with a value, or mirrored f
     const double p = spec.quantiles[i];
     CAPTURE(p);
     CHECK(std::isnan(late[i].all.value) == (p > 0.976)); // more than the share that deploys
-    CHECK(std::isnan(low[i].all.value) == (p > 0.976 || p <= 0.024));
+    CHECK(std::isnan(low[i].all.value) == (p <= 0.024));
     CHECK(why_no_quantile(summary.outputs[0], late[i]).empty() == (p <= 0.976));
     if (p <= 0.976) CHECK(late[i].all.value == Approx(10 + p));
-    CHECK(low[i].missing_below == (p < 0.5));
+    if (p > 0.024) CHECK(low[i].all.value == Approx(9.976 + p)); // no jump, at the median neither
     CHECK(late[i].among->value == Approx(10 + std::ceil(p * 976) / 1000));
     CHECK(late[i].among->value == low[i].among->value);
   }
   CHECK(low[2].all.value == 10.001); // 24 of 25 runs rank below
-  CHECK(low[3].all.value == late[3].all.value);
   CHECK((late[6].all.bounds.lower == std::nullopt && late[4].all.bounds.lower > 10.9));
   CHECK_FALSE(late[4].all.bounds.upper); // a stalled run ranks there
   CHECK(why_no_quantile(summary.outputs[0], late[6]) ==
         "976 of 1000 runs have a value; the others rank above every value");
-  CHECK_THAT(why_no_quantile(summary.outputs[1], low[0]), Catch::Contains("rank below"));
+  CHECK(why_no_quantile(summary.outputs[1], low[0]) ==
+        "976 of 1000 runs have a value; the others rank below every value");
+}
+
+TEST_CASE("limits on both sides: a run without a value may rank at either end of all quantiles") {
+  Results results(ResultNames{{}, {"root.latch_rate"}});
+  for (long run = 0; run < 1000; ++run) // 10 stall
+    results.append({run,
+                    run < 10 ? Status::stalled : Status::deployed,
+                    {},
+                    {run < 10 ? none : static_cast<double>(run - 9)},
+                    "",
+                    ""});
+  Requirement most;
+  most.output = "root.latch_rate";
+  most.max = 2000, most.absolute = true;
+  const StatisticsSpec spec{{0.25, 0.5, 0.75}, 0.9, AutoBins{}};
+  const auto of = [&](std::span<const Requirement> requirements) {
+    return summarize(results, spec, {}, 0, requirements).outputs[0];
+  };
+  const OutputSummary above = of({}), either = of({&most, 1});
+  most.absolute = false, most.max = std::nullopt, most.min = 0;
+  const OutputSummary below = of({&most, 1});
+  for (std::size_t i = 0; i < spec.quantiles.size(); ++i) {
+    CHECK(above.quantiles[i].all.value == below.quantiles[i].all.value + 10);
+    const auto& [value, bounds, error] = either.quantiles[i].all;
+    CHECK(std::isnan(value));
+    CHECK(bounds.lower == below.quantiles[i].all.bounds.lower);
+    CHECK(bounds.upper == above.quantiles[i].all.bounds.upper);
+    CHECK(either.quantiles[i].among->value == above.quantiles[i].among->value);
+    CHECK(why_no_quantile(either, either.quantiles[i]) ==
+          "990 of 1000 runs have a value; the others rank at either end (requirements limit both "
+          "sides)");
+  }
 }
 
 TEST_CASE("with replicates too, a quantile exists up to the share of runs with a value") {

@@ -1,0 +1,39 @@
+#include "montecarlo/model/input_checks/life_checks.hpp"
+#include "montecarlo/model/scene_file/scene_json.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+TEST_CASE("check says what an elastic hold that starts unstrained does to its moment",
+          "[warnings]") {
+  Scene scene = read_scene_file(test::three_panel_file());
+  Hinge& root = scene.hinges[0];
+  root.release.emplace().time = 1;
+  const auto told = [&] {
+    InputWarnings warnings(ScenePlace{"scene.json"});
+    check_life(scene, Integration(), Outcome(), warnings);
+    std::string text;
+    for (const InputWarning& each : warnings.list())
+      text += each.pointer + ": " + each.found + '\n';
+    return text;
+  };
+  CHECK(told().empty()); // rigid
+  root.hold = Hold{2000, 0};
+  Goal goal;
+  goal.to_t_end = true;
+  Integration until_release;
+  until_release.t_end = 0.9;
+  Scene alone =
+      scene; // the panels stay stowed, so that the hold rings about the root's spring alone
+  for (Hinge& hinge : alone.hinges)
+    if (&hinge != &alone.hinges[0]) hinge.release.emplace().time = 50;
+  const double rung = Deployment().run(alone, until_release, goal).hold_moment[0].value;
+  CHECK(rung == Approx(2 * root.spring.torque_stowed).epsilon(0.02));
+  scene = alone;
+  CHECK_THAT(told(), Catch::Contains("/hinges/0/hold: a hold that starts unstrained under 2 N·m") &&
+                         Catch::Contains("root.hold_moment is up to twice that, 4 N·m"));
+  for (Hinge& hinge : scene.hinges) hinge.spring = hinge.harness = {};
+  CHECK(told().find("/hold") == std::string::npos); // nothing to bear
+}
