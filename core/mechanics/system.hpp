@@ -20,7 +20,7 @@ template <class T, class Topology, BaseMotion M> class System : public HingeStat
   using Hinges::wing_, Hinges::work_, Hinges::layout_, Hinges::epsilon_;
 
 public:
-  using Hinges::is_locked, Hinges::command;
+  using Hinges::is_locked, Hinges::set_commands;
   static constexpr BaseMotion base_motion = M;
 
   System(const Wing<T>& wing, const std::optional<double>& smoothing, Workspace<T>& work)

@@ -18,10 +18,8 @@
 namespace wingspread {
 namespace {
 
-constexpr std::size_t least_walkers = 32; // each half fills two threads of eight lanes
-// Heuristic share: the other moves reach what the proposal misses. With 1 a poor proposal leaves out a part of the
-// posterior.
-constexpr double independent_moves = 0.8;
+constexpr std::size_t least_walkers = 32;   // each half fills two threads of eight lanes
+constexpr double independent_moves = 0.8;   // heuristic: the others reach what the proposal misses
 constexpr long runs_of_a_sample = 100;      // limit of the evaluations, unless the user gives one
 constexpr std::size_t predicted_rows = 400; // for bands and p-values: 10 rows in each 2.5 % tail
 constexpr int temperings = 2;               // the mode moves little when the likelihood is tempered

@@ -78,7 +78,8 @@ void sort_values(std::span<double> values);
 /// @param sorted smallest first
 [[nodiscard]] double quantile(std::span<const double> sorted, double p);
 
-/// Where missing values rank: above every value, below every value, or at either of these ends.
+/// Where missing values rank: above every value, below every value, or at either of these ends. In the last case a
+/// quantile has them above, and its bounds hold for both ends.
 enum class MissingRank { above, below, either };
 
 /// Ranks over a sample of which some values are missing.
@@ -87,18 +88,15 @@ struct PartialRanks {
   MissingRank end = MissingRank::above;
 
   [[nodiscard]] long all() const { return present + missing; }
-  /// The rank among the present values of a rank among all, both from 1; nothing if a missing value has that rank, or
-  /// the missing values rank at either end.
+  /// The rank among the present values of a rank among all, both from 1; nothing if a missing value has that rank.
   [[nodiscard]] std::optional<long> among_present(long rank) const {
-    if (end == MissingRank::either && missing > 0) return std::nullopt;
     const long place = end == MissingRank::below ? rank - missing : rank;
     return place < 1 || place > present ? std::nullopt : std::optional(place);
   }
 };
 
 /// The sample quantile over all values, the missing ones too. NaN if a missing value has its rank: the quantile p does
-/// not exist if fewer than a share p of the values are present (mirrored if missing values rank below). No quantile
-/// exists if missing values rank at either end. Cost O(1).
+/// not exist if fewer than a share p of the values are present (mirrored if missing values rank below). Cost O(1).
 /// @param sorted the present values, smallest first
 [[nodiscard]] double quantile(std::span<const double> sorted, const PartialRanks& ranks, double p);
 

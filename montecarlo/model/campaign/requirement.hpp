@@ -40,7 +40,7 @@ struct Requirement {
 [[nodiscard]] const std::string& name_of(const Requirement& requirement);
 
 /// Where a run without the output ranks in all quantiles of the output: at the end that breaks its requirements. Above
-/// every value without a requirement and for a `max`; below every value for a `min`; at either end where requirements
+/// every value without a requirement and for a `max`; below every value for a `min`; either where requirements
 /// limit the output on both sides, as a `min` and a `max` do, or `abs` of an output that has a sign.
 [[nodiscard]] MissingRank missing_rank(std::span<const Requirement> requirements,
                                        const std::string& output);

@@ -213,7 +213,7 @@ std::string_view words_of(MissingRank end) {
   case MissingRank::below:
     return "below every value";
   case MissingRank::either:
-    return "at either end (requirements limit both sides)";
+    return "above every value; bounds hold for both ends (requirements limit both sides)";
   case MissingRank::above:
     break;
   }

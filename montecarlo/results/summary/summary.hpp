@@ -2,7 +2,7 @@
 /// (table.hpp) are written.
 ///
 /// Each output is summarised over the runs in which it happened, and the number of other runs is reported. Its
-/// quantiles are over all runs: a run without the output ranks above every value, below, or at either end
+/// quantiles are over all runs: a run without the output ranks above every value, or below
 /// (missing_rank in requirement.hpp). So the quantile p does not exist if fewer than a share p of the runs have the
 /// output, mirrored where they rank below. The same results give the same summary, bit for bit.
 #pragma once
@@ -167,7 +167,7 @@ struct Summary {
                                 const Replication& replication = {}, int threads = 0,
                                 std::span<const Requirement> requirements = {});
 
-/// "above every value", "below every value", "at either end (requirements limit both sides)".
+/// "above every value", "below every value", or the former and that the bounds hold for both ends.
 [[nodiscard]] std::string_view words_of(MissingRank end);
 /// Why an output lacks a quantile over all runs: "976 of 1000 runs have a value; the others rank above every value".
 /// Empty if it has it.
