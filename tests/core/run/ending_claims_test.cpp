@@ -139,3 +139,24 @@ TEST_CASE("every claim on a run's end holds in the run to t_end") {
   CHECK(partly > 3);
   CHECK(final > 60);
 }
+
+// Each latch that engages changes the wing that a proof is about: a proof begun before is begun anew.
+TEST_CASE("holding moments that no load reaches leave a run's end as it is") {
+  for (int seed = 1; seed <= random_cases(500, 80); ++seed) {
+    Draws draws(seed);
+    Scene scene = seed_scene();
+    for (Hinge& hinge : scene.hinges) {
+      rub(hinge, draws.uniform(0.001, 0.25));
+      hinge.friction.viscous = draws.uniform(0.01, 0.6);
+      hinge.latch = Latch{3000, 20};
+    }
+    const Outcome plain = Deployment().run(scene, within(1e-6, 40), {});
+    for (Hinge& hinge : scene.hinges) hinge.latch->holding_moment = 1e6;
+    const Outcome held = Deployment().run(scene, within(1e-6, 40), {});
+    CAPTURE(seed, plain.t_end, held.t_end);
+    CHECK(held.status == plain.status);
+    CHECK(held.latches.size() == plain.latches.size());
+    CHECK(held.let_go.empty());
+    CHECK(held.peaks_final == plain.peaks_final);
+  }
+}
