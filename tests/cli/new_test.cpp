@@ -55,8 +55,8 @@ TEST_CASE("new keeps files that it did not make, and makes the same ones again")
 
 TEST_CASE("numbers of a yoke need a yoke") {
   const Folder folder;
-  const std::string out = folder.path() / "w";
   for (const char* option : {"--yoke-mass", "--yoke-length"}) {
+    const std::string out = folder.path() / option;
     const auto refused = run_program(folder, {"new", "--out", out, "--panels", "2", option, "2"});
     CHECK(refused.code == 2);
     CHECK_THAT(refused.error, HasFacts({option, "requires --yoke"}));

@@ -195,7 +195,8 @@ private:
       ++moves;
     }
     const double share = static_cast<double>(moves) / static_cast<double>(at.size());
-    scale_ = std::min(1.0, scale_ * std::exp((share - aimed_at) / std::sqrt(step))); // Robbins-Monro
+    scale_ =
+        std::min(1.0, scale_ * std::exp((share - aimed_at) / std::sqrt(step))); // Robbins-Monro
     return moves;
   }
 

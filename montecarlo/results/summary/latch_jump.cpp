@@ -62,10 +62,10 @@ std::vector<std::string> forces_of_jumps(const Scene& scene, const Outcome& outc
 
 std::string warning_of_forces(std::span<const std::string> hinges) {
   return fmt::format(
-      "{}.peak_force grows with the number of \"joints\" without a limit: as a latch "
-      "engages, its damping times rate acts at once on the end segment of a flexible "
-      "body, which is lighter the more joints there are; with \"dissipation\" in "
-      "place of \"damping\" in the scene the force converges",
+      "{}.peak_force: in proportion to the number of \"joints\", without a limit: as a "
+      "latch engages, its damping times rate acts at once on the end segment of a "
+      "flexible body, which is lighter the more joints there are; with "
+      "\"dissipation\" in place of \"damping\" in the scene the force converges",
       fmt::join(hinges, ".peak_force, "));
 }
 

@@ -327,7 +327,8 @@ TEST_CASE("the bias is what it says for other limit states too", "[long]") {
     PointFunction g;
     double exact;
   };
-  const double limit = 3.9; // s, of t = √(π J/τ), τ = 2 exp(0.2 z_0) N·m, J = 2.6 + 1.9 Φ(z_1) kg·m²
+  const double limit =
+      3.9; // s, of t = √(π J/τ), τ = 2 exp(0.2 z_0) N·m, J = 2.6 + 1.9 Φ(z_1) kg·m²
   const auto inertia = [](double u) { return 2.6 + 1.9 * u; };
   const auto weak_spring = [&](double u) {
     return normal_tail(-std::log(std::numbers::pi * inertia(u) / (2 * limit * limit)) / 0.2);
@@ -349,9 +350,8 @@ TEST_CASE("the bias is what it says for other limit states too", "[long]") {
   constexpr int repeats = 400;
   double sum = 0, square_sum = 0, bias = 0;
   for (std::uint64_t k = 0; k < repeats; ++k) {
-    const SubsetEstimate found =
-        subset_simulation(limit_state(example.g), example.dimensions,
-                          {.samples = 500, .seed = 21, .repetition = k});
+    const SubsetEstimate found = subset_simulation(limit_state(example.g), example.dimensions,
+                                                   {.samples = 500, .seed = 21, .repetition = k});
     sum += found.probability / example.exact;
     square_sum += std::pow(found.probability / example.exact, 2);
     bias += combined({&found, 1}, 0.95).bias;

@@ -107,7 +107,8 @@ TEST_CASE("Each fault of a distribution is told", "[distribution_json]") {
   CHECK(test::facts_of(read_law(json).problems) == test::facts_of(message));
 }
 
-TEST_CASE("A value out of its range is told beside one that cannot be read", "[distribution_json]") {
+TEST_CASE("A value out of its range is told beside one that cannot be read",
+          "[distribution_json]") {
   CHECK(read_law(R"({"type": "normal", "mean": "x", "std": -1})").problems ==
         "/mean: found string \"x\", expected a number\n/std: found -1, expected > 0");
   CHECK(read_law(R"({"type": "discrete", "values": [1, "x"], "weights": [-1, 2]})").problems ==

@@ -2,6 +2,7 @@
 #include "montecarlo/results/results_folder/results_folder.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
+#include "montecarlo/results/summary/warnings.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>

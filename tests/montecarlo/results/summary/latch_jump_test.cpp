@@ -69,10 +69,11 @@ TEST_CASE("a force at the instant of a latch's jump on a flexible body is warned
   wing.outcome.peak_force[0].time = 2.0; // the root's, as mid engages
   CHECK(forces() == std::vector<std::string>{"root", "mid"});
   const std::string text =
-      "root.peak_force, mid.peak_force grows with the number of \"joints\" without a limit: as a "
-      "latch engages, its damping times rate acts at once on the end segment of a flexible body, "
-      "which is lighter the more joints there are; with \"dissipation\" in place of \"damping\" in "
-      "the scene the force converges";
+      "root.peak_force, mid.peak_force: in proportion to the number of \"joints\", without a "
+      "limit: "
+      "as a latch engages, its damping times rate acts at once on the end segment of a flexible "
+      "body, which is lighter the more joints there are; with \"dissipation\" in place of "
+      "\"damping\" in the scene the force converges";
   CHECK(warning_of_forces(forces()) == text);
   const auto lines = outcome_warnings(wing.scene, wing.outcome);
   CHECK(std::ranges::find(lines, text) != lines.end());

@@ -20,6 +20,14 @@ std::vector<std::string> lines(const std::string& text) {
   return result;
 }
 
+/// The text without the line breaks of a paragraph that starts in column 10.
+std::string unwrapped(std::string text) {
+  const std::string indent = "\n" + std::string(10, ' ');
+  for (auto at = text.find(indent); at != std::string::npos; at = text.find(indent))
+    text.replace(at, indent.size(), " ");
+  return text;
+}
+
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -239,19 +247,18 @@ TEST_CASE("tolerance limits say by which rule runs rank, and why there is none")
 
 TEST_CASE("without a standard error the integration's errors are compared with the values") {
   Results results(ResultNames{{}, {"root.latch_time", "base.peak_angle"}});
-  for (long run = 0; run < 20; ++run)
-    results.append({run, Status::deployed, {}, {4, 0}, "", ""});
+  for (long run = 0; run < 20; ++run) results.append({run, Status::deployed, {}, {4, 0}, "", ""});
   Summary summary = summarize(results, {});
-  summary.accuracy = Accuracy{.runs = 10,
-                              .method = "auto",
-                              .rtol = 1e-8,
-                              .reference_method = "dopri5",
-                              .reference_rtol = 1e-10,
-                              .in_doubt = {},
-                              .moved = {},
-                              .outputs = {{"root.latch_time", 10, 8e-9, 4e-9},
-                                          {"base.peak_angle", 10, 0, 0}}};
-  const auto line = [&] { return summary_table(summary, "t", "out"); };
+  summary.accuracy =
+      Accuracy{.runs = 10,
+               .method = "auto",
+               .rtol = 1e-8,
+               .reference_method = "dopri5",
+               .reference_rtol = 1e-10,
+               .in_doubt = {},
+               .moved = {},
+               .outputs = {{"root.latch_time", 10, 8e-9, 4e-9}, {"base.peak_angle", 10, 0, 0}}};
+  const auto line = [&] { return unwrapped(summary_table(summary, "t", "out")); };
   CHECK_THAT(line(), Catch::Contains("\nACCURACY  integration errors ≤ 2e-07 % of a value without "
                                      "standard error (it does not vary) in ≥ 74.1 %"));
   summary.accuracy->outputs[1].largest = 3e-12;
@@ -298,8 +305,8 @@ TEST_CASE("the table says what the integration contributes") {
   CHECK(contains(summary_table(summary, "t", "out", true), "more."));
   // Without --all it is a line.
   const auto line = [&] { return summary_table(summary, "t", "out"); };
-  CHECK_THAT(line(), Catch::Contains(
-                         "\nACCURACY  integration errors ≤ 6e-06 % of a standard error, ≤ "));
+  CHECK_THAT(line(),
+             Catch::Contains("\nACCURACY  integration errors ≤ 6e-06 % of a standard error, ≤ "));
   CHECK_THAT(line(), Catch::Contains("2 of 10 repeated end otherwise") &&
                          Catch::Contains("3 of 10 repeated"));
   summary.accuracy->in_doubt.clear();
