@@ -29,7 +29,7 @@
 /// with r_j(k) the correlation between points of a chain that are k steps apart.
 ///
 /// Bias: on average the estimate exceeds P by about 0.5 δ² P (δ of one repetition), because thresholds and shares come
-/// from the same points. README.md has the measurements: +0.4 to +0.6 δ². The bias decreases as 1/N; averaging
+/// from the same points. README.md has the measurements: +0.3 to +0.6 δ². The bias decreases as 1/N; averaging
 /// repetitions does not reduce it. Adapting λ within a level is not the cause: with λ fixed per level it was as large.
 ///
 /// An event that is not rare: a repetition ends at its first level if n_1 ≥ c. If one does, or if none has a second
