@@ -362,6 +362,20 @@ TEST_CASE("the bias is what it says for other limit states too", "[long]") {
   CHECK(std::abs(mean - 1 - bias / repeats) < 4 * error);
 }
 
+TEST_CASE("lower bounds keep their confidence with many repeats too", "[long]") {
+  const int seeds = random_cases(400, 200);
+  const double exact = normal_tail(4);
+  int above = 0, below = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const RareEstimate found = repeated(linear(4), 1, 500, 20, static_cast<std::uint64_t>(seed));
+    above += found.interval.lower > exact;
+    below += found.interval.upper < exact;
+  }
+  const double most = seeds * 0.025 + 3 * std::sqrt(seeds * 0.025); // a side's 2.5 %, and 3 errors
+  CHECK(above <= most);
+  CHECK(below <= most);
+}
+
 TEST_CASE("of plain sampling there is no bias, and of others it does not go away with repeats") {
   const SubsetEstimate plain =
       subset_simulation(limit_state(linear(0.5)), 3, {.samples = 1000, .seed = 1});
