@@ -130,8 +130,8 @@ struct Outcome {
   /// Work of each hinge's motor while the hinge's latch was not engaged, J; 0 without a motor. Empty when not asked
   /// for, or where no hinge has a motor.
   std::vector<double> motor_energy;
-  /// The largest moment in the joints of each flexible body, by Scene::bodies, N·m; empty when no moments are asked
-  /// for, or without flexible bodies. Zero for a rigid body.
+  /// The largest moment in the joints of each flexible body and in the hinges on its end segments, by Scene::bodies, N·m;
+  /// empty when no moments are asked for, or without flexible bodies. Zero for a rigid body.
   std::vector<Peak> bending_moment;
   /// Natural frequencies of the scene with all latches engaged, even if the run did not deploy; lowest first, Hz. Empty
   /// if not asked for, or if the scene is unphysical or has no rest.

@@ -281,12 +281,13 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
          "the estimated probability of its last level, which is larger than the event's; one that "
          "stopped because all its runs were equally far from the event counts with 0; by "
          "plain_sampling: with_event over the runs of the first_levels"},
-        {"bias", "relative error by which the probability is too large on average: 0.4 times "
+        {"bias", "relative error by which the probability is too large on average: 0.5 times "
                  "the squared variation of a repeat, as measured on events of known probability; "
-                 "neither probability nor bounds are corrected for it"},
+                 "the lower bound is less by it; probability and upper bound are not corrected"},
         {"variation", "coefficient of variation of the mean: by the correlation along chains, "
                       "by the repeats' spread, and the larger of the two"},
-        {"bounds", "probability exp(+- q variation), q normal or Student's, the wider; no "
+        {"bounds", "probability exp(+- q variation), q normal or Student's, the wider; the lower "
+                   "one less by the bias; no "
                    "lower one where a repeat did not reach the event; by plain_sampling: "
                    "Clopper-Pearson, two-sided"},
         {"plain_runs", "runs of plain sampling for the same variation"},

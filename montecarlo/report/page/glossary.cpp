@@ -35,8 +35,10 @@ constexpr std::array outputs{
         "HINGE.motor_energy",
         "work of the hinge's motor on the wing while the hinge's latch is not engaged; below 0 if "
         "the motor brakes"},
-    Entry{"BODY.peak_bending_moment",
-          "largest |moment| in the joints of a flexible body over the whole run"},
+    Entry{
+        "BODY.peak_bending_moment",
+        "largest |moment| in a flexible body over the whole run: in its joints, and in the hinges "
+        "at its ends"},
     Entry{"mode_K.frequency", "natural frequency of the draw's wing with every latch engaged, "
                               "lowest first; without damping"},
     Entry{"base.peak_angle", "largest change of a free base's angle from the start"},

@@ -1,6 +1,9 @@
+#include "core/proofs/natural_modes.hpp"
 #include "montecarlo/report/text/outcome_report.hpp"
 #include "montecarlo/results/summary/latch_jump.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -154,7 +157,16 @@ std::vector<std::string> outcome_warnings(const Scene& scene, const Outcome& out
     lines.push_back(warning(overtravel));
   if (const auto jumps = latch_jumps(scene, outcome); !jumps.empty())
     lines.push_back(warning(jumps));
+  if (const auto forces = forces_of_jumps(scene, outcome); !forces.empty())
+    lines.push_back(warning_of_forces(forces));
   if (has_cut_peaks(outcome)) lines.emplace_back(cut_peaks_warning);
+  if (outcome.status == Status::failed && outcome.reason.find("max_steps") != std::string::npos)
+    if (const auto frequencies = natural_frequencies(scene); !frequencies.empty())
+      lines.push_back(fmt::format(
+          "steps follow the fastest vibration, {:.4g} Hz with all latches engaged (`wingspread "
+          "modes` shows it): a softer latch, fewer joints of flexible bodies or an earlier t_end "
+          "take fewer steps, or raise max_steps",
+          frequencies.back()));
   return lines;
 }
 

@@ -98,6 +98,7 @@ public:
       : values_(population.values), worse_(population.worse) {}
 
   [[nodiscard]] const RankedPopulation& numbers() const { return values_; }
+  [[nodiscard]] long beyond() const { return worse_; }
   /// The value at a rank counted from above, 1 for the largest; nothing if a run worse than any number has that rank.
   /// @param end where runs worse than any number rank
   [[nodiscard]] std::optional<OrderStatistic> from_above(long rank, MissingRank end) const {
@@ -259,7 +260,7 @@ Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistic
     if (required.absolute || required.column >= names.outputs.size()) continue;
     for (const ToleranceLimitSpec& limit : spec.tolerance_limits)
       summary.outputs[required.column].tolerance_limits.push_back(
-          {limit, limits_of(ranked[q], statistics.runs(), limit)});
+          {limit, limits_of(ranked[q], statistics.runs(), limit), ranked[q].beyond()});
   }
   add_nominal(campaign, summary);
   add_overtravels(campaign.scene, names, statistics, summary);

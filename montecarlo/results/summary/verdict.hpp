@@ -90,6 +90,9 @@ public:
     return std::span(values_).subspan(worse_, values_.size() - 2 * worse_);
   }
 
+  /// Number of runs worse than any number.
+  [[nodiscard]] long beyond() const { return static_cast<long>(worse_); }
+
   /// Smallest first, with +∞ at the end for runs worse than any number.
   [[nodiscard]] std::span<const double> worst_above() const {
     return std::span(values_).subspan(worse_);
@@ -140,8 +143,9 @@ struct GroupVerdict {
 /// "wingspread replay DIR --run 17".
 [[nodiscard]] std::string replay_command(std::string_view folder, long run);
 
-/// Tolerance limits of an output over all runs. Runs that did not deploy or have no value rank above every number for
-/// an upper and a two-sided limit, below for a lower one.
+/// Tolerance limits of an output over all runs. Runs that did not deploy, have no value or have a peak that t_end cut
+/// rank above every number for an upper and a two-sided limit, below for a lower one. So a requirement passes if and
+/// only if the limit of its probability and confidence keeps within its own.
 /// @pre as for judge
 [[nodiscard]] Bounds output_limits(const RankedOutput& output, const ToleranceLimitSpec& spec,
                                    const InterimAnalyses& interim = {});

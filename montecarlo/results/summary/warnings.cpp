@@ -44,6 +44,13 @@ std::string warn_of_moved_runs(const Accuracy& accuracy) {
                      one ? "it moves" : "they move");
 }
 
+std::string warn_of_draws(const StrangeDraws& draws, long runs) {
+  return fmt::format("in {} of {} runs the draw {} is outside its law, {:.5g} to {:.5g}: {:.5g} in "
+                     "run {}. The campaign is perhaps not that of these runs",
+                     draws.runs, runs, draws.name, draws.lower, draws.upper, draws.value,
+                     draws.run);
+}
+
 /// The text without the digits of its numbers: equal for warnings of the same kind about the same parts.
 std::string kind_of(std::string_view text) {
   std::string kind;
@@ -83,10 +90,14 @@ std::vector<std::string> warnings(const Summary& summary) {
         fmt::format("nothing is dispersed: all {} runs are the same run. Shares, bounds "
                     "and verdicts show no probability",
                     summary.runs));
+  for (const StrangeDraws& draws : summary.strange_draws)
+    lines.push_back(warn_of_draws(draws, summary.runs));
   for (const Overtravel& overtravel : summary.overtravels)
     lines.push_back(warning(overtravel, summary.runs));
   if (!summary.latch_jumps.empty())
     lines.push_back("in the nominal run: " + warning(summary.latch_jumps));
+  if (!summary.jump_forces.empty())
+    lines.push_back("in the nominal run: " + warning_of_forces(summary.jump_forces));
   if (summary.peaks && summary.peaks->cut > 0)
     lines.push_back(warn_of_cut_peaks(summary.peaks->cut, summary.runs));
   if (summary.accuracy && !summary.accuracy->moved.empty())
