@@ -2,6 +2,8 @@
 #include "montecarlo/results/summary/latch_jump.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -137,6 +139,7 @@ void add_life(const Scene& scene, const Outcome& outcome, Json& json) {
   if (std::ranges::any_of(scene.hinges, may_miss)) {
     json["missed"] = events_json(scene, outcome.missed);
     json["let_go"] = events_json(scene, outcome.let_go);
+    json["latches_final"] = outcome.latches_final;
   }
 }
 
@@ -148,13 +151,21 @@ bool has_cut_peaks(const Outcome& outcome) {
   return ran && peaks && !outcome.peaks_final;
 }
 
+std::string cut_peaks_warning(const Outcome& outcome) {
+  return fmt::format("t_end cut the peak{}: it is not proven that none would be exceeded after it",
+                     outcome.moments_final  ? " forces"
+                     : outcome.forces_final ? " moments"
+                                            : "s");
+}
+
 std::vector<std::string> outcome_warnings(const Scene& scene, const Outcome& outcome) {
   std::vector<std::string> lines;
   for (const Overtravel& overtravel : overtravels(scene, outcome))
     lines.push_back(warning(overtravel));
   if (const auto jumps = latch_jumps(scene, outcome); !jumps.empty())
     lines.push_back(warning(jumps));
-  if (has_cut_peaks(outcome)) lines.emplace_back(cut_peaks_warning);
+  if (has_cut_peaks(outcome)) lines.push_back(cut_peaks_warning(outcome));
+  if (!outcome.latches_final) lines.emplace_back(open_latches_warning);
   return lines;
 }
 

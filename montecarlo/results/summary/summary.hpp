@@ -102,11 +102,6 @@ struct DrawCorrelation {
   Correlation value;
 };
 
-/// Numbers of runs whose peaks are proven, cut by t_end, or unknown (failed or invalid runs).
-struct PeaksCount {
-  long proven = 0, cut = 0, unknown = 0;
-};
-
 /// Angles, rad, at which a hinge stopped: its final_angle over the stalled runs in which it did not latch.
 struct StoppedHinge {
   std::string hinge;

@@ -6,8 +6,11 @@
 
 namespace wingspread {
 
-/// {"failures": {"seen", "allowed"}, "observed": {"share", "value"}, "guaranteed": {"share", "value"}}; without
+/// {"failures": {"seen", "allowed"; where there are any "peaks_cut", "peaks_cut_within_limit", "without_value"}, "observed": {"share", "value"}, "guaranteed": {"share", "value"}}; without
 /// values for "deployed".
 [[nodiscard]] Json evidence_json(const Verdict& verdict);
+
+/// {"true", "false", "missing"; where they differ "moments_cut", "forces_cut"}.
+[[nodiscard]] Json peaks_json(const PeaksCount& peaks);
 
 } // namespace wingspread
