@@ -63,7 +63,7 @@ struct SharedWarning {
 double number_in(const std::string& text) { return parse_csv_number(text).value_or(0); }
 
 /// "7 to 60" where the cases differ in a number, the least and the largest.
-std::string range_of(const SharedWarning& warning, std::size_t place) {
+std::string numbers_at(const SharedWarning& warning, std::size_t place) {
   std::vector<std::string> texts;
   for (const auto& numbers : warning.numbers) texts.push_back(numbers[place]);
   const auto [least, largest] = std::ranges::minmax(texts, {}, number_in);
@@ -93,7 +93,7 @@ std::string to_string(const SharedWarning& warning, std::size_t cases) {
   std::vector<std::size_t> differing;
   for (std::size_t place = 0; place + 1 < warning.words.size(); ++place) {
     if (differs(warning, place)) differing.push_back(place);
-    text += range_of(warning, place) + warning.words[place + 1];
+    text += numbers_at(warning, place) + warning.words[place + 1];
   }
   return fmt::format("{} ({})", text, cases_text(warning, differing, cases));
 }
