@@ -6,8 +6,8 @@
 
 namespace wingspread {
 
-/// {"failures": {"seen", "allowed"; where there are any "peaks_cut", "peaks_cut_within_limit", "without_value"}, "observed": {"share", "value"}, "guaranteed": {"share", "value"}}; without
-/// values for "deployed".
+/// {"failures": {"seen", "allowed"}, "observed": {"share", "value"}, "guaranteed": {"share", "value"}}; without
+/// values for "deployed". "failures" has "peaks_cut", "peaks_cut_within_limit" and "without_value" where there are any.
 [[nodiscard]] Json evidence_json(const Verdict& verdict);
 
 /// {"true", "false", "missing"; where they differ "moments_cut", "forces_cut"}.
