@@ -150,7 +150,8 @@ struct Outcome {
   /// there is no proof. None exists on a base that turns faster and faster, or if a hinge has neither an engaged latch
   /// nor a spring towards rest.
   bool peaks_final = false;
-  /// The same of the moments alone, those in flexible bodies included, and of the forces alone; true where peaks_final is.
+  /// The same of the moments alone, those in flexible bodies included, and of the forces alone; true where peaks_final
+  /// is.
   bool moments_final = false, forces_final = false;
   /// False: the run deployed, and it is not proven that every latch with a holding_moment stays engaged after t_end.
   bool latches_final = true;
