@@ -199,7 +199,9 @@ independent, whatever the campaign's design. A value of a discrete dispersion th
 drawn (a release that fails, one in 100,000) is simulated by itself, with its exact probability.
   If the simulation does not reach the event, it prints the estimated probability of the last level:
 an estimated upper bound, not guaranteed.
-  A run without the output (it stalled before, or failed) counts as the event.
+  A run without the output (it stalled before, or failed) counts as the event. So does a run whose
+peak t_end cut, as it breaks a requirement in `wingspread run`; their number is printed. A longer
+t_end ("integration" in the campaign) decides them.
 
 With --out the folder has looks.log, a checkpoint of all runs, until the study is finished: after an
 interruption, a crash or a kill the same command with --resume gives the same bytes.

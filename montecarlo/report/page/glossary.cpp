@@ -59,7 +59,9 @@ constexpr std::array terms{
           "the same with the required confidence for the population of wings: a "
           "binomial bound, and the tolerance limit of Wilks"},
     Entry{"margin", "distance from the confidence bound to the limit: at least 0 for a pass"},
-    Entry{"undecided", "too few runs to show the requirement, whatever their outcome"},
+    Entry{"undecided",
+          "too few runs to show the requirement, whatever their outcome; or only peaks "
+          "that t_end cut stand against a pass"},
     Entry{"bounds", "of shares: exact (Clopper-Pearson); of quantiles: order statistics; both for "
                     "independent draws"},
     Entry{"latch order", "the hinges' names in the order of their latching"},

@@ -170,7 +170,7 @@ std::vector<Verdict> verdicts_of(const Campaign& campaign, const StreamingStatis
     verdict.runs = statistics.runs();
     for (const RunValue& worst : counted.worst.sorted()) verdict.broken.push_back(worst.run);
     verdict.not_listed = counted.failures - std::ssize(verdict.broken);
-    verdict.cut = counted.cut, verdict.absent = counted.absent;
+    verdict.cut = counted.cut, verdict.open = counted.open, verdict.absent = counted.absent;
     decide(confidence_alone(campaign.requirements, requirement), {}, verdict);
     const auto found = std::ranges::find_if(statistics.required(), [&](const RequiredOutput& each) {
       return each.output == requirement.output && each.absolute == requirement.absolute;
@@ -266,9 +266,9 @@ Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistic
   add_overtravels(campaign.scene, names, statistics, summary);
   summary.stalled_at = stopped_hinges(statistics);
   if (names.peaks_final) {
-    const auto& peaks = statistics.peaks();
-    const auto of = [&](PeaksFinal final) { return peaks[static_cast<std::size_t>(final)]; };
-    summary.peaks = {of(PeaksFinal::yes), of(PeaksFinal::no), of(PeaksFinal::unknown)};
+    summary.peaks.emplace();
+    for (const PeaksFinal final : all_peaks_final)
+      summary.peaks->add(final, statistics.peaks()[static_cast<std::size_t>(final)]);
   }
   withdraw_if_one_run(campaign, summary);
   return summary;

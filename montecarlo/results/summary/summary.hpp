@@ -113,11 +113,6 @@ struct StrangeDraws {
   double lower = undefined, upper = undefined; ///< the law's values, but for 1e-15 of each tail
 };
 
-/// Numbers of runs whose peaks are proven, cut by t_end, or unknown (failed or invalid runs).
-struct PeaksCount {
-  long proven = 0, cut = 0, unknown = 0;
-};
-
 /// Angles, rad, at which a hinge stopped: its final_angle over the stalled runs in which it did not latch.
 struct StoppedHinge {
   std::string hinge;

@@ -89,8 +89,10 @@ Json definitions(const Summary& summary) {
         "lower bound of the confidence that all passed requirements hold: 1 - the sum of (1 - c) "
         "over all requirements";
   if (summary.peaks)
-    json["peaks_final"] = "runs whose peaks are proven (true) or were cut by t_end (false): a cut "
-                          "peak breaks every requirement on it";
+    json["peaks_final"] =
+        "runs whose peaks are proven (true) or were cut by t_end (false): a cut peak breaks every "
+        "requirement on it, and disproves none unless it is beyond the limit already; moments_cut, "
+        "forces_cut: where only the one or the other was cut in some runs";
   if (summary.accuracy)
     json["accuracy"] =
         "runs drawn at random and repeated by the reference: largest and RMS difference; "
@@ -242,8 +244,6 @@ Json verdict_json(const Summary& summary, const Verdict& verdict) {
   json.update(evidence_json(verdict));
   if (!verdict.allowed && verdict.least_runs) json["least_runs"] = *verdict.least_runs;
   if (!verdict.requirement.group.empty()) json["confidence_alone"] = verdict.confidence_alone;
-  if (verdict.cut > 0) json["failures"]["peaks_cut"] = verdict.cut;
-  if (verdict.absent > 0) json["failures"]["without_value"] = verdict.absent;
   if (summary.interim.count() > 1) json["confidence_at_this_analysis"] = verdict.confidence;
   if (const auto& joint = verdict.joint) {
     json["risk_of_wrong_pass"] = joint->risk;
@@ -347,10 +347,7 @@ Json summary_json(const Summary& summary, const Json& about) {
   add_reasons(json, summary);
   add_stopped(json, summary);
   add_latch_orders(json, summary);
-  if (summary.peaks)
-    json["peaks_final"] = {{"true", summary.peaks->proven},
-                           {"false", summary.peaks->cut},
-                           {"missing", summary.peaks->unknown}};
+  if (summary.peaks) json["peaks_final"] = peaks_json(*summary.peaks);
   json["outputs"] = Json::object();
   for (const OutputSummary& output : summary.outputs)
     json["outputs"][output.name] = output_json(summary, output);
