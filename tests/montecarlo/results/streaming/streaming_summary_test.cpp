@@ -267,8 +267,9 @@ TEST_CASE("without rows: tolerance limits hold those of the rows") {
   for (std::size_t i = 0; i < found.outputs.size(); ++i) {
     const RankedOutput ranks(made.rows, made.rows.outputs[i]);
     REQUIRE(found.outputs[i].tolerance_limits.size() == 3);
-    for (const auto& [limit, limits] : found.outputs[i].tolerance_limits) {
+    for (const auto& [limit, limits, beyond] : found.outputs[i].tolerance_limits) {
       const Bounds full = output_limits(ranks, limit);
+      CHECK((beyond >= 0 && beyond < static_cast<long>(made.rows.size())));
       CHECK(holds(limits.lower, full.lower));
       CHECK(holds(full.upper, limits.upper));
       if (full.upper) CHECK(*limits.upper - *full.upper < 1e-3);
