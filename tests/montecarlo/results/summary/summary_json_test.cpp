@@ -62,7 +62,7 @@ TEST_CASE("summary.json: its keys, in order") {
         std::vector<std::string>{"deployed", "stalled", "timed_out", "invalid", "failed"});
   CHECK(keys(json["outputs"]["root.latch_time"]) ==
         std::vector<std::string>{"unit", "count", "missing", "mean", "mean_error", "std", "min",
-                                 "max", "skewness", "kurtosis", "quantiles"});
+                                 "max", "skewness", "kurtosis", "quantiles", "missing_ranks"});
   CHECK(keys(json["correlations"]) == std::vector<std::string>{"k", "fixed"});
   CHECK(keys(json["correlations"]["k"]) ==
         std::vector<std::string>{"root.latch_time", "never", "deployed"});

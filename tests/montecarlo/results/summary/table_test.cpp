@@ -76,7 +76,7 @@ TEST_CASE("the table shows outcomes, reasons, latch orders, outputs by hinge, an
                            "\nwing\n",
                            "over the runs in which the output happened, of 100.",
                            "NO QUANTILE over all runs",
-                           "Runs without a value rank above every value.\n",
+                           "without a value rank above every value.\n",
                            "deployment_time: 90 of 100 runs have a value; the others",
                            "99 % 12.000 s",
                            "FILES  out: runs.csv, summary.json, histograms.json, histograms.csv\n"})
