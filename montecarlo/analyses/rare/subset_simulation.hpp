@@ -129,8 +129,8 @@ struct RareEstimate {
 };
 
 /// The mean of the estimates. Its interval is P exp(± q δ), the wider of two: δ by (3) with the normal quantile q, and
-/// δ from the spread with Student's; the lower end is less by the bias. If the event was not reached, the interval starts at 0 and its upper end is
-/// estimated, not guaranteed. An event that is not rare, and an atom: see above.
+/// δ from the spread with Student's; the lower end is less by the bias. If the event was not reached, the interval starts
+/// at 0 and its upper end is estimated, not guaranteed. An event that is not rare, and an atom: see above.
 /// @pre at least one estimate; all have the same number of samples
 [[nodiscard]] RareEstimate combined(std::span<const SubsetEstimate> estimates, double confidence);
 
