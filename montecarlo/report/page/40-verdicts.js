@@ -171,9 +171,11 @@
     if (W.isNumber(one.limit))
       return W.isNumber(one.guaranteed_value)
         ? valueText(one.guaranteed_value, one, set)
-        : one.not_deployed || one.without_value
-          ? "too few runs with a value"
-          : "too few runs";
+        : one.allowed !== null && one.cut > 0
+          ? "none: t_end cut peaks"
+          : one.not_deployed || one.without_value
+            ? "too few runs with a value"
+            : "too few runs";
     return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : "too few runs";
   }
   function marginText(one, set) {
