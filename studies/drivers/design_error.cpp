@@ -51,7 +51,7 @@ LatchRates make(Campaign campaign, const Sampling& sampling) {
   LatchRates made;
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < plan.columns().size(); ++i)
-    if (plan.columns()[i].quantity == OutputColumn::Quantity::latch_rate) {
+    if (plan.columns()[i].quantity == OutputQuantity::latch_rate) {
       chosen.push_back(i);
       made.names.push_back(plan.columns()[i].name);
     }

@@ -339,12 +339,11 @@ private:
   static void add_family(const JsonCursor& at, const std::string& name, const Scene& scene,
                          Outputs& outputs) {
     std::vector<std::string> known;
-    for (std::size_t f = 0; f < output_family_names.size(); ++f) {
-      const auto family = static_cast<OutputFamily>(f);
-      for (const OutputColumn& column : output_columns(scene, {family})) {
-        known.push_back(column.name);
-        if (column.name == name) return void(outputs.insert(family));
-      }
+    for (const OutputColumn& column : output_columns(scene, all_outputs()))
+      known.push_back(column.name);
+    if (std::ranges::find(known, name) != known.end()) {
+      if (const auto family = family_of(name)) outputs.insert(*family);
+      return;
     }
     at.refuse(fmt::format("\"{}\"", name), "an output of the scene" + did_you_mean(name, known));
   }

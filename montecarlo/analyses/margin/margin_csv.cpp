@@ -13,13 +13,13 @@ void append_verdict(std::string& row, const Verdict& verdict) {
                    verdict.guaranteed);
 }
 
-void append_case(std::string& csv, const std::string& before, const CaseLook& look,
+void append_case(std::string& csv, const std::string& before, const CaseResult& one,
                  double confidence) {
-  const DeployedShare deployed = deployed_share(look, confidence);
+  const DeployedShare deployed = deployed_share(one, confidence);
   std::string row = before;
   append_csv_cells(row, deployed.runs, deployed.share, deployed.bounds.lower,
                    deployed.bounds.upper);
-  for (const Verdict& verdict : look.verdicts) {
+  for (const Verdict& verdict : one.verdicts) {
     std::string line = row;
     append_verdict(line, verdict);
     csv += line + '\n';
@@ -34,12 +34,12 @@ std::string margin_csv(const Campaign& campaign, const MarginResult& result) {
       "output,limit,probability,confidence,verdict,broken,allowed,share,guaranteed_share,observed,"
       "guaranteed\n";
   for (const MarginSearch& search : result.searches)
-    for (const auto& [scale, look] : search.seen)
-      for (std::size_t which = 0; which < look.size(); ++which) {
+    for (const auto& [scale, cases] : search.seen)
+      for (std::size_t which = 0; which < cases.size(); ++which) {
         std::string before;
         append_csv_cell(before, search.name);
         append_csv_cells(before, scale, result.cases[which].name);
-        append_case(csv, before, look[which], campaign.statistics.confidence);
+        append_case(csv, before, cases[which], campaign.statistics.confidence);
       }
   return csv;
 }

@@ -24,18 +24,18 @@ std::string_view kind_of(const std::vector<Window>& holds) {
 }
 
 /// Whether only runs that did not deploy break a condition.
-bool lacks_deployment(const Verdict& verdict, const CaseLook& look) {
-  const long deployed = look.statuses[static_cast<std::size_t>(Status::deployed)];
+bool lacks_deployment(const Verdict& verdict, const CaseResult& one) {
+  const long deployed = one.statuses[static_cast<std::size_t>(Status::deployed)];
   return std::ssize(verdict.broken) == verdict.runs - deployed;
 }
 
 MarginEdge edge(const MarginSearch& search, double passing, const std::optional<double>& failing) {
   MarginEdge edge{passing, failing, {}, {}};
   if (!failing) return edge;
-  const ScaleLook& look = search.seen.at(*failing);
-  const Failing why = telling(look);
+  const ScaleResult& cases = search.seen.at(*failing);
+  const Failing why = to_report(cases);
   edge.set_by.assign(why.begin(), why.end());
-  std::ranges::set_difference(wingspread::failing(look), why, std::back_inserter(edge.as_well));
+  std::ranges::set_difference(wingspread::failing(cases), why, std::back_inserter(edge.as_well));
   return edge;
 }
 
@@ -51,8 +51,8 @@ std::vector<double> confidences_of(const Campaign& campaign, const MarginResult&
 bool is_closed_by_cut_peaks(const MarginSearch& search) {
   return std::ranges::any_of(search.seen, [](const auto& seen) {
     if (failing(seen.second).empty()) return false;
-    return std::ranges::all_of(seen.second, [](const CaseLook& look) {
-      return std::ranges::all_of(look.verdicts, [](const Verdict& verdict) {
+    return std::ranges::all_of(seen.second, [](const CaseResult& one) {
+      return std::ranges::all_of(one.verdicts, [](const Verdict& verdict) {
         return verdict.decision == Decision::pass || rests_on_cut_peaks(verdict);
       });
     });
@@ -71,8 +71,8 @@ std::string warn_of(const CutPeaks& each, const MarginResult& result) {
 std::optional<std::string> open_latches(const MarginSearch& search) {
   long most = 0, runs = 0;
   double at = 1;
-  for (const auto& [scale, look] : search.seen)
-    for (const CaseLook& each : look)
+  for (const auto& [scale, cases] : search.seen)
+    for (const CaseResult& each : cases)
       if (each.open_latches > most) {
         most = each.open_latches, at = scale;
         runs = std::accumulate(each.statuses.begin(), each.statuses.end(), 0L);
@@ -94,10 +94,10 @@ bool is_worse(const Concession& change) {
 std::vector<ConditionFinding> condition_findings(const Campaign& campaign,
                                                  const MarginResult& result,
                                                  const MarginSearch& search) {
-  const Looks looks = looks_of(search);
+  const FailingByScale by_scale = failing_by_scale(search);
   std::vector<ConditionFinding> all;
   for (const MarginCondition& condition : conditions_of(campaign, result)) {
-    const auto holds = windows_of(looks, all.size());
+    const auto holds = windows_of(by_scale, all.size());
     ConditionFinding& each = all.emplace_back();
     each.condition = condition;
     each.requirement = to_string(campaign.requirements[condition.requirement]);
@@ -131,10 +131,10 @@ double confirmation_confidence(const Campaign& campaign, const MarginResult& res
   return joint_confidence(confidences_of(campaign, result));
 }
 
-Failing telling(const ScaleLook& look) {
+Failing to_report(const ScaleResult& cases) {
   Failing all;
   std::size_t first = 0; // the case's first condition
-  for (const CaseLook& each : look) {
+  for (const CaseResult& each : cases) {
     std::optional<std::size_t>
         deployment; // the condition reported for the runs that did not deploy
     for (std::size_t k = 0; k < each.verdicts.size(); ++k) {
@@ -157,7 +157,7 @@ std::vector<Concession> concessions(const Campaign& campaign, const MarginResult
   std::vector<Concession> all;
   const auto present = search.seen.find(1);
   if (!search.recommended || *search.recommended == 1 || present == search.seen.end()) return all;
-  const ScaleLook& recommended = search.seen.at(*search.recommended);
+  const ScaleResult& recommended = search.seen.at(*search.recommended);
   const auto conditions = conditions_of(campaign, result);
   for (std::size_t k = 0; k < conditions.size(); ++k) {
     const Concession change{
@@ -168,9 +168,9 @@ std::vector<Concession> concessions(const Campaign& campaign, const MarginResult
   return all;
 }
 
-std::size_t most_strained(const ScaleLook& look) {
+std::size_t most_strained(const ScaleResult& cases) {
   std::vector<double> strains;
-  for (const CaseLook& each : look)
+  for (const CaseResult& each : cases)
     for (const Verdict& verdict : each.verdicts) strains.push_back(strain(verdict));
   return static_cast<std::size_t>(std::ranges::max_element(strains) - strains.begin());
 }
@@ -190,10 +190,10 @@ std::string why_this_one(const MarginSearch& search) {
 
 std::vector<CutPeaks> cut_peaks(const MarginResult& result, const MarginSearch& search) {
   std::map<std::pair<std::size_t, std::size_t>, CutPeaks> most; // by case and verdict
-  for (const auto& [scale, look] : search.seen)
-    for (std::size_t which = 0; which < look.size(); ++which)
-      for (std::size_t k = 0; k < look[which].verdicts.size(); ++k) {
-        const Verdict& verdict = look[which].verdicts[k];
+  for (const auto& [scale, cases] : search.seen)
+    for (std::size_t which = 0; which < cases.size(); ++which)
+      for (std::size_t k = 0; k < cases[which].verdicts.size(); ++k) {
+        const Verdict& verdict = cases[which].verdicts[k];
         const bool used = scale == 1 || scale == search.recommended;
         if (verdict.cut == 0 || !(used || rests_on_cut_peaks(verdict))) continue;
         CutPeaks& known = most[{which, k}];

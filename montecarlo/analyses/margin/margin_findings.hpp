@@ -47,7 +47,7 @@ struct MarginEdge {
 
 /// The failing conditions to report. If several conditions of a case fail only because runs did not deploy, one of them
 /// is reported: the requirement on "deployed" if it fails, else the first.
-[[nodiscard]] Failing telling(const ScaleLook& look);
+[[nodiscard]] Failing to_report(const ScaleResult& cases);
 
 /// A drawback of the recommended springs: a condition that more runs break than with the present springs, or whose
 /// required quantile is nearer to the limit.
@@ -61,7 +61,7 @@ struct Concession {
 concessions(const Campaign& campaign, const MarginResult& result, const MarginSearch& search);
 
 /// The condition with the largest strain at a scale (recommendation.hpp); the first of equals.
-[[nodiscard]] std::size_t most_strained(const ScaleLook& look);
+[[nodiscard]] std::size_t most_strained(const ScaleResult& cases);
 
 /// Which scales are as good as the recommended one, and why it is the one: ", and as few from 1.2 to 1.6: their geometric
 /// mean is recommended". Empty if no other is. @pre a scale is recommended

@@ -20,22 +20,22 @@ Json case_verdict_json(const Verdict& verdict, const std::string& which_case) {
 class SearchJson {
 public:
   SearchJson(const MarginReport& report, const MarginSearch& search)
-      : report_(report), search_(search), looks_(looks_of(search)),
+      : report_(report), search_(search), by_scale_(failing_by_scale(search)),
         conditions_(condition_findings(report.campaign, report.result, search)) {}
 
   [[nodiscard]] Json json() const {
-    const auto windows = windows_of(looks_);
+    const auto windows = windows_of(by_scale_);
     const Window* best = widest(windows);
     Json json{{"name", search_.name},
               {"scales", paths_of(report_.campaign.scene, search_.scaled)},
-              {"looks", looks_.size()},
-              {"looked_at", {looks_.begin()->first, looks_.rbegin()->first}}};
+              {"looks", by_scale_.size()},
+              {"looked_at", {by_scale_.begin()->first, by_scale_.rbegin()->first}}};
     json["window"] = best ? window(*best) : Json(nullptr);
     json["other_windows"] = Json::array();
     for (const Window& other : windows)
       if (&other != best) json["other_windows"].push_back(window(other));
     json["closed_by"] = Json::array();
-    for (const std::size_t condition : closed_by(looks_))
+    for (const std::size_t condition : closed_by(by_scale_))
       json["closed_by"].push_back(name(condition));
     json["recommended"] = recommended();
     json["why_none"] = search_.recommended ? Json(nullptr) : Json(why_withheld(search_));
@@ -77,10 +77,10 @@ private:
             {"joint_confidence", window_confidence(report_.campaign, report_.result, window)}};
   }
 
-  [[nodiscard]] Json verdicts(const ScaleLook& look) const {
+  [[nodiscard]] Json verdicts(const ScaleResult& cases) const {
     Json json = Json::array();
-    for (std::size_t which = 0; which < look.size(); ++which)
-      for (const Verdict& verdict : look[which].verdicts)
+    for (std::size_t which = 0; which < cases.size(); ++which)
+      for (const Verdict& verdict : cases[which].verdicts)
         json.push_back(case_verdict_json(verdict, report_.result.cases[which].name));
     return json;
   }
@@ -139,8 +139,8 @@ private:
 
   /// The present springs (scale 1); null if scale 1 was not evaluated.
   [[nodiscard]] Json present() const {
-    const auto found = looks_.find(1);
-    if (found == looks_.end()) return nullptr;
+    const auto found = by_scale_.find(1);
+    if (found == by_scale_.end()) return nullptr;
     Json failing = Json::array();
     for (const std::size_t condition : found->second) failing.push_back(evidence(condition, 1));
     return {{"passes", found->second.empty()}, {"failing", failing}};
@@ -165,7 +165,7 @@ private:
 
   const MarginReport& report_;
   const MarginSearch& search_;
-  Looks looks_;
+  FailingByScale by_scale_;
   std::vector<ConditionFinding> conditions_;
 };
 

@@ -10,13 +10,13 @@
 namespace wingspread {
 namespace {
 
-/// The number of draws that break the condition at a scale of `looks` but not at the scale before it.
-long relapses(const std::vector<const ScaleLook*>& looks, const MarginCondition& condition) {
+/// The number of draws that break the condition at a of the scales but not at the scale before it.
+long relapses(const std::vector<const ScaleResult*>& scales, const MarginCondition& condition) {
   std::set<long> relapsed;
-  for (std::size_t k = 1; k < looks.size(); ++k) {
-    const Spilled<long>& before = verdict_of(*looks[k - 1], condition).broken;
+  for (std::size_t k = 1; k < scales.size(); ++k) {
+    const Spilled<long>& before = verdict_of(*scales[k - 1], condition).broken;
     const std::set<long> broken(before.begin(), before.end());
-    for (const long run : verdict_of(*looks[k], condition).broken)
+    for (const long run : verdict_of(*scales[k], condition).broken)
       if (!broken.contains(run)) relapsed.insert(run);
   }
   return std::ssize(relapsed);
@@ -24,9 +24,9 @@ long relapses(const std::vector<const ScaleLook*>& looks, const MarginCondition&
 
 } // namespace
 
-DeployedShare deployed_share(const CaseLook& look, double confidence) {
-  const long runs = std::reduce(look.statuses.begin(), look.statuses.end());
-  const long deployed = look.statuses[static_cast<std::size_t>(Status::deployed)];
+DeployedShare deployed_share(const CaseResult& one, double confidence) {
+  const long runs = std::reduce(one.statuses.begin(), one.statuses.end());
+  const long deployed = one.statuses[static_cast<std::size_t>(Status::deployed)];
   return {runs, static_cast<double>(deployed) / static_cast<double>(runs),
           clopper_pearson(deployed, runs, confidence)};
 }
@@ -46,20 +46,20 @@ std::vector<MarginCondition> conditions_of(const Campaign& campaign, const Margi
   return conditions;
 }
 
-const Verdict& verdict_of(const ScaleLook& look, const MarginCondition& condition) {
-  return look[condition.which_case].verdicts[condition.verdict];
+const Verdict& verdict_of(const ScaleResult& cases, const MarginCondition& condition) {
+  return cases[condition.which_case].verdicts[condition.verdict];
 }
 
-double quantile_of(const ScaleLook& look, const MarginCondition& condition) {
-  const std::vector<double>& quantiles = look[condition.which_case].quantiles;
+double quantile_of(const ScaleResult& cases, const MarginCondition& condition) {
+  const std::vector<double>& quantiles = cases[condition.which_case].quantiles;
   return condition.verdict < quantiles.size() ? quantiles[condition.verdict]
                                               : std::numeric_limits<double>::quiet_NaN();
 }
 
-Failing failing(const ScaleLook& look) {
+Failing failing(const ScaleResult& cases) {
   Failing failing;
   std::size_t condition = 0;
-  for (const CaseLook& each : look)
+  for (const CaseResult& each : cases)
     for (const Verdict& verdict : each.verdicts) {
       if (verdict.decision != Decision::pass) failing.insert(condition);
       ++condition;
@@ -67,10 +67,10 @@ Failing failing(const ScaleLook& look) {
   return failing;
 }
 
-Looks looks_of(const MarginSearch& search) {
-  Looks looks;
-  for (const auto& [scale, look] : search.seen) looks[scale] = failing(look);
-  return looks;
+FailingByScale failing_by_scale(const MarginSearch& search) {
+  FailingByScale by_scale;
+  for (const auto& [scale, cases] : search.seen) by_scale[scale] = failing(cases);
+  return by_scale;
 }
 
 bool is_confirmed(const MarginSearch& search) {
@@ -79,10 +79,10 @@ bool is_confirmed(const MarginSearch& search) {
 
 OutOfOrder out_of_order(const MarginSearch& search, const MarginCondition& condition,
                         double middle) {
-  std::vector<const ScaleLook*> below, above; // each from its outermost scale inwards
-  for (const auto& [scale, look] : search.seen) {
-    if (scale <= middle) below.push_back(&look);
-    if (scale >= middle) above.insert(above.begin(), &look);
+  std::vector<const ScaleResult*> below, above; // each from its outermost scale inwards
+  for (const auto& [scale, cases] : search.seen) {
+    if (scale <= middle) below.push_back(&cases);
+    if (scale >= middle) above.insert(above.begin(), &cases);
   }
   return {relapses(below, condition), relapses(above, condition)};
 }

@@ -27,7 +27,7 @@ struct MarginCase {
 [[nodiscard]] bool applies(const Requirement& requirement, const MarginCase& which);
 
 /// The results of one case's runs at one scale.
-struct CaseLook {
+struct CaseResult {
   std::array<long, 5> statuses{}; ///< in the order of Status
   std::vector<Verdict> verdicts;  ///< one for each requirement that applies
   /// For each verdict the required quantile over the runs with the output; NaN without such runs.
@@ -35,7 +35,7 @@ struct CaseLook {
   long open_latches =
       0; ///< deployed runs of which it is not proven that their latches stay engaged
 };
-using ScaleLook = std::vector<CaseLook>; ///< one per case
+using ScaleResult = std::vector<CaseResult>; ///< one per case
 
 /// The share of a case's runs that deployed.
 struct DeployedShare {
@@ -43,7 +43,7 @@ struct DeployedShare {
   double share = 0; ///< NaN without runs
   Interval bounds;  ///< Clopper-Pearson
 };
-[[nodiscard]] DeployedShare deployed_share(const CaseLook& look, double confidence);
+[[nodiscard]] DeployedShare deployed_share(const CaseResult& one, double confidence);
 
 /// Why no scale is recommended.
 enum class Withheld {
@@ -63,13 +63,13 @@ struct ScaleRange {
 struct MarginSearch {
   std::string name; ///< the hinge, or "joint" for all parameters together
   std::vector<SceneParameter> scaled;
-  std::map<double, ScaleLook> seen{}; ///< by scale
+  std::map<double, ScaleResult> seen{}; ///< by scale
   std::optional<double> recommended{};
   ScaleRange as_good{}; ///< scales with the strain of the recommended one, which is among them
   Withheld withheld = Withheld::nothing;
   std::optional<Shortfall>
       passed_over{}; ///< the scale with less strain whose static margin is below 0
-  std::optional<ScaleLook> confirmation{}; ///< runs of another seed at the recommended scale
+  std::optional<ScaleResult> confirmation{}; ///< runs of another seed at the recommended scale
 };
 
 struct MarginResult {
@@ -90,14 +90,14 @@ struct MarginCondition {
 [[nodiscard]] std::vector<MarginCondition> conditions_of(const Campaign& campaign,
                                                          const MarginResult& result);
 
-[[nodiscard]] const Verdict& verdict_of(const ScaleLook& look, const MarginCondition& condition);
+[[nodiscard]] const Verdict& verdict_of(const ScaleResult& cases, const MarginCondition& condition);
 
-/// The quantile of a condition (CaseLook::quantiles); NaN if there is none.
-[[nodiscard]] double quantile_of(const ScaleLook& look, const MarginCondition& condition);
+/// The quantile of a condition (CaseResult::quantiles); NaN if there is none.
+[[nodiscard]] double quantile_of(const ScaleResult& cases, const MarginCondition& condition);
 
 /// The conditions that do not pass at a scale.
-[[nodiscard]] Failing failing(const ScaleLook& look);
-[[nodiscard]] Looks looks_of(const MarginSearch& search);
+[[nodiscard]] Failing failing(const ScaleResult& cases);
+[[nodiscard]] FailingByScale failing_by_scale(const MarginSearch& search);
 
 /// Whether the runs of the confirmation seed pass at the recommended scale.
 [[nodiscard]] bool is_confirmed(const MarginSearch& search);

@@ -47,13 +47,8 @@ void refuse_unsuitable(const Campaign& campaign) {
 /// The output families of the requirements. A run ends when these are known.
 Outputs outputs_for(const std::vector<Requirement>& requirements) {
   Outputs outputs;
-  for (const Requirement& requirement : requirements) {
-    std::string quantity = parse_output_name(requirement.output).quantity;
-    if (quantity == "peak_bending_moment") quantity = "peak_moment";
-    const auto family = std::ranges::find(output_family_names, quantity);
-    if (family != output_family_names.end())
-      outputs.insert(static_cast<OutputFamily>(family - output_family_names.begin()));
-  }
+  for (const Requirement& requirement : requirements)
+    if (const auto family = family_of(requirement.output)) outputs.insert(*family);
   match_peaks_final(outputs);
   return outputs;
 }
@@ -98,16 +93,16 @@ double quantile_over_runs(const Requirement& requirement, const Results& results
 }
 
 /// Statuses, verdicts and quantiles of a case's runs at one scale.
-CaseLook look_of(const Campaign& campaign, const MarginCase& which, const Results& results) {
-  CaseLook look;
-  for (const Status status : results.status) ++look.statuses[static_cast<std::size_t>(status)];
-  look.open_latches = count_open_latches(results);
-  look.verdicts = judge_campaign(campaign, results);
-  std::erase_if(look.verdicts,
+CaseResult case_result(const Campaign& campaign, const MarginCase& which, const Results& results) {
+  CaseResult one;
+  for (const Status status : results.status) ++one.statuses[static_cast<std::size_t>(status)];
+  one.open_latches = count_open_latches(results);
+  one.verdicts = judge_campaign(campaign, results);
+  std::erase_if(one.verdicts,
                 [&](const Verdict& verdict) { return !applies(verdict.requirement, which); });
-  for (const Verdict& verdict : look.verdicts)
-    look.quantiles.push_back(quantile_over_runs(verdict.requirement, results));
-  return look;
+  for (const Verdict& verdict : one.verdicts)
+    one.quantiles.push_back(quantile_over_runs(verdict.requirement, results));
+  return one;
 }
 
 /// Makes the runs of a search, scale by scale.
@@ -120,18 +115,19 @@ public:
   }
 
   /// Sets an upper bound of the number of scales, for the progress display.
-  void limit_scales(long looks) {
-    most_ = std::max(looks_ + 1, most_ == 0 ? looks : std::min(most_, looks));
+  void limit_scales(long scales) {
+    most_ = std::max(scales_ + 1, most_ == 0 ? scales : std::min(most_, scales));
   }
 
   /// Makes all cases' runs at a scale and judges them.
-  [[nodiscard]] ScaleLook judge_scale(const std::vector<SceneParameter>& parameters, double scale) {
-    ScaleLook look;
+  [[nodiscard]] ScaleResult judge_scale(const std::vector<SceneParameter>& parameters,
+                                        double scale) {
+    ScaleResult cases;
     for_each_case(parameters, scale, [&](const Campaign& campaign, const MarginCase& which) {
-      look.push_back(runs_of(campaign, which));
+      cases.push_back(runs_of(campaign, which));
     });
-    ++looks_;
-    return look;
+    ++scales_;
+    return cases;
   }
 
   /// Makes a shard's part of the runs at a scale, without judging them.
@@ -140,11 +136,11 @@ public:
       const RunRange part = part_of_analysis({0, campaign.sampling.runs}, shard);
       make(RunPlan(campaign), part, part.size(), [](const Batch&) {});
     });
-    ++looks_;
+    ++scales_;
   }
 
   /// The number of scales so far.
-  [[nodiscard]] long looks() const { return looks_; }
+  [[nodiscard]] long scales() const { return scales_; }
 
   void use_seed(std::uint64_t seed) {
     for (Campaign& campaign : campaigns_) override_sampling(campaign, std::nullopt, seed);
@@ -168,15 +164,15 @@ private:
     }
   }
 
-  [[nodiscard]] CaseLook runs_of(const Campaign& campaign, const MarginCase& which) {
+  [[nodiscard]] CaseResult runs_of(const Campaign& campaign, const MarginCase& which) {
     const RunPlan plan(campaign);
     Results results(plan.names());
     make(plan, {0, campaign.sampling.runs}, campaign.sampling.runs, [&](const Batch& batch) {
       for (const ResultRow& row : batch.rows) results.append(row);
     });
-    CaseLook look = look_of(campaign, which, results);
-    result_.failed += look.statuses[static_cast<std::size_t>(Status::failed)];
-    return look;
+    CaseResult one = case_result(campaign, which, results);
+    result_.failed += one.statuses[static_cast<std::size_t>(Status::failed)];
+    return one;
   }
 
   /// @param runs number of runs of each case at a scale, for the progress display
@@ -187,7 +183,7 @@ private:
     const auto keep = [&](const Batch& batch) {
       take(batch);
       done += std::ssize(batch.rows);
-      progress_({looks_ + 1, most_, done, most_ * cases * runs});
+      progress_({scales_ + 1, most_, done, most_ * cases * runs});
     };
     const long made = evaluator_.make(plan, range, {keep});
     result_.runs += made;
@@ -198,7 +194,7 @@ private:
   Evaluator& evaluator_;
   const std::function<void(const StudyProgress&)>& progress_;
   MarginResult& result_;
-  long looks_ = 0, most_ = 0;
+  long scales_ = 0, most_ = 0;
 };
 
 /// Whether the campaign requires static margins. These then bound the window, and weaker_springs.hpp rules no scale
@@ -232,11 +228,12 @@ MarginResult prepared(const Campaign& campaign) {
 }
 
 /// An upper bound of the number of scales of all searches, finished or not, with one confirmation each.
-long most_looks_of(const std::vector<MarginSearch>& searches, const MarginSearch& current,
-                   const SearchRange& range) {
+long most_scales_of(const std::vector<MarginSearch>& searches, const MarginSearch& current,
+                    const SearchRange& range) {
   long most = std::ssize(searches);
   for (const MarginSearch& search : searches)
-    most += &search < &current ? std::ssize(search.seen) : most_looks(looks_of(search), range);
+    most +=
+        &search < &current ? std::ssize(search.seen) : most_scales(failing_by_scale(search), range);
   return most;
 }
 
@@ -248,7 +245,7 @@ MarginRuns margin_runs(const Campaign& campaign) {
   const long at_a_scale =
       std::ssize(plan.searches) * std::ssize(plan.cases) * campaign.sampling.runs;
   return {at_a_scale * std::ssize(first_scales(range)),
-          at_a_scale * (most_looks({}, range) + 1)}; // 1: the confirmation
+          at_a_scale * (most_scales({}, range) + 1)}; // 1: the confirmation
 }
 
 std::uint64_t confirmation_seed(std::uint64_t seed) {
@@ -264,31 +261,31 @@ void find_margin(const Campaign& campaign, Evaluator& evaluator,
   const SearchRange range = range_of(spec);
   ScaleRuns runs(evaluator, progress, result);
   for (MarginSearch& search : result.searches) {
-    const auto look = [&](double scale) {
-      runs.limit_scales(most_looks_of(result.searches, search, range));
+    const auto run_at = [&](double scale) {
+      runs.limit_scales(most_scales_of(result.searches, search, range));
       search.seen[scale] = runs.judge_scale(search.scaled, scale);
     };
     (void)search_window(range, [&](double scale) {
-      look(scale);
+      run_at(scale);
       return failing(search.seen.at(scale));
     });
     const auto shortfall = [&](double scale) {
       return requires_margins(campaign) ? std::nullopt
                                         : shortfall_at(result.campaigns, search.scaled, scale);
     };
-    recommend({spec.edge_tolerance, look, shortfall}, search);
+    recommend({spec.edge_tolerance, run_at, shortfall}, search);
   }
   runs.use_seed(result.confirmation_seed);
   long left = std::ranges::count_if(
       result.searches, [](const MarginSearch& search) { return search.recommended.has_value(); });
   for (MarginSearch& search : result.searches)
     if (search.recommended) {
-      runs.limit_scales(runs.looks() + left--);
+      runs.limit_scales(runs.scales() + left--);
       search.confirmation = runs.judge_scale(search.scaled, *search.recommended);
     }
 }
 
-long make_first_looks(const Campaign& campaign, const Shard& shard, Evaluator& evaluator,
+long run_first_scales(const Campaign& campaign, const Shard& shard, Evaluator& evaluator,
                       const std::function<void(const StudyProgress&)>& progress) {
   MarginResult result = prepared(campaign);
   const std::vector<double> scales = first_scales(range_of(*campaign.margin));

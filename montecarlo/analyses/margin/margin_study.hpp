@@ -60,7 +60,7 @@ void find_margin(const Campaign& campaign, Evaluator& evaluator,
 /// @param shard the part of each scale's runs (part_of_analysis, shard_checkpoints.hpp)
 /// @return the number of runs made
 /// @throws as find_margin does
-long make_first_looks(const Campaign& campaign, const Shard& shard, Evaluator& evaluator,
+long run_first_scales(const Campaign& campaign, const Shard& shard, Evaluator& evaluator,
                       const std::function<void(const StudyProgress&)>& progress);
 
 } // namespace wingspread

@@ -14,11 +14,11 @@ namespace {
 class SearchText {
 public:
   SearchText(const MarginReport& report, const MarginSearch& search)
-      : report_(report), search_(search), looks_(looks_of(search)),
+      : report_(report), search_(search), by_scale_(failing_by_scale(search)),
         conditions_(condition_findings(report.campaign, report.result, search)) {}
 
   [[nodiscard]] std::string text() const {
-    const auto windows = windows_of(looks_);
+    const auto windows = windows_of(by_scale_);
     const Window* best = widest(windows);
     std::string text = fmt::format("\n{}\n", heading());
     text += best ? window(*best) : no_window();
@@ -29,7 +29,7 @@ public:
       text += '\n';
     }
     text += present() + given_up() + requirements();
-    return text + (search_.recommended ? new_values() : "") + looks();
+    return text + (search_.recommended ? new_values() : "") + scales();
   }
 
 private:
@@ -169,7 +169,7 @@ private:
 
   [[nodiscard]] std::string no_window() const {
     std::string text = "  EMPTY: no scale meets all requirements.\n";
-    for (const std::size_t condition : closed_by(looks_))
+    for (const std::size_t condition : closed_by(by_scale_))
       text += fmt::format("    {}\n", wrapped(name(condition) + ": " + holds(condition), 6));
     for (const CutPeaks& each : cut_peaks(report_.result, search_))
       text += fmt::format("    {}\n",
@@ -202,7 +202,7 @@ private:
   [[nodiscard]] std::string present() const {
     const auto found = search_.seen.find(1);
     if (found == search_.seen.end()) return "";
-    const Failing why = telling(found->second);
+    const Failing why = to_report(found->second);
     if (why.empty()) return line("present springs", 1, "all requirements are met");
     std::string text;
     for (const std::size_t condition : why)
@@ -246,14 +246,14 @@ private:
     return text;
   }
 
-  [[nodiscard]] std::string looks() const {
+  [[nodiscard]] std::string scales() const {
     std::string text = fmt::format("\n{:<10}{:>12}{:>26}   {}\n", "SCALE", "deployed",
                                    fmt::format("{:g} % bounds", 100 * confidence()), "not met");
-    for (const auto& [scale, look] : search_.seen) {
-      const DeployedShare deployed = deployed_share(look.front(), confidence());
+    for (const auto& [scale, cases] : search_.seen) {
+      const DeployedShare deployed = deployed_share(cases.front(), confidence());
       text += fmt::format("  {:<8}{:>12}{:>26}{}\n", scale, percent(deployed.share),
                           percent_range(deployed.bounds.lower, deployed.bounds.upper),
-                          outputs_of(telling(look)));
+                          outputs_of(to_report(cases)));
     }
     return text;
   }
@@ -275,7 +275,7 @@ private:
 
   const MarginReport& report_;
   const MarginSearch& search_;
-  Looks looks_;
+  FailingByScale by_scale_;
   std::vector<ConditionFinding> conditions_;
 };
 

@@ -20,8 +20,9 @@ struct Stretch {
 
 Candidates candidates_in(const Window& window, const MarginSearch& search) {
   Candidates candidates;
-  for (const auto& [scale, look] : search.seen)
-    if (window.lower <= scale && scale <= window.upper) candidates.push_back({scale, strain(look)});
+  for (const auto& [scale, cases] : search.seen)
+    if (window.lower <= scale && scale <= window.upper)
+      candidates.push_back({scale, strain(cases)});
   return candidates;
 }
 
@@ -61,13 +62,13 @@ public:
 
   void choose() {
     do {
-      const auto windows = windows_of(looks_of(search_));
+      const auto windows = windows_of(failing_by_scale(search_));
       const Window* window = widest(windows);
       if (!window) return withhold(Withheld::no_window);
       if (!window->below) return withhold(Withheld::no_lower_edge);
       if (!window->above) return withhold(Withheld::no_upper_edge);
       choose_from(candidates_in(*window, search_));
-    } while (looked_);
+    } while (ran_);
   }
 
 private:
@@ -75,12 +76,12 @@ private:
 
   /// Recommends the best candidate without a shortfall, or evaluates a scale on which the choice depends.
   void choose_from(const Candidates& all) {
-    looked_ = false;
+    ran_ = false;
     Candidates advisable;
     std::ranges::copy_if(all, std::back_inserter(advisable),
                          [&](const Candidate& each) { return !means_.shortfall(each.scale); });
     if (!advisable.empty()) choose_best(advisable);
-    if (looked_) return;
+    if (ran_) return;
     note_passed_over(all);
     if (!search_.recommended) withhold(Withheld::short_of_torque);
   }
@@ -89,7 +90,7 @@ private:
     const Stretch best = best_stretch(candidates);
     if (halve(candidates, best.last) || halve_below(candidates, best.first)) return;
     const double middle = middle_of(candidates, best);
-    if (!search_.seen.contains(middle)) return look(middle);
+    if (!search_.seen.contains(middle)) return run_at(middle);
     search_.recommended = middle;
     search_.as_good = {candidates[best.first].scale, candidates[best.last].scale};
   }
@@ -106,7 +107,7 @@ private:
     const double from = candidates[below].scale, to = candidates[below + 1].scale;
     const double middle = rounded_scale(std::sqrt(from * to), means_.tolerance);
     if (to <= from * (1 + means_.tolerance) || middle <= from || to <= middle) return false;
-    look(middle);
+    run_at(middle);
     return true;
   }
 
@@ -114,9 +115,9 @@ private:
     return above > 0 && halve(candidates, above - 1);
   }
 
-  void look(double scale) {
-    means_.look(scale);
-    looked_ = true;
+  void run_at(double scale) {
+    means_.run_at(scale);
+    ran_ = true;
   }
 
   /// Notes the best candidate that a static margin ruled out, if it has less strain than the recommended scale.
@@ -129,7 +130,7 @@ private:
 
   const RecommendationMeans& means_;
   MarginSearch& search_;
-  bool looked_ = false;
+  bool ran_ = false;
 };
 
 } // namespace
@@ -139,9 +140,9 @@ double strain(const Verdict& verdict) {
   return static_cast<double>(verdict.broken.size()) / may;
 }
 
-double strain(const ScaleLook& look) {
+double strain(const ScaleResult& cases) {
   double worst = 0;
-  for (const CaseLook& each : look)
+  for (const CaseResult& each : cases)
     for (const Verdict& verdict : each.verdicts) worst = std::max(worst, strain(verdict));
   return worst;
 }

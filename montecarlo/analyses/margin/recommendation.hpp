@@ -26,13 +26,13 @@ namespace wingspread {
 /// The strain of one condition, k / (n (1 − p)).
 [[nodiscard]] double strain(const Verdict& verdict);
 /// The strain σ of a scale.
-[[nodiscard]] double strain(const ScaleLook& look);
+[[nodiscard]] double strain(const ScaleResult& cases);
 
 /// The functions that a recommendation calls.
 struct RecommendationMeans {
   double tolerance; ///< relative tolerance of scales, the same as for the window's edges
   /// Makes the runs at a new scale and stores them in MarginSearch::seen.
-  std::function<void(double)> look;
+  std::function<void(double)> run_at;
   /// The static margin that rules the scale out, if any.
   std::function<std::optional<Shortfall>(double)> shortfall;
 };

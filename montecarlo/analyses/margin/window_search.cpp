@@ -27,10 +27,10 @@ bool may_hold_edge(const Failing& a, const Failing& b) {
 bool differ(const Failing& a, const Failing& b) { return a != b; }
 
 /// Whether the search must go on beyond this end, by (2).
-bool is_open(const Looks& looks, const Failing& at_end) {
+bool is_open(const FailingByScale& by_scale, const Failing& at_end) {
   return std::ranges::none_of(at_end, [&](std::size_t condition) {
-    return std::ranges::any_of(looks,
-                               [&](const auto& look) { return !look.second.contains(condition); });
+    return std::ranges::any_of(by_scale,
+                               [&](const auto& one) { return !one.second.contains(condition); });
   });
 }
 
@@ -53,13 +53,13 @@ long most_halvings(double a, double b, double tolerance) {
 /// The evaluated scales, the grid, and all scales by which the range may still be extended. More scales only add to ⋃
 /// H, so once (2) is false at an end it stays false. The range is never extended beyond such an end, even if the grid
 /// is not complete.
-std::vector<double> all_ends(const Looks& looks, const SearchRange& range) {
+std::vector<double> all_ends(const FailingByScale& by_scale, const SearchRange& range) {
   std::set<double> scales;
-  for (const auto& [scale, failing] : looks) scales.insert(scale);
+  for (const auto& [scale, failing] : by_scale) scales.insert(scale);
   for (const double scale : first_scales(range)) scales.insert(scale);
   const auto may_go_on = [&](double end) {
-    const auto look = looks.find(end);
-    return look == looks.end() || is_open(looks, look->second);
+    const auto one = by_scale.find(end);
+    return one == by_scale.end() || is_open(by_scale, one->second);
   };
   if (may_go_on(*scales.begin()))
     while (*scales.begin() > range.lowest) scales.insert(further_down(*scales.begin(), range));
@@ -74,63 +74,65 @@ public:
   Search(const SearchRange& range, const std::function<Failing(double)>& judge)
       : range_(range), judge_(judge) {}
 
-  Looks run() {
-    look_at_grid();
+  FailingByScale run() {
+    judge_grid();
     do widen();
-    while (refine(may_hold_edge) || (windows_of(looks_).empty() && refine(differ)));
-    return std::move(looks_);
+    while (refine(may_hold_edge) || (windows_of(by_scale_).empty() && refine(differ)));
+    return std::move(by_scale_);
   }
 
 private:
-  void look_at_grid() {
-    for (const double scale : first_scales(range_)) look(scale);
+  void judge_grid() {
+    for (const double scale : first_scales(range_)) judge_at(scale);
   }
 
   /// Extends the range at open ends (2).
   void widen() {
     for (std::size_t before = 0;
-         before != looks_.size();) { // a scale added at one end can make (2) false at the other
-      before = looks_.size();
-      while (looks_.begin()->first > range_.lowest && is_open(looks_, looks_.begin()->second))
-        look(further_down(looks_.begin()->first, range_));
-      while (looks_.rbegin()->first < range_.highest && is_open(looks_, looks_.rbegin()->second))
-        look(further_up(looks_.rbegin()->first, range_));
+         before != by_scale_.size();) { // a scale added at one end can make (2) false at the other
+      before = by_scale_.size();
+      while (by_scale_.begin()->first > range_.lowest &&
+             is_open(by_scale_, by_scale_.begin()->second))
+        judge_at(further_down(by_scale_.begin()->first, range_));
+      while (by_scale_.rbegin()->first < range_.highest &&
+             is_open(by_scale_, by_scale_.rbegin()->second))
+        judge_at(further_up(by_scale_.rbegin()->first, range_));
     }
   }
 
-  void look(double scale) {
-    if (!looks_.contains(scale)) looks_[scale] = judge_(scale);
+  void judge_at(double scale) {
+    if (!by_scale_.contains(scale)) by_scale_[scale] = judge_(scale);
   }
 
   /// Halves the wide cells that `wanted` selects until there are none. @return whether there were any
   bool refine(const Cell& wanted) {
-    const std::size_t before = looks_.size();
-    for (auto a = looks_.begin(); std::next(a) != looks_.end();) {
+    const std::size_t before = by_scale_.size();
+    for (auto a = by_scale_.begin(); std::next(a) != by_scale_.end();) {
       const auto b = std::next(a);
       const bool wide = b->first > a->first * (1 + range_.tolerance);
       const double middle = rounded_scale(std::sqrt(a->first * b->first), range_.tolerance);
       if (wide && wanted(a->second, b->second) && a->first < middle && middle < b->first)
-        look(middle); // then this cell again, now half as wide
+        judge_at(middle); // then this cell again, now half as wide
       else
         ++a;
     }
-    return looks_.size() > before;
+    return by_scale_.size() > before;
   }
 
   const SearchRange& range_;
   const std::function<Failing(double)>& judge_;
-  Looks looks_;
+  FailingByScale by_scale_;
 };
 
 /// Whether at least one of the conditions fails at every scale.
-bool closes(const Looks& looks, const Failing& conditions) {
-  return std::ranges::all_of(looks,
-                             [&](const auto& look) { return share_any(conditions, look.second); });
+bool closes(const FailingByScale& by_scale, const Failing& conditions) {
+  return std::ranges::all_of(by_scale,
+                             [&](const auto& one) { return share_any(conditions, one.second); });
 }
 
-Failing ever_failing(const Looks& looks) {
+Failing ever_failing(const FailingByScale& by_scale) {
   Failing all;
-  for (const auto& [scale, failing] : looks) all.insert(failing.begin(), failing.end());
+  for (const auto& [scale, failing] : by_scale) all.insert(failing.begin(), failing.end());
   return all;
 }
 
@@ -152,15 +154,15 @@ std::vector<double> first_scales(const SearchRange& range) {
   return scales;
 }
 
-long most_looks(const Looks& looks, const SearchRange& range) {
+long most_scales(const FailingByScale& by_scale, const SearchRange& range) {
   constexpr long middles =
       2; // a recommendation evaluates at most two middles of stretches with equal strain
-  const bool has_window = !windows_of(looks).empty();
-  const std::vector<double> ends = all_ends(looks, range);
+  const bool has_window = !windows_of(by_scale).empty();
+  const std::vector<double> ends = all_ends(by_scale, range);
   long most = std::ssize(ends) + middles;
   for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
-    const auto a = looks.find(ends[k]), b = looks.find(ends[k + 1]);
-    const bool is_ruled_out = a != looks.end() && b != looks.end() &&
+    const auto a = by_scale.find(ends[k]), b = by_scale.find(ends[k + 1]);
+    const bool is_ruled_out = a != by_scale.end() && b != by_scale.end() &&
                               share_any(a->second, b->second) &&
                               (has_window || a->second == b->second);
     if (!is_ruled_out) most += most_halvings(ends[k], ends[k + 1], range.tolerance);
@@ -168,16 +170,17 @@ long most_looks(const Looks& looks, const SearchRange& range) {
   return most;
 }
 
-Looks search_window(const SearchRange& range, const std::function<Failing(double)>& judge) {
+FailingByScale search_window(const SearchRange& range,
+                             const std::function<Failing(double)>& judge) {
   return Search(range, judge).run();
 }
 
-std::vector<Window> windows_where(const Looks& looks,
+std::vector<Window> windows_where(const FailingByScale& by_scale,
                                   const std::function<bool(const Failing&)>& passes) {
   std::vector<Window> windows;
   std::optional<double> failed; // the scale before, if it does not pass
   bool open = false;
-  for (const auto& [scale, failing] : looks) {
+  for (const auto& [scale, failing] : by_scale) {
     if (!passes(failing)) {
       if (open) windows.back().above = scale;
       open = false;
@@ -191,12 +194,13 @@ std::vector<Window> windows_where(const Looks& looks,
   return windows;
 }
 
-std::vector<Window> windows_of(const Looks& looks) {
-  return windows_where(looks, [](const Failing& failing) { return failing.empty(); });
+std::vector<Window> windows_of(const FailingByScale& by_scale) {
+  return windows_where(by_scale, [](const Failing& failing) { return failing.empty(); });
 }
 
-std::vector<Window> windows_of(const Looks& looks, std::size_t condition) {
-  return windows_where(looks, [&](const Failing& failing) { return !failing.contains(condition); });
+std::vector<Window> windows_of(const FailingByScale& by_scale, std::size_t condition) {
+  return windows_where(by_scale,
+                       [&](const Failing& failing) { return !failing.contains(condition); });
 }
 
 const Window* widest(const std::vector<Window>& windows) {
@@ -210,14 +214,14 @@ double rounded_scale(double scale, double tolerance) {
   return parse_csv_number(fmt::format("{:.{}g}", scale, digits)).value_or(scale);
 }
 
-std::vector<std::size_t> closed_by(const Looks& looks) {
-  if (!windows_of(looks).empty()) return {};
-  const Failing all = ever_failing(looks);
+std::vector<std::size_t> closed_by(const FailingByScale& by_scale) {
+  if (!windows_of(by_scale).empty()) return {};
+  const Failing all = ever_failing(by_scale);
   for (const std::size_t one : all)
-    if (closes(looks, {one})) return {one};
+    if (closes(by_scale, {one})) return {one};
   for (const std::size_t one : all)
     for (const std::size_t other : all)
-      if (closes(looks, {one, other})) return {one, other};
+      if (closes(by_scale, {one, other})) return {one, other};
   return {all.begin(), all.end()};
 }
 

@@ -31,7 +31,7 @@ namespace wingspread {
 /// The indices of the conditions that fail at a scale.
 using Failing = std::set<std::size_t>;
 /// The failing conditions by scale.
-using Looks = std::map<double, Failing>;
+using FailingByScale = std::map<double, Failing>;
 
 struct SearchRange {
   double lower, upper; ///< 0 < lower < upper
@@ -51,23 +51,23 @@ struct Window {
 /// Evaluates the grid, scale 1 (the present springs, for comparison) and the scales that (1) and (2) require. Scales
 /// are rounded to few digits, so that a report prints them exactly.
 /// @param judge the failing conditions at a scale; pure; its exceptions end the search
-[[nodiscard]] Looks search_window(const SearchRange& range,
-                                  const std::function<Failing(double)>& judge);
+[[nodiscard]] FailingByScale search_window(const SearchRange& range,
+                                           const std::function<Failing(double)>& judge);
 
 /// The scales that are always evaluated, in their order: the grid and 1.
 [[nodiscard]] std::vector<double> first_scales(const SearchRange& range);
 
 /// An upper bound of the number of scales that the search and the recommendation evaluate. Every cell that is not ruled
 /// out counts as halved down to the tolerance. The bound decreases as scales are evaluated.
-/// @param looks the scales so far, first_scales() first
-[[nodiscard]] long most_looks(const Looks& looks, const SearchRange& range);
+/// @param by_scale the scales so far, first_scales() first
+[[nodiscard]] long most_scales(const FailingByScale& by_scale, const SearchRange& range);
 
 /// The stretches of scales at which `passes` holds, ascending.
-[[nodiscard]] std::vector<Window> windows_where(const Looks& looks,
+[[nodiscard]] std::vector<Window> windows_where(const FailingByScale& by_scale,
                                                 const std::function<bool(const Failing&)>& passes);
 /// The windows of all conditions together, and of a single condition.
-[[nodiscard]] std::vector<Window> windows_of(const Looks& looks);
-[[nodiscard]] std::vector<Window> windows_of(const Looks& looks, std::size_t condition);
+[[nodiscard]] std::vector<Window> windows_of(const FailingByScale& by_scale);
+[[nodiscard]] std::vector<Window> windows_of(const FailingByScale& by_scale, std::size_t condition);
 
 /// The widest window by ratio, the lowest of equally wide ones; null if there is no window.
 [[nodiscard]] const Window* widest(const std::vector<Window>& windows);
@@ -77,6 +77,6 @@ struct Window {
 
 /// Conditions that together rule out every evaluated scale: one that never holds, else two that never hold at the same
 /// scale, else all that fail at any scale. Of several choices the lowest indices. Empty if there is a window.
-[[nodiscard]] std::vector<std::size_t> closed_by(const Looks& looks);
+[[nodiscard]] std::vector<std::size_t> closed_by(const FailingByScale& by_scale);
 
 } // namespace wingspread

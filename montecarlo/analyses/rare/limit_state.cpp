@@ -28,16 +28,9 @@ OutputColumn column_named(const Scene& scene, const std::string& name) {
 }
 
 Goal goal_for(const std::optional<OutputColumn>& column) {
-  Goal goal;
-  goal.audit = false;
-  goal.peak_moment = column && (column->quantity == OutputColumn::Quantity::peak_moment ||
-                                column->quantity == OutputColumn::Quantity::bending_moment);
-  goal.mode_frequencies = column && column->quantity == OutputColumn::Quantity::frequency;
-  goal.peak_force = column && column->quantity == OutputColumn::Quantity::peak_force;
-  goal.overtravel = column && column->quantity == OutputColumn::Quantity::overtravel;
-  goal.base_motion = column && (column->quantity == OutputColumn::Quantity::base_peak_angle ||
-                                column->quantity == OutputColumn::Quantity::base_peak_rate);
-  goal.to_rest = column && column->quantity == OutputColumn::Quantity::final_angle;
+  const auto family = column ? family_of(column->quantity) : std::nullopt;
+  Goal goal = goal_of(family ? Outputs{*family} : Outputs{});
+  goal.end_state = true;
   return goal;
 }
 

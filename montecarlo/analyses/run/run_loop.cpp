@@ -19,7 +19,8 @@ RunRange RowsInMemory::remaining() const {
   const RunRange runs = stored_.runs();
   const long done = std::ssize(results_.runs);
   if (is_complete(stored_, results_)) return {done, done};
-  return {done, stored_.campaign.until.empty() ? runs.last : next_checkpoint(done, runs.size())};
+  return {done,
+          stored_.campaign.until.empty() ? runs.last : next_interim_analysis(done, runs.size())};
 }
 
 void RowsInMemory::add(const Batch& batch) {

@@ -1,51 +1,54 @@
 #include "montecarlo/foundation/formats/output_name.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 
 namespace wingspread {
 
 namespace {
 
-struct Quantity {
-  std::string_view name;
-  const char* unit;
-};
-
-constexpr std::array per_hinge{
-    Quantity{"latch_time", "s"},    Quantity{"latch_rate", "rad/s"},
-    Quantity{"peak_moment", "N·m"}, Quantity{"peak_force", "N"},
-    Quantity{"overtravel", "rad"},  Quantity{"hold_moment", "N·m"},
-    Quantity{"captures", ""},       Quantity{"held", ""},
-    Quantity{"final_angle", "rad"}, Quantity{"peak_bending_moment", "N·m"}, // of a body
-    Quantity{"motor_energy", "J"},  Quantity{"frequency", "Hz"}};           // of a mode
-constexpr std::array of_base{Quantity{"base.peak_angle", "rad"},
-                             Quantity{"base.peak_rate", "rad/s"}};
 constexpr std::string_view rate_at = ".rate_at.";
-constexpr std::array<std::string_view, 12> never_negative{
-    "latch_time",  "deployment_time", "peak_moment", "peak_force", "peak_bending_moment",
-    "hold_moment", "overtravel",      "captures",    "held",       "frequency",
-    "peak_angle",  "peak_rate"};
+
+static_assert(std::ranges::all_of(output_kinds, [](const OutputKind& kind) {
+  return &kind_of(kind.quantity) == &kind;
+}));
 
 } // namespace
 
 OutputName parse_output_name(std::string_view name) {
-  if (name == "deployment_time") return {"", std::string(name), "", "s"};
-  for (const Quantity& quantity : of_base)
-    if (name == quantity.name)
-      return {"base", std::string(name.substr(name.find('.') + 1)), "", quantity.unit};
   const std::size_t dot = name.rfind('.');
-  for (const Quantity& quantity : per_hinge)
-    if (dot != std::string_view::npos && name.substr(dot + 1) == quantity.name)
-      return {std::string(name.substr(0, dot)), std::string(quantity.name), "", quantity.unit};
-  if (const std::size_t at = name.find(rate_at); at != std::string_view::npos)
-    return {std::string(name.substr(0, at)), "rate_at",
-            std::string(name.substr(at + rate_at.size())), "rad/s"};
+  const bool has_owner = dot != std::string_view::npos;
+  const std::string_view owner = has_owner ? name.substr(0, dot) : "";
+  const std::string_view quantity = has_owner ? name.substr(dot + 1) : name;
+  for (const OutputKind& kind : output_kinds)
+    if (quantity == kind.name && kind.owner != OutputOwner::two_hinges &&
+        has_owner != (kind.owner == OutputOwner::wing) &&
+        (kind.owner != OutputOwner::base || owner == "base"))
+      return {std::string(owner), std::string(quantity), "", kind.unit, &kind};
+  if (const std::size_t at = name.find(rate_at); at != std::string_view::npos) {
+    const OutputKind& kind = kind_of(OutputQuantity::rate_at);
+    return {std::string(name.substr(0, at)), std::string(kind.name),
+            std::string(name.substr(at + rate_at.size())), kind.unit, &kind};
+  }
   return {"", std::string(name), "", ""};
 }
 
-bool is_never_negative(const OutputName& name) {
-  return std::ranges::find(never_negative, name.quantity) != never_negative.end();
+std::string output_name(OutputQuantity quantity, const std::string& owner,
+                        const std::string& other) {
+  const OutputKind& kind = kind_of(quantity);
+  if (kind.owner == OutputOwner::wing) return std::string(kind.name);
+  return fmt::format("{}.{}{}{}", kind.owner == OutputOwner::base ? "base" : owner, kind.name,
+                     other.empty() ? "" : ".", other);
+}
+
+std::string meaning_of(const OutputKind& kind, std::string_view owner, std::string_view other) {
+  return fmt::format(fmt::runtime(kind.meaning), owner, other);
+}
+
+PeakKind peak_kind(std::string_view output) {
+  const OutputKind* kind = parse_output_name(output).kind;
+  return kind ? kind->peak : PeakKind::none;
 }
 
 } // namespace wingspread

@@ -40,15 +40,16 @@ bool is_terminal(std::FILE* stream) { return isatty(fileno(stream)) == 1; }
 
 Tally tally_of(const StudyProgress& progress, long before) {
   Tally tally{.done = progress.runs, .total = progress.most_runs, .before = before};
-  tally.look = progress.look;
-  tally.looks = progress.most_looks;
+  tally.analysis = progress.analysis;
+  tally.analyses = progress.most_analyses;
   tally.at_most = true;
   return tally;
 }
 
 std::string progress_line(const Tally& tally, double seconds) {
   std::string text = bar(share_of(tally));
-  if (tally.looks > 0) text += fmt::format(" analysis {} of at most {} ·", tally.look, tally.looks);
+  if (tally.analyses > 0)
+    text += fmt::format(" analysis {} of at most {} ·", tally.analysis, tally.analyses);
   text += tally.at_most ? fmt::format(" {} of at most {} runs", tally.done, tally.total)
                         : fmt::format(" {}/{} runs", tally.done, tally.total);
   const double rate = static_cast<double>(tally.done - tally.before) / seconds;

@@ -8,7 +8,7 @@
 ///
 ///   ρ_k = P(F_1 > a_1, …, F_{k−1} > a_{k−1}, F_k ≤ a_k)                                       (1)
 ///
-/// Planned analyses (checkpoints of `until`) share α equally (bonferroni.hpp). An extension is not planned: whoever
+/// Planned analyses (those of `until`) share α equally (bonferroni.hpp). An extension is not planned: whoever
 /// adds runs after "fail" has the chance of another pass. The first analysis that can pass at all has spent up to α by
 /// itself, because it was a fixed number of runs. Each later one spends at most half of what is left of α:
 ///
@@ -31,7 +31,7 @@ namespace wingspread {
 
 /// How often the draws are analysed. Either `planned` > 1 or `before` is not empty, not both.
 struct InterimAnalyses {
-  long planned = 1;           ///< checkpoints, at any of which the campaign may stop
+  long planned = 1;           ///< interim analyses, at any of which the campaign may stop
   std::vector<long> before{}; ///< numbers of runs of the analyses before extensions, ascending
 
   [[nodiscard]] long count() const { return planned + std::ssize(before); }

@@ -124,7 +124,7 @@ int make_margin_shard(const Campaign& campaign, const MarginOptions& options, co
   Progress progress(stderr);
   try {
     const long runs =
-        make_first_looks(campaign, shard, evaluator, [&](const StudyProgress& so_far) {
+        run_first_scales(campaign, shard, evaluator, [&](const StudyProgress& so_far) {
           progress.show(tally_of(so_far, folder.log().read()));
         });
     warn_if_damaged(folder.log(), options.out);

@@ -60,30 +60,9 @@ std::vector<OutputColumn> find_outputs(const std::vector<std::string>& wanted, c
 
 /// The output families that these columns need. Runs do not compute other families.
 Outputs families_of(const std::vector<OutputColumn>& columns) {
-  using Quantity = OutputColumn::Quantity;
   Outputs families;
   for (const OutputColumn& column : columns)
-    if (column.quantity == Quantity::peak_moment || column.quantity == Quantity::bending_moment)
-      families.insert(OutputFamily::peak_moment);
-    else if (column.quantity == Quantity::peak_force)
-      families.insert(OutputFamily::peak_force);
-    else if (column.quantity == Quantity::overtravel)
-      families.insert(OutputFamily::overtravel);
-    else if (column.quantity == Quantity::hold_moment)
-      families.insert(OutputFamily::hold_moment);
-    else if (column.quantity == Quantity::captures)
-      families.insert(OutputFamily::captures);
-    else if (column.quantity == Quantity::held)
-      families.insert(OutputFamily::held);
-    else if (column.quantity == Quantity::motor_energy)
-      families.insert(OutputFamily::motor_energy);
-    else if (column.quantity == Quantity::final_angle)
-      families.insert(OutputFamily::final_angle);
-    else if (column.quantity == Quantity::base_peak_angle ||
-             column.quantity == Quantity::base_peak_rate)
-      families.insert(OutputFamily::base_motion);
-    else if (column.quantity == Quantity::frequency)
-      families.insert(OutputFamily::frequency);
+    if (const auto family = family_of(column.quantity)) families.insert(*family);
   return families;
 }
 

@@ -15,7 +15,8 @@
 namespace wingspread {
 InterimAnalyses interim_analyses(const Campaign& campaign) {
   const auto& before = campaign.sampling.extended_from;
-  return {count_looks(campaign.until, campaign.sampling.runs), {before.begin(), before.end()}};
+  return {count_interim_analyses(campaign.until, campaign.sampling.runs),
+          {before.begin(), before.end()}};
 }
 
 std::string campaign_hash(const Json& resolved) {

@@ -45,7 +45,7 @@ struct Campaign {
   Json resolved;
 };
 
-/// The interim analyses, the final one included, which share the risk of all bounds and verdicts: the checkpoints of a
+/// The interim analyses, the final one included, which share the risk of all bounds and verdicts: those of a
 /// stopping rule, or the analyses before extensions.
 [[nodiscard]] InterimAnalyses interim_analyses(const Campaign& campaign);
 

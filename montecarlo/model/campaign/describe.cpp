@@ -154,8 +154,7 @@ std::string describe_integration(const Integration& integration) {
 
 std::string describe_outputs(const Outputs& outputs) {
   std::vector<std::string_view> names;
-  for (const OutputFamily family : outputs)
-    names.push_back(output_family_names[static_cast<std::size_t>(family)]);
+  for (const OutputFamily family : outputs) names.push_back(about(family).name);
   if (names.empty()) return "none";
   return fmt::format(
       "{}{}", fmt::join(names, ", "),

@@ -37,7 +37,7 @@ bool is_column_name(const std::string& name) {
 
 bool is_taken(const std::string& name) {
   return std::ranges::find(columns_of_runs, name) != columns_of_runs.end() ||
-         *parse_output_name(name).unit != '\0';
+         parse_output_name(name).kind != nullptr;
 }
 
 /// The paths of an `each`, which may be one string or a list.

@@ -1,6 +1,5 @@
 #include "montecarlo/model/campaign/outputs.hpp"
 
-#include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <fmt/format.h>
@@ -12,16 +11,18 @@
 namespace wingspread {
 namespace {
 
-using Quantity = OutputColumn::Quantity;
+using Quantity = OutputQuantity;
 
-bool can_miss(const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); }
+static_assert(std::ranges::all_of(output_families, [](const FamilyOfOutputs& each) {
+  return &about(each.family) == &each;
+}));
 
-void add_rates_at(const Scene& scene, int hinge, std::vector<OutputColumn>& columns) {
-  for (int other = 0; other < std::ssize(scene.hinges); ++other)
-    if (other != hinge && scene.hinges[other].latch)
-      columns.push_back({scene.hinges[hinge].name + ".rate_at." + scene.hinges[other].name,
-                         Quantity::rate_at, hinge, other});
-}
+bool is_turnable(const Hinge& hinge) { return !hinge.joint; }
+bool has_latch(const Hinge& hinge) { return hinge.latch.has_value(); }
+bool has_release(const Hinge& hinge) { return hinge.release && is_turnable(hinge); }
+bool has_motor(const Hinge& hinge) { return hinge.motor && is_turnable(hinge); }
+bool may_miss(const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); }
+bool is_any(const Hinge&) { return true; }
 
 /// How many hinges and joints of flexible bodies move.
 int freedoms(const Scene& scene) {
@@ -34,82 +35,113 @@ bool has_run(const Outcome& outcome) {
   return outcome.status != Status::invalid && outcome.status != Status::failed;
 }
 
-double captures_of(int hinge, const Outcome& outcome) {
-  const auto count = std::ranges::count(outcome.latches, hinge, &LatchEvent::hinge);
+bool has_not_failed(const Outcome& outcome) { return outcome.status != Status::failed; }
+
+double captures(const OutputColumn& of, const Outcome& outcome) {
+  const auto count = std::ranges::count(outcome.latches, of.hinge, &LatchEvent::hinge);
   return has_run(outcome) ? static_cast<double>(count) : undefined;
 }
 
-double held_of(int hinge, const Outcome& outcome) {
+double held(const OutputColumn& of, const Outcome& outcome) {
   if (!has_run(outcome)) return undefined;
-  return holding_latch(outcome, hinge) != nullptr ? 1 : 0;
+  return holding_latch(outcome, of.hinge) != nullptr ? 1 : 0;
 }
 
-double final_angle_of(int hinge, const Outcome& outcome) {
-  return has_run(outcome) && !outcome.final_angle.empty() ? outcome.final_angle[hinge] : undefined;
+double latch_time(const OutputColumn& of, const Outcome& outcome) {
+  const LatchEvent* latch = holding_latch(outcome, of.hinge);
+  return latch ? latch->time : undefined;
 }
 
-double motor_energy_of(int hinge, const Outcome& outcome) {
-  return has_run(outcome) && !outcome.motor_energy.empty() ? outcome.motor_energy[hinge]
-                                                           : undefined;
+double latch_rate(const OutputColumn& of, const Outcome& outcome) {
+  const LatchEvent* latch = holding_latch(outcome, of.hinge);
+  return latch ? latch->rates[of.hinge] : undefined;
 }
 
-double peak_of(int hinge, const std::vector<Peak>& peaks, Status status) {
-  return peaks.empty() || status == Status::failed ? undefined : peaks[hinge].value;
+double rate_at(const OutputColumn& of, const Outcome& outcome) {
+  const LatchEvent* latch = holding_latch(outcome, of.other);
+  return latch ? latch->rates[of.hinge] : undefined;
 }
 
-double overtravel_of(int hinge, const Outcome& outcome) {
-  const bool known = !outcome.overtravel.empty() && outcome.status != Status::failed;
-  return known ? outcome.overtravel[hinge] : undefined;
+template <std::vector<Peak> Outcome::*peaks>
+double peak(const OutputColumn& of, const Outcome& outcome) {
+  const bool known = !(outcome.*peaks).empty() && has_not_failed(outcome);
+  return known ? (outcome.*peaks)[of.hinge].value : undefined;
 }
 
-double of_base(const Outcome& outcome, double BasePeaks::*quantity) {
-  const bool known = outcome.base_peaks && outcome.status != Status::failed;
+template <std::vector<double> Outcome::*numbers>
+double number_at_end(const OutputColumn& of, const Outcome& outcome) {
+  const bool known = !(outcome.*numbers).empty() && has_run(outcome);
+  return known ? (outcome.*numbers)[of.hinge] : undefined;
+}
+
+template <double BasePeaks::*quantity>
+double base_peak(const OutputColumn&, const Outcome& outcome) {
+  const bool known = outcome.base_peaks && has_not_failed(outcome);
   return known ? (*outcome.base_peaks).*quantity : undefined;
 }
 
-double number_of(const OutputColumn& column, const Outcome& outcome) {
-  const auto at_latch = [&](int hinge, auto value) {
-    const LatchEvent* latch = holding_latch(outcome, hinge);
-    return latch ? value(*latch) : undefined;
-  };
-  const auto rate = [&](const LatchEvent& latch) { return latch.rates[column.hinge]; };
-  switch (column.quantity) {
-  case Quantity::latch_time:
-    return at_latch(column.hinge, [](const LatchEvent& latch) { return latch.time; });
-  case Quantity::latch_rate:
-    return at_latch(column.hinge, rate);
-  case Quantity::rate_at:
-    return at_latch(column.other, rate);
-  case Quantity::peak_moment:
-    return peak_of(column.hinge, outcome.peak_moment, outcome.status);
-  case Quantity::peak_force:
-    return peak_of(column.hinge, outcome.peak_force, outcome.status);
-  case Quantity::overtravel:
-    return overtravel_of(column.hinge, outcome);
-  case Quantity::base_peak_angle:
-    return of_base(outcome, &BasePeaks::angle);
-  case Quantity::base_peak_rate:
-    return of_base(outcome, &BasePeaks::rate);
-  case Quantity::bending_moment:
-    return peak_of(column.hinge, outcome.bending_moment, outcome.status);
-  case Quantity::frequency:
-    return column.hinge < std::ssize(outcome.mode_frequencies)
-               ? outcome.mode_frequencies[column.hinge]
-               : undefined;
-  case Quantity::deployment_time:
-    return outcome.status == Status::deployed ? outcome.latches.back().time : undefined;
-  case Quantity::hold_moment:
-    return peak_of(column.hinge, outcome.hold_moment, outcome.status);
-  case Quantity::captures:
-    return captures_of(column.hinge, outcome);
-  case Quantity::held:
-    return held_of(column.hinge, outcome);
-  case Quantity::final_angle:
-    return final_angle_of(column.hinge, outcome);
-  case Quantity::motor_energy:
-    return motor_energy_of(column.hinge, outcome);
-  }
-  return undefined;
+double frequency(const OutputColumn& of, const Outcome& outcome) {
+  const bool known = of.hinge < std::ssize(outcome.mode_frequencies);
+  return known ? outcome.mode_frequencies[of.hinge] : undefined;
+}
+
+double deployment_time(const OutputColumn&, const Outcome& outcome) {
+  return outcome.status == Status::deployed ? outcome.latches.back().time : undefined;
+}
+
+/// Where a quantity comes from.
+struct Source {
+  Quantity quantity;
+  std::optional<OutputFamily> family; ///< none: always there
+  bool (*has)(const Hinge&);          ///< whether a hinge has it; null: not of one hinge
+  double (*value)(const OutputColumn&, const Outcome&);
+};
+
+/// In the order of OutputQuantity, which is that of a hinge's columns.
+constexpr std::array sources{
+    Source{Quantity::latch_time, OutputFamily::latch_time, has_latch, latch_time},
+    Source{Quantity::latch_rate, OutputFamily::latch_rate, has_latch, latch_rate},
+    Source{Quantity::peak_moment, OutputFamily::peak_moment, is_any, peak<&Outcome::peak_moment>},
+    Source{Quantity::peak_force, OutputFamily::peak_force, is_any, peak<&Outcome::peak_force>},
+    Source{Quantity::overtravel, OutputFamily::overtravel, is_turnable,
+           number_at_end<&Outcome::overtravel>},
+    Source{Quantity::hold_moment, OutputFamily::hold_moment, has_release,
+           peak<&Outcome::hold_moment>},
+    Source{Quantity::captures, OutputFamily::captures, may_miss, captures},
+    Source{Quantity::held, OutputFamily::held, may_miss, held},
+    Source{Quantity::motor_energy, OutputFamily::motor_energy, has_motor,
+           number_at_end<&Outcome::motor_energy>},
+    Source{Quantity::final_angle, OutputFamily::final_angle, is_turnable,
+           number_at_end<&Outcome::final_angle>},
+    Source{Quantity::rate_at, OutputFamily::rate_at, nullptr, rate_at},
+    Source{Quantity::peak_bending_moment, OutputFamily::peak_moment, nullptr,
+           peak<&Outcome::bending_moment>},
+    Source{Quantity::base_peak_angle, OutputFamily::base_motion, nullptr,
+           base_peak<&BasePeaks::angle>},
+    Source{Quantity::base_peak_rate, OutputFamily::base_motion, nullptr,
+           base_peak<&BasePeaks::rate>},
+    Source{Quantity::frequency, OutputFamily::frequency, nullptr, frequency},
+    Source{Quantity::deployment_time, std::nullopt, nullptr, deployment_time}};
+static_assert(sources.size() == output_kinds.size());
+static_assert(std::ranges::all_of(sources, [](const Source& source) {
+  return &sources[static_cast<std::size_t>(source.quantity)] == &source;
+}));
+
+const Source& source_of(Quantity quantity) { return sources[static_cast<std::size_t>(quantity)]; }
+
+bool is_default(const FamilyOfOutputs& family, const Scene* scene) {
+  if (family.by_default != ByDefault::with_its_feature) return family.by_default == ByDefault::yes;
+  return scene && std::ranges::any_of(sources, [&](const Source& source) {
+           return source.family == family.family && source.has &&
+                  std::ranges::any_of(scene->hinges, source.has);
+         });
+}
+
+Outputs default_outputs(const Scene* scene) {
+  Outputs outputs;
+  for (const FamilyOfOutputs& each : output_families)
+    if (is_default(each, scene)) outputs.insert(each.family);
+  return outputs;
 }
 
 } // namespace
@@ -120,33 +152,21 @@ std::optional<Status> status_named(std::string_view name) {
   return found == statuses.end() ? std::nullopt : std::optional(*found);
 }
 
-Outputs default_outputs() {
-  return {OutputFamily::latch_time, OutputFamily::latch_rate, OutputFamily::peak_moment,
-          OutputFamily::peak_force, OutputFamily::overtravel};
+std::optional<OutputFamily> family_of(OutputQuantity quantity) {
+  return source_of(quantity).family;
 }
 
-Outputs default_outputs(const Scene& scene) {
-  Outputs outputs = default_outputs();
-  if (std::ranges::any_of(scene.hinges, [](const Hinge& h) { return h.release.has_value(); }))
-    outputs.insert(OutputFamily::hold_moment);
-  if (std::ranges::any_of(scene.hinges, [](const Hinge& h) { return h.motor.has_value(); }))
-    outputs.insert(OutputFamily::motor_energy);
-  if (std::ranges::any_of(scene.hinges, can_miss))
-    outputs.insert({OutputFamily::captures, OutputFamily::held});
-  return outputs;
+std::optional<OutputFamily> family_of(std::string_view output) {
+  const OutputKind* kind = parse_output_name(output).kind;
+  return kind ? family_of(kind->quantity) : std::nullopt;
 }
+
+Outputs default_outputs() { return default_outputs(nullptr); }
+
+Outputs default_outputs(const Scene& scene) { return default_outputs(&scene); }
 
 bool has_peaks(const Outputs& outputs) {
   return outputs.contains(OutputFamily::peak_moment) || outputs.contains(OutputFamily::peak_force);
-}
-
-bool is_peak(std::string_view output) { return peak_kind(output) != PeakKind::none; }
-
-PeakKind peak_kind(std::string_view output) {
-  const std::string quantity = parse_output_name(output).quantity;
-  if (quantity == "peak_force") return PeakKind::force;
-  const bool moment = quantity == "peak_moment" || quantity == "peak_bending_moment";
-  return moment ? PeakKind::moment : PeakKind::none;
 }
 
 void match_peaks_final(Outputs& outputs) {
@@ -157,11 +177,9 @@ void match_peaks_final(Outputs& outputs) {
 }
 
 Outputs all_outputs() {
-  Outputs outputs = default_outputs();
-  outputs.insert(OutputFamily::rate_at);
-  outputs.insert({OutputFamily::base_motion, OutputFamily::frequency, OutputFamily::hold_moment,
-                  OutputFamily::captures, OutputFamily::held, OutputFamily::final_angle,
-                  OutputFamily::motor_energy});
+  Outputs outputs;
+  for (const FamilyOfOutputs& each : output_families) outputs.insert(each.family);
+  outputs.erase(OutputFamily::peaks_final);
   return outputs;
 }
 
@@ -177,47 +195,36 @@ void read_outputs(const JsonCursor& at, Outputs& outputs) {
 
 Json write_outputs(const Outputs& outputs) {
   Json json = Json::array();
-  for (const OutputFamily family : outputs)
-    json.push_back(output_family_names[static_cast<std::size_t>(family)]);
+  for (const OutputFamily family : outputs) json.push_back(about(family).name);
   return json;
 }
 
 std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outputs) {
   std::vector<OutputColumn> columns;
+  const auto add = [&](Quantity quantity, const std::string& owner, int index, int other = -1) {
+    const std::string second = other < 0 ? "" : scene.hinges[other].name;
+    columns.push_back({output_name(quantity, owner, second), quantity, index, other});
+  };
   for (int i = 0; i < std::ssize(scene.hinges); ++i) {
     const Hinge& hinge = scene.hinges[i];
-    const auto add = [&](OutputFamily family, const char* name, Quantity quantity) {
-      if (outputs.contains(family)) columns.push_back({hinge.name + '.' + name, quantity, i, -1});
-    };
-    if (hinge.latch) {
-      add(OutputFamily::latch_time, "latch_time", Quantity::latch_time);
-      add(OutputFamily::latch_rate, "latch_rate", Quantity::latch_rate);
-    }
-    add(OutputFamily::peak_moment, "peak_moment", Quantity::peak_moment);
-    add(OutputFamily::peak_force, "peak_force", Quantity::peak_force);
-    if (hinge.joint) continue;
-    add(OutputFamily::overtravel, "overtravel", Quantity::overtravel);
-    if (hinge.release) add(OutputFamily::hold_moment, "hold_moment", Quantity::hold_moment);
-    if (can_miss(hinge)) {
-      add(OutputFamily::captures, "captures", Quantity::captures);
-      add(OutputFamily::held, "held", Quantity::held);
-    }
-    if (hinge.motor) add(OutputFamily::motor_energy, "motor_energy", Quantity::motor_energy);
-    add(OutputFamily::final_angle, "final_angle", Quantity::final_angle);
-    if (outputs.contains(OutputFamily::rate_at)) add_rates_at(scene, i, columns);
+    for (const Source& source : sources)
+      if (source.has && source.has(hinge) && outputs.contains(*source.family))
+        add(source.quantity, hinge.name, i);
+    for (int other = 0; outputs.contains(OutputFamily::rate_at) && other < std::ssize(scene.hinges);
+         ++other)
+      if (other != i && scene.hinges[other].latch && is_turnable(hinge))
+        add(Quantity::rate_at, hinge.name, i, other);
   }
   for (int b = 0; b < std::ssize(scene.bodies); ++b)
     if (scene.bodies[b].flexible && outputs.contains(OutputFamily::peak_moment))
-      columns.push_back(
-          {scene.bodies[b].name + ".peak_bending_moment", Quantity::bending_moment, b, -1});
-  if (outputs.contains(OutputFamily::base_motion) && scene.base.motion == BaseMotion::free) {
-    columns.push_back({"base.peak_angle", Quantity::base_peak_angle, -1, -1});
-    columns.push_back({"base.peak_rate", Quantity::base_peak_rate, -1, -1});
-  }
+      add(Quantity::peak_bending_moment, scene.bodies[b].name, b);
+  if (outputs.contains(OutputFamily::base_motion) && scene.base.motion == BaseMotion::free)
+    for (const Quantity quantity : {Quantity::base_peak_angle, Quantity::base_peak_rate})
+      add(quantity, "base", -1);
   const int modes = std::min(freedoms(scene), most_mode_outputs);
   for (int k = 0; k < modes && outputs.contains(OutputFamily::frequency); ++k)
-    columns.push_back({fmt::format("mode_{}.frequency", k + 1), Quantity::frequency, k, -1});
-  columns.push_back({"deployment_time", Quantity::deployment_time, -1, -1});
+    add(Quantity::frequency, fmt::format("mode_{}", k + 1), k);
+  add(Quantity::deployment_time, "", -1);
   return columns;
 }
 
@@ -238,7 +245,7 @@ Goal goal_of(const Outputs& outputs) {
 double finite_or_none(double value) { return std::isfinite(value) ? value : undefined; }
 
 double output_of(const OutputColumn& column, const Outcome& outcome) {
-  return finite_or_none(number_of(column, outcome));
+  return finite_or_none(source_of(column.quantity).value(column, outcome));
 }
 
 std::string latch_order(const Scene& scene, const Outcome& outcome) {

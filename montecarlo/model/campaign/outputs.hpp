@@ -4,6 +4,7 @@
 
 #include "core/deployment.hpp"
 #include "montecarlo/foundation/formats/json_reader.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
 
 #include <array>
 #include <optional>
@@ -21,7 +22,8 @@ inline constexpr std::array statuses{Status::deployed, Status::stalled, Status::
 /// The status with this name; nothing if there is none.
 [[nodiscard]] std::optional<Status> status_named(std::string_view name);
 
-/// `peaks_final` is no number but a column of its own: whether all peaks are proven final (results.hpp).
+/// A family of outputs, which a campaign asks for by name. `peaks_final` is no number but a column of its own: whether
+/// all peaks are proven final (results.hpp).
 enum class OutputFamily {
   latch_time,
   latch_rate,
@@ -30,67 +32,90 @@ enum class OutputFamily {
   rate_at,
   overtravel,
   peaks_final,
-  base_motion, ///< of a free base; not a default: runs then last longer
-  frequency,   ///< of the deployed wing's modes; not a default, because each costs a decomposition
-  hold_moment, ///< of hinges that are held
-  captures,    ///< of latches that may miss or let go
-  held,        ///< of the same latches
-  final_angle, ///< not a default: runs then go to t_end
-  motor_energy ///< of hinges with motors
+  base_motion,
+  frequency,
+  hold_moment,
+  captures,
+  held,
+  final_angle,
+  motor_energy
 };
-inline constexpr std::array<std::string_view, 14> output_family_names{
-    "latch_time", "latch_rate",  "peak_moment", "peak_force",  "rate_at",
-    "overtravel", "peaks_final", "base_motion", "frequency",   "hold_moment",
-    "captures",   "held",        "final_angle", "motor_energy"};
+
+/// Whether a campaign that names no families has one.
+enum class ByDefault {
+  yes,
+  with_its_feature, ///< if a hinge of the scene has it
+  no ///< it lets runs last longer, costs a decomposition, or is quadratic in the number of hinges
+};
+
+struct FamilyOfOutputs {
+  OutputFamily family;
+  std::string_view name;
+  ByDefault by_default;
+  std::string_view wings; ///< which wings have such outputs; "" of every wing with a latch
+};
+
+/// All families, in the order of OutputFamily.
+inline constexpr std::array output_families{
+    FamilyOfOutputs{OutputFamily::latch_time, "latch_time", ByDefault::yes, ""},
+    FamilyOfOutputs{OutputFamily::latch_rate, "latch_rate", ByDefault::yes, ""},
+    FamilyOfOutputs{OutputFamily::peak_moment, "peak_moment", ByDefault::yes, ""},
+    FamilyOfOutputs{OutputFamily::peak_force, "peak_force", ByDefault::yes, ""},
+    FamilyOfOutputs{OutputFamily::rate_at, "rate_at", ByDefault::no,
+                    "a wing of two hinges or more, with latches"},
+    FamilyOfOutputs{OutputFamily::overtravel, "overtravel", ByDefault::yes, ""},
+    FamilyOfOutputs{OutputFamily::peaks_final, "peaks_final", ByDefault::no, ""},
+    FamilyOfOutputs{OutputFamily::base_motion, "base_motion", ByDefault::no,
+                    "a wing on a free base"},
+    FamilyOfOutputs{OutputFamily::frequency, "frequency", ByDefault::no, ""},
+    FamilyOfOutputs{OutputFamily::hold_moment, "hold_moment", ByDefault::with_its_feature,
+                    "a wing with a hinge that has a \"release\""},
+    FamilyOfOutputs{OutputFamily::captures, "captures", ByDefault::with_its_feature,
+                    "a wing with a latch that has a \"capture_rate\" or a \"holding_moment\""},
+    FamilyOfOutputs{OutputFamily::held, "held", ByDefault::with_its_feature,
+                    "a wing with a latch that has a \"capture_rate\" or a \"holding_moment\""},
+    FamilyOfOutputs{OutputFamily::final_angle, "final_angle", ByDefault::no, ""},
+    FamilyOfOutputs{OutputFamily::motor_energy, "motor_energy", ByDefault::with_its_feature,
+                    "a wing with a hinge that has a \"motor\""}};
+inline constexpr auto output_family_names = [] {
+  std::array<std::string_view, output_families.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = output_families[i].name;
+  return names;
+}();
 inline constexpr int most_mode_outputs = 10; ///< mode_1.frequency … mode_10.frequency
 using Outputs = std::set<OutputFamily>;
 
-/// All families except `rate_at` (quadratic in the number of hinges), `base_motion`, `frequency` and `final_angle`, and
-/// those of features that a scene may lack.
+[[nodiscard]] constexpr const FamilyOfOutputs& about(OutputFamily family) {
+  return output_families[static_cast<std::size_t>(family)];
+}
+
+/// The family that has the quantity; nothing of deployment_time, which is always there.
+[[nodiscard]] std::optional<OutputFamily> family_of(OutputQuantity quantity);
+/// The same by the output's name; nothing if there is no such output.
+[[nodiscard]] std::optional<OutputFamily> family_of(std::string_view output);
+
+/// The families that are there by default in any scene.
 [[nodiscard]] Outputs default_outputs();
-/// default_outputs, and the families of the scene's holds, motors and latches that may miss.
+/// The same, and those of the scene's holds, motors and latches that may miss.
 [[nodiscard]] Outputs default_outputs(const Scene& scene);
 
 /// Whether the outputs include peaks, which t_end may cut.
 [[nodiscard]] bool has_peaks(const Outputs& outputs);
 
-/// Whether an output is a peak. t_end may cut a peak; its largest value is then unknown.
-[[nodiscard]] bool is_peak(std::string_view output);
-/// The family of an output that is a peak: of moments, those in flexible bodies included, or of forces.
-enum class PeakKind { none, moment, force };
-[[nodiscard]] PeakKind peak_kind(std::string_view output);
-
 /// Adds `peaks_final` if the outputs include peaks, else removes it.
 void match_peaks_final(Outputs& outputs);
 
-/// All families.
+/// All families but peaks_final.
 [[nodiscard]] Outputs all_outputs();
 
 /// Replaces the outputs by the array of families; notes problems.
 void read_outputs(const JsonCursor& at, Outputs& outputs);
 [[nodiscard]] Json write_outputs(const Outputs& outputs);
 
-/// A column of outputs: a quantity of a hinge, of the base or of the wing.
+/// A column of outputs: a quantity of a hinge, of a body, of a mode, of the base or of the wing.
 struct OutputColumn {
   std::string name; ///< "root.latch_time"
-  enum class Quantity {
-    latch_time,
-    latch_rate,
-    peak_moment,
-    peak_force,
-    rate_at,
-    overtravel,
-    base_peak_angle,
-    base_peak_rate,
-    bending_moment,
-    frequency,
-    deployment_time,
-    hold_moment,
-    captures,
-    held,
-    final_angle,
-    motor_energy
-  } quantity;
+  OutputQuantity quantity;
   /// Index into Scene::hinges; of a bending moment into Scene::bodies; of a frequency the mode, from 0; else −1.
   int hinge = -1;
   int other = -1; ///< of `rate_at`: the hinge that latches

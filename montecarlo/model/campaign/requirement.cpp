@@ -5,6 +5,7 @@
 #include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
+#include "montecarlo/model/campaign/outputs.hpp"
 
 #include <fmt/format.h>
 
@@ -32,10 +33,10 @@ void refuse_unknown_output(const JsonCursor& at, const std::string& output,
                            const std::vector<std::string>& outputs,
                            std::span<const std::string> all_outputs) {
   if (output == deployed_output || contains(outputs, output)) return;
-  if (contains(all_outputs, output))
+  if (const auto family = family_of(output); family && contains(all_outputs, output))
     return void(at.refuse(fmt::format("an output that the campaign asks for (\"{}\" is not in its "
                                       "\"outputs\")",
-                                      parse_output_name(output).quantity)));
+                                      about(*family).name)));
   std::vector<std::string> known = outputs;
   known.emplace_back(deployed_output);
   at.refuse("an output of the campaign, or \"deployed\"" + did_you_mean(output, known));
@@ -171,10 +172,11 @@ double confidence_alone(std::span<const Requirement> all, const Requirement& req
 }
 
 MissingRank missing_rank(std::span<const Requirement> requirements, const std::string& output) {
+  const OutputKind* kind = parse_output_name(output).kind;
   bool above = false, below = false;
   for (const Requirement& each : requirements) {
     if (each.output != output) continue;
-    const bool both = each.absolute && !is_never_negative(parse_output_name(output));
+    const bool both = each.absolute && (!kind || kind->has_sign);
     above = above || each.max || both;
     below = below || each.min || both;
   }

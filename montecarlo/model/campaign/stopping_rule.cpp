@@ -14,7 +14,7 @@
 namespace wingspread {
 namespace {
 
-constexpr long first_checkpoint = 1000;
+constexpr long first_interim_analysis = 1000;
 constexpr std::string_view decision_prefix = "requirement ";
 constexpr const char* quantile_expected = "a number, > 0 and < 1: the quantile that is meant";
 constexpr const char* share_expected =
@@ -186,22 +186,21 @@ std::string to_string(const StoppingGoal& goal) {
   return std::visit([](const auto& each) { return text_of(each); }, goal);
 }
 
-long next_checkpoint(long done, long runs) {
-  long checkpoint = first_checkpoint;
-  while (checkpoint <= done && checkpoint < runs)
-    checkpoint = checkpoint > runs / 2 ? runs : 2 * checkpoint;
-  return std::min(checkpoint, runs);
+long next_interim_analysis(long done, long runs) {
+  long next = first_interim_analysis;
+  while (next <= done && next < runs) next = next > runs / 2 ? runs : 2 * next;
+  return std::min(next, runs);
 }
 
-bool is_checkpoint(long done, long runs) {
-  return done > 0 && next_checkpoint(done - 1, runs) == done;
+bool is_interim_analysis(long done, long runs) {
+  return done > 0 && next_interim_analysis(done - 1, runs) == done;
 }
 
-long count_looks(const StoppingRule& rule, long runs) {
+long count_interim_analyses(const StoppingRule& rule, long runs) {
   if (rule.empty()) return 1;
-  long looks = 0;
-  for (long done = 0; done < runs; done = next_checkpoint(done, runs)) ++looks;
-  return looks;
+  long analyses = 0;
+  for (long done = 0; done < runs; done = next_interim_analysis(done, runs)) ++analyses;
+  return analyses;
 }
 
 } // namespace wingspread

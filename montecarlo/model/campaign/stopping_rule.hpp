@@ -1,10 +1,10 @@
 /// The campaign's key `until`: stop as soon as confidence intervals are narrow enough or requirements are decided.
 /// results/summary/stopping.hpp evaluates the goals.
 ///
-/// Goals are evaluated only at checkpoints, fixed numbers of runs, from the rows up to there: where a campaign stops
-/// does not depend on threads or interruptions. Each of the K interim analyses may err, so every bound and verdict uses
-/// α/K (at_each_of in bonferroni.hpp) and holds wherever the campaign stops. Adding runs to a failed campaign without
-/// this correction would inflate the risk of a false pass.
+/// Goals are evaluated only at interim analyses, after fixed numbers of runs, from the rows up to there: where a
+/// campaign stops does not depend on threads or interruptions. Each of the K analyses may err, so every bound and
+/// verdict uses α/K (at_each_of in bonferroni.hpp) and holds wherever the campaign stops. Adding runs to a failed
+/// campaign without this correction would inflate the risk of a false pass.
 #pragma once
 
 #include "montecarlo/foundation/formats/json_reader.hpp"
@@ -51,10 +51,10 @@ void read_stopping_rule(const JsonCursor& at, const std::vector<std::string>* ou
 [[nodiscard]] std::optional<Json> parse_stopping_goal(std::string_view text);
 [[nodiscard]] std::string to_string(const StoppingGoal& goal);
 
-/// The first checkpoint after `done` runs of a campaign of `runs`. Checkpoints: 1000, 2000, 4000, …, and `runs`.
-[[nodiscard]] long next_checkpoint(long done, long runs);
-/// The number of checkpoints, each an interim analysis; 1 without a rule.
-[[nodiscard]] long count_looks(const StoppingRule& rule, long runs);
-[[nodiscard]] bool is_checkpoint(long done, long runs);
+/// The number of runs at the first interim analysis after `done` of `runs`. They are at 1000, 2000, 4000, … and `runs`.
+[[nodiscard]] long next_interim_analysis(long done, long runs);
+/// The number of interim analyses, the last included; 1 without a rule.
+[[nodiscard]] long count_interim_analyses(const StoppingRule& rule, long runs);
+[[nodiscard]] bool is_interim_analysis(long done, long runs);
 
 } // namespace wingspread

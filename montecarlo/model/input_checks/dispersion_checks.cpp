@@ -268,25 +268,6 @@ bool looks_converted(double limit, double nominal, const std::string& unit) {
          is_about(1 / ratio, degrees_per_radian);
 }
 
-/// The wings that have outputs of a family; empty for families that every wing with a latch has.
-std::string_view wings_with(OutputFamily family) {
-  switch (family) {
-  case OutputFamily::rate_at:
-    return "a wing of two hinges or more, with latches";
-  case OutputFamily::base_motion:
-    return "a wing on a free base";
-  case OutputFamily::hold_moment:
-    return "a wing with a hinge that has a \"release\"";
-  case OutputFamily::captures:
-  case OutputFamily::held:
-    return "a wing with a latch that has a \"capture_rate\" or a \"holding_moment\"";
-  case OutputFamily::motor_energy:
-    return "a wing with a hinge that has a \"motor\"";
-  default:
-    return "";
-  }
-}
-
 void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& nominal,
                        InputWarnings& warnings) {
   const Requirement& own = campaign.requirements[k];
@@ -295,9 +276,10 @@ void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& n
   const double limit = own.max ? *own.max : own.min.value_or(0);
   const std::string unit = parse_output_name(own.output).unit;
   const std::optional<double> value = nominal_of(campaign, own.output, nominal);
-  const bool rises = is_peak(own.output) && campaign.scene.base.motion == BaseMotion::prescribed &&
+  const bool is_peak = peak_kind(own.output) != PeakKind::none;
+  const bool rises = is_peak && campaign.scene.base.motion == BaseMotion::prescribed &&
                      campaign.scene.base.angular_acceleration != 0;
-  if (limit < 0 && (own.absolute || is_peak(own.output)))
+  if (limit < 0 && (own.absolute || is_peak))
     warnings.add(at + key, fmt::format("a limit of {} {} on a magnitude", limit, unit),
                  "a limit ≥ 0");
   else if (value && !own.absolute && limit * *value < 0)
@@ -360,12 +342,10 @@ void check_correlations(const Campaign& campaign, InputWarnings& warnings) {
 void check_outputs(const Campaign& campaign, InputWarnings& warnings) {
   const std::size_t always = output_columns(campaign.scene, {}).size();
   for (const OutputFamily family : campaign.outputs)
-    if (const std::string_view wings = wings_with(family);
-        !wings.empty() && output_columns(campaign.scene, {family}).size() == always)
+    if (!about(family).wings.empty() && output_columns(campaign.scene, {family}).size() == always)
       warnings.add("/outputs",
-                   fmt::format("\"{}\", of which this wing has no column",
-                               output_family_names[static_cast<std::size_t>(family)]),
-                   std::string(wings));
+                   fmt::format("\"{}\", of which this wing has no column", about(family).name),
+                   std::string(about(family).wings));
 }
 
 void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings) {

@@ -130,7 +130,7 @@ void add_pictures(const PageSource& source, std::size_t index, const PageDetail&
   const auto& asked = source.stored.campaign.statistics.quantiles;
   const double p = asked.empty() ? 0.99 : std::ranges::max(asked);
   const SettledColumn settled =
-      settle_column(column, p, source.confidence, source.replication, detail.checkpoints,
+      settle_column(column, p, source.confidence, source.replication, detail.convergence_points,
                     source.summary.outputs[index].missing_end);
   json["histogram"] = histogram_json(source, index, settled.sorted, detail.bins);
   json["curve"] = curve_json(source, distribution_curve(settled.sorted, settled.replicated,

@@ -24,7 +24,7 @@ std::size_t scaled(std::size_t full, double share, std::size_t least) {
 double output_numbers(const PageDetail& detail) {
   constexpr double groups = 9;
   return groups * static_cast<double>(detail.bins) + 4 * static_cast<double>(detail.knots) +
-         7 * static_cast<double>(detail.checkpoints);
+         7 * static_cast<double>(detail.convergence_points);
 }
 
 /// @param outputs of all sets together
@@ -32,7 +32,7 @@ void share_outputs(double outputs, double sets, PageDetail& detail) {
   const double share = share_of(most_output_numbers, outputs * output_numbers(detail));
   detail.bins = scaled(detail.bins, share, 10);
   detail.knots = scaled(detail.knots, share, 17);
-  detail.checkpoints = scaled(detail.checkpoints, share, 6);
+  detail.convergence_points = scaled(detail.convergence_points, share, 6);
   const double room = most_output_numbers / sets / output_numbers(detail);
   detail.outputs = std::min(detail.outputs, static_cast<std::size_t>(room));
 }

@@ -14,12 +14,12 @@ struct PageExtent {
 
 /// The largest length of each list that grows with the scene or the number of sets (page/DATA.md).
 struct PageDetail {
-  std::size_t outputs = 400;        ///< of a set
-  std::size_t bins = 80;            ///< of a histogram
-  std::size_t knots = 129;          ///< of a distribution function
-  std::size_t checkpoints = 40;     ///< of a convergence
-  std::size_t motions = 12;         ///< of a set
-  std::size_t motion_samples = 400; ///< of one run
+  std::size_t outputs = 400;           ///< of a set
+  std::size_t bins = 80;               ///< of a histogram
+  std::size_t knots = 129;             ///< of a distribution function
+  std::size_t convergence_points = 40; ///< of a convergence
+  std::size_t motions = 12;            ///< of a set
+  std::size_t motion_samples = 400;    ///< of one run
   std::size_t envelope_times = 100;
   std::size_t envelope_runs = 200;
   std::size_t latch_times = 200; ///< of one hinge

@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/formats/output_name.hpp"
 
 #include <array>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -12,38 +13,17 @@ struct Entry {
   const char* text;
 };
 
-constexpr std::array outputs{
-    Entry{"HINGE.latch_time", "when the hinge reaches its latched angle for the first time; of a "
-                              "latch that may miss or let go, when it engaged for good"},
-    Entry{"HINGE.latch_rate",
-          "the hinge's relative rate at that instant; the sign is the sense of rotation, "
-          "counter-clockwise positive"},
-    Entry{"HINGE.rate_at.OTHER", "the hinge's relative rate when hinge OTHER latches, signed"},
-    Entry{"HINGE.peak_moment", "largest |moment| that the hinge transmits about its axis in the "
-                               "whole run: springs, harness, "
-                               "friction, dampers, motor, stops, loops and latch together"},
-    Entry{"HINGE.peak_force", "largest force across the hinge over the whole run"},
-    Entry{
-        "HINGE.overtravel",
-        "largest rotation of the hinge beyond its stowed angle, away from the latch; in a stalled "
-        "run up to its end"},
-    Entry{"HINGE.hold_moment", "largest |moment| that the hold of the hinge bore before it let go"},
-    Entry{"HINGE.captures", "how many times the latch engaged"},
-    Entry{"HINGE.held", "1 if the latch holds at the end of the run, else 0"},
-    Entry{"HINGE.final_angle", "the hinge's angle at t_end, from its latched angle"},
-    Entry{
-        "HINGE.motor_energy",
-        "work of the hinge's motor on the wing while the hinge's latch is not engaged; below 0 if "
-        "the motor brakes"},
-    Entry{
-        "BODY.peak_bending_moment",
-        "largest |moment| in a flexible body over the whole run: in its joints, and in the hinges "
-        "at its ends"},
-    Entry{"mode_K.frequency", "natural frequency of the draw's wing with every latch engaged, "
-                              "lowest first; without damping"},
-    Entry{"base.peak_angle", "largest change of a free base's angle from the start"},
-    Entry{"base.peak_rate", "largest change of a free base's rate from the start"},
-    Entry{"deployment_time", "latch time of the last hinge with a latch"}};
+/// An owner's name in the glossary, and in words.
+std::pair<const char*, const char*> example_of(OutputOwner owner) {
+  switch (owner) {
+  case OutputOwner::body:
+    return {"BODY", "a flexible body"};
+  case OutputOwner::mode:
+    return {"mode_K", "mode_K"};
+  default:
+    return {"HINGE", "the hinge"};
+  }
+}
 
 constexpr std::array terms{
     Entry{"deployed",
@@ -75,8 +55,12 @@ constexpr std::array terms{
 
 Json glossary_json() {
   Json json = Json::object();
-  for (const auto& [name, text] : outputs)
-    json[name] = {{"unit", parse_output_name(name).unit}, {"text", text}};
+  for (const OutputKind& kind : output_kinds) {
+    const auto [owner, word] = example_of(kind.owner);
+    const bool two = kind.owner == OutputOwner::two_hinges;
+    json[output_name(kind.quantity, owner, two ? "OTHER" : "")] = {
+        {"unit", kind.unit}, {"text", meaning_of(kind, word, "hinge OTHER")}};
+  }
   for (const auto& [name, text] : terms) json[name] = {{"unit", ""}, {"text", text}};
   return json;
 }

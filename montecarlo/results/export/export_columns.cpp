@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <set>
 #include <string_view>
 
@@ -14,28 +13,6 @@ namespace wingspread {
 namespace {
 
 using Kind = ExportColumn::Kind;
-
-struct Description {
-  std::string_view quantity;
-  const char* text; ///< {0}: the hinge, {1}: the other one
-};
-
-constexpr std::array descriptions{
-    Description{"latch_time", "when {0} reaches its latched angle for the first time; of a latch "
-                              "that may miss or let go, when it engaged for good"},
-    Description{"latch_rate", "the relative rate of {0} when it latches, signed"},
-    Description{"peak_moment", "the largest magnitude of the moment about {0}"},
-    Description{"peak_force", "the largest magnitude of the force across {0}"},
-    Description{"overtravel", "how far {0} turned beyond its stowed angle"},
-    Description{"hold_moment", "the largest magnitude of the moment that the hold of {0} bore"},
-    Description{"captures", "how many times the latch of {0} engaged"},
-    Description{"held", "1 if the latch of {0} holds at the end of the run, else 0"},
-    Description{"final_angle", "the angle of {0} at t_end, from its latched angle"},
-    Description{"motor_energy", "the work of the motor of {0} until its latch engaged"},
-    Description{"rate_at", "the relative rate of {0} when {1} latches, signed"},
-    Description{"peak_angle", "the largest change of the base's angle from the start"},
-    Description{"peak_rate", "the largest change of the base's rate from the start"},
-    Description{"deployment_time", "when the last of the hinges latched"}};
 
 std::string describe_draw(const Campaign& campaign, const Dispersion& dispersion) {
   constexpr std::size_t most_paths = 20;
@@ -55,10 +32,7 @@ std::string describe_draw(const Campaign& campaign, const Dispersion& dispersion
 
 std::string describe_output(const std::string& name) {
   const OutputName parsed = parse_output_name(name);
-  for (const Description& each : descriptions)
-    if (parsed.quantity == each.quantity)
-      return fmt::format(fmt::runtime(each.text), parsed.hinge, parsed.other);
-  return "";
+  return parsed.kind ? meaning_of(*parsed.kind, parsed.hinge, parsed.other) : "";
 }
 
 std::string draw_unit(const Dispersion& dispersion) {

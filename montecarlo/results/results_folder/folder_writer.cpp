@@ -25,7 +25,8 @@ std::optional<std::string> fixed_runs(const StoredCampaign& there, const Campaig
     return "a Latin hypercube's strata, and so all of its draws, depend on the number of runs; "
            "run it into a new folder";
   if (!ours.until.empty() || !there.campaign.until.empty())
-    return "the checkpoints of a campaign that may stop early depend on the number of runs; run it "
+    return "the interim analyses of a campaign that may stop early depend on the number of runs; "
+           "run it "
            "into a new folder";
   if (stamp.shard || there.stamp.shard)
     return "a shard's runs depend on the number of all; run it into a new folder";
@@ -90,10 +91,10 @@ void refuse_differences(const StoredCampaign& there, const Campaign& ours, std::
 }
 
 /// The interim analyses so far, if more runs are added to these rows.
-std::vector<std::int64_t> looks_before(const Sampling& there, std::int64_t rows) {
-  std::vector<std::int64_t> looks = there.extended_from;
-  if (rows > 0 && (looks.empty() || rows > looks.back())) looks.push_back(rows);
-  return looks;
+std::vector<std::int64_t> analyses_before(const Sampling& there, std::int64_t rows) {
+  std::vector<std::int64_t> analyses = there.extended_from;
+  if (rows > 0 && (analyses.empty() || rows > analyses.back())) analyses.push_back(rows);
+  return analyses;
 }
 
 /// Refuses a shard of a campaign with a stopping rule: an interim analysis needs all runs up to that point.
@@ -185,7 +186,7 @@ void FolderWriter::go_on(const RunPlan& plan) {
   refuse_other_rows(plan, read.results, stored_.folder / runs_file);
   rows_.continue_after(std::move(read), stored_.runs().first);
   if (before.runs < stored_.campaign.sampling.runs)
-    note_extension(stored_.campaign, looks_before(before, rows_.count()));
+    note_extension(stored_.campaign, analyses_before(before, rows_.count()));
   stored_.stamp = stamp_of(stored_.campaign, stored_.stamp.shard);
   if (before.runs < stored_.campaign.sampling.runs)
     write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
@@ -197,7 +198,7 @@ RunRange FolderWriter::remaining() const {
   const bool may_stop = !stored_.campaign.until.empty();
   if (done >= runs.size() || (may_stop && is_complete(stored_, results())))
     return {runs.first + done, runs.first + done};
-  return {runs.first + done, may_stop ? next_checkpoint(done, runs.size()) : runs.last};
+  return {runs.first + done, may_stop ? next_interim_analysis(done, runs.size()) : runs.last};
 }
 
 } // namespace wingspread

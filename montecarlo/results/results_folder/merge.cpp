@@ -100,8 +100,8 @@ void preview(Merging& merging, PartFaults& faults) {
 /// Checks the folders of a campaign, or of one of its cases, and collects the reasons why they cannot be merged.
 /// @param of_case empty: the folders themselves; else the case's folders in them
 /// @throws SpecError if they are not folders of one campaign
-Merging look_at(const std::vector<std::filesystem::path>& folders, const std::string& of_case,
-                const std::filesystem::path& out, MergeKind kind, PartFaults& faults) {
+Merging merging_of(const std::vector<std::filesystem::path>& folders, const std::string& of_case,
+                   const std::filesystem::path& out, MergeKind kind, PartFaults& faults) {
   Merging merging;
   auto& [whole, parts, text] = merging;
   std::vector<Part> not_begun;
@@ -157,7 +157,7 @@ Summary write_merged(Merging&& merging) {
 Summary merge_folders(const std::vector<std::filesystem::path>& folders,
                       const std::filesystem::path& out, MergeKind kind) {
   PartFaults faults;
-  Merging merging = look_at(folders, "", out, kind, faults);
+  Merging merging = merging_of(folders, "", out, kind, faults);
   faults.refuse();
   return write_merged(std::move(merging));
 }
@@ -173,7 +173,7 @@ std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& f
   std::vector<Merging> mergings; // all cases are checked before anything is written
   Preview all;
   for (const CaseSpec& spec : cases_in(folders)) {
-    mergings.push_back(look_at(folders, spec.name, out / spec.name, kind, faults));
+    mergings.push_back(merging_of(folders, spec.name, out / spec.name, kind, faults));
     const Stamp& stamp = mergings.back().whole.stamp;
     all.of += whole.campaign.sampling.runs;
     all.runs += stamp.preview ? stamp.preview->runs : whole.campaign.sampling.runs;

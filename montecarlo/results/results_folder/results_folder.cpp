@@ -152,7 +152,7 @@ void copy_rows(const std::filesystem::path& from, const std::filesystem::path& t
 bool is_complete(const StoredCampaign& stored, const Results& results) {
   const long done = std::ssize(results.runs), runs = stored.runs().size();
   if (done >= runs) return true;
-  return is_checkpoint(done, runs) && are_met(goals_of(stored, results));
+  return is_interim_analysis(done, runs) && are_met(goals_of(stored, results));
 }
 
 void add_nominal(const Campaign& campaign, Summary& summary) {
@@ -251,9 +251,9 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results,
                        const StatisticsSpec& spec, int threads) {
   const Campaign& campaign = stored.campaign;
   const InterimAnalyses interim = interim_analyses(campaign);
-  StatisticsSpec at_a_look = spec;
-  at_a_look.confidence = interim.confidence_of_bound(spec.confidence);
-  Summary summary = summarize(results, at_a_look, replication_of(campaign.sampling, results),
+  StatisticsSpec at_an_analysis = spec;
+  at_an_analysis.confidence = interim.confidence_of_bound(spec.confidence);
+  Summary summary = summarize(results, at_an_analysis, replication_of(campaign.sampling, results),
                               threads, campaign.requirements);
   summary.confidence = spec.confidence;
   summary.interim = interim;

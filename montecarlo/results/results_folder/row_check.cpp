@@ -29,7 +29,7 @@ std::vector<std::string> split_order(std::string_view order) {
 RowCheck::RowCheck(const ResultNames& names) {
   for (std::size_t i = 0; i < names.outputs.size(); ++i) {
     const OutputName name = parse_output_name(names.outputs[i]);
-    if (is_never_negative(name))
+    if (name.kind && !name.kind->has_sign)
       not_negative_.push_back({names.outputs[i], i, std::string_view(name.unit) == "s"});
     if (name.quantity == "latch_time") latches_.push_back({name.hinge, i});
     if (name.quantity == "deployment_time") deployment_time_ = i;

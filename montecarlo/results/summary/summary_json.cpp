@@ -21,7 +21,7 @@ constexpr std::string_view replicates_agree =
     "no bounds: all replicates agree, which says nothing about the error";
 
 /// A note on how the confidence is shared among interim analyses; empty if there is only one.
-std::string at_looks(const Summary& summary) {
+std::string over_interim_analyses(const Summary& summary) {
   const InterimAnalyses& interim = summary.interim;
   if (interim.count() == 1) return "";
   const double confidence = interim.confidence_of_bound(summary.confidence);
@@ -29,15 +29,14 @@ std::string at_looks(const Summary& summary) {
     return fmt::format(", at a confidence of {:.10g}: of analysis {} of the same draws, the bounds "
                        "of all extensions hold together at {:.10g}",
                        confidence, interim.count(), summary.confidence);
-  return fmt::format(
-      ", at a confidence of {:.10g} each, to hold at whichever of {} checkpoints the "
-      "campaign stops",
-      confidence, interim.count());
+  return fmt::format(", at a confidence of {:.10g} each, to hold at whichever of {} analyses the "
+                     "campaign stops",
+                     confidence, interim.count());
 }
 
 /// The definitions of bounds, for independent draws and for replicates.
 std::string source_of(const Summary& summary, const char* independent, const char* replicated) {
-  if (summary.replicates == 0) return independent + at_looks(summary);
+  if (summary.replicates == 0) return independent + over_interim_analyses(summary);
   if (summary.replicates == 1) return std::string(one_replicate);
   return fmt::format("{} {} independent replicates", replicated, summary.replicates);
 }

@@ -9,11 +9,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 namespace wingspread {
@@ -25,7 +25,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_number = std::numeric_limits<double>::max();
 
 /// A run and its value times sign_of(): larger is worse.
-struct Badness {
+struct BreakingRun {
   long run;
   double value;
 };
@@ -36,7 +36,8 @@ const Column* column_of(const Results& results, std::span<const Column> besides,
     if (const auto found = std::ranges::find(columns, requirement.output, &Column::name);
         found != columns.end())
       return &*found;
-  assert(requirement.output == deployed_output);
+  if (requirement.output != deployed_output)
+    throw std::logic_error("a requirement on an output without a column: " + requirement.output);
   return nullptr;
 }
 
@@ -64,7 +65,7 @@ void add_breaking(const Results& results, const Column* column, Verdict& verdict
   const double sign = sign_of(requirement), limit = limit_of(requirement);
   const Reading how = reading_of(column, requirement.absolute);
   Spilled<long>& broken = verdict.broken; // begins with the runs that are worse than any number
-  std::vector<Badness> beyond;
+  std::vector<BreakingRun> beyond;
   for (std::size_t row = 0; row < results.size(); ++row) {
     const double seen = column ? column->values[row] : 0;
     const double value = value_or_infinite(results, row, seen, how);
@@ -78,7 +79,7 @@ void add_breaking(const Results& results, const Column* column, Verdict& verdict
     }
   }
   results.release();
-  std::ranges::sort(beyond, [](const Badness& a, const Badness& b) {
+  std::ranges::sort(beyond, [](const BreakingRun& a, const BreakingRun& b) {
     return a.value != b.value ? a.value > b.value : a.run < b.run;
   });
   for (const auto& [run, value] : beyond) broken.push_back(run);

@@ -30,11 +30,6 @@ FitSpec spec_of(const char* text, const std::filesystem::path& folder, const Cam
   return read_fit(parse_json(text), "tests.json", folder, campaign);
 }
 
-constexpr const char* one_way = R"({ "tests": [ { "name": "one way",
-    "trace": { "file": "t1.csv", "time": "t", "correlated": false,
-               "columns": { "root.angle": { "column": "th", "std": 0.005 } } } } ],
-  "fit": { "parameters": ["spring", "friction"], "samples": 800, "starts": 2 } })";
-
 constexpr const char* both_ways = R"({ "tests": [
     { "name": "one way", "trace": { "file": "t1.csv", "time": "t", "correlated": false,
                "columns": { "root.angle": { "column": "th", "std": 0.005 } } } },
@@ -198,127 +193,6 @@ TEST_CASE("a trace of another motion is told first") {
   CHECK(fit_text(result, spec).starts_with("root.angle of"));
 }
 
-TEST_CASE("a std in another unit, and tests that contradict the prior, are told") {
-  const Folder folder;
-  // the trace sees 2 N·m × spring − 0.3 N·m × friction: a narrow prior of the friction leaves a conflict to the spring
-  const Campaign campaign = campaign_of(panel_campaign(0.05, 0.1));
-  const auto findings = [&](double spring, double friction, double std) {
-    folder.write("t1.csv", panel_trace(spring, friction, 0, 0.005, 1));
-    Json tests = parse_json(one_way);
-    tests["fit"]["samples"] = 100;
-    tests["tests"][0]["trace"]["columns"]["root.angle"]["std"] = std;
-    const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
-    return fit_findings(fitted(campaign, spec), spec);
-  };
-  CHECK(findings(1.02, 1.1, 0.005).empty());
-  const auto large = findings(1.02, 1.1, 0.29); // 0.29 deg, taken for rad
-  REQUIRE(large.size() == 1);
-  CHECK(large[0].starts_with("root.angle of \"one way\": the residuals are 0.01"));
-  CHECK(large[0].ends_with("is its std too large, or in another unit?"));
-  const auto far = findings(1.35, 1, 0.005); // 7 standard deviations of the spring's prior
-  REQUIRE_FALSE(far.empty());
-  CHECK(far.back().find("standard deviations of its prior from the prior's median") !=
-        std::string::npos);
-}
-
-// The latch time depends on 2 N·m spring − 0.3 N·m friction alone: an error of the friction moves the spring by 0.15 of
-// it.
-TEST_CASE("a dispersion that is not fitted is named, and its spread widens what depends on it") {
-  const Folder folder;
-  const Campaign campaign = campaign_of(panel_campaign(0.5, 0.2));
-  Json tests = parse_json(R"({ "tests": [ { "name": "timer",
-      "values": [ { "output": "root.latch_time", "value": 2.3, "std": "1 ms" } ] } ],
-    "fit": { "parameters": ["spring"], "samples": 400, "starts": 2 } })");
-  const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
-  const FitResult result = fitted(campaign, spec);
-  REQUIRE(result.held.size() == 1);
-  CHECK(result.held[0].name == "friction");
-  CHECK(result.held[0].median == 1);
-  CHECK(result.held[0].prior_std == Approx(0.2).epsilon(1e-2));
-  const FittedParameter& spring = result.parameters[0];
-  CHECK(spring.widening * spring.std == Approx(std::hypot(spring.std, 0.15 * 0.2)).epsilon(0.02));
-  const std::vector<std::string> findings = fit_findings(result, spec);
-  REQUIRE_FALSE(findings.empty());
-  CHECK_THAT(findings.back(), Catch::Contains("held at its median in all tests: friction = 1 ") &&
-                                  Catch::Contains("the posterior sd is: spring 0.03"));
-  const Json json = fit_json(result, spec, Json::object());
-  CHECK(json["held"]["friction"]["value"] == 1);
-  CHECK(json["parameters"]["spring"]["std_with_held"].get<double>() ==
-        Approx(spring.widening * spring.std));
-  tests["fit"]["parameters"] = {"spring", "friction"};
-  tests["tests"].push_back(tests["tests"][0]);
-  tests["tests"][1]["name"] = "again";
-  const FitSpec both = read_fit(tests, "", folder.path(), campaign);
-  CHECK(fitted(campaign, both).held.empty());
-}
-
-TEST_CASE("one bad sample is named with its time, not the whole trace") {
-  const Folder folder;
-  std::string text = "t,th\n";
-  for (int k = 0; k <= 80; ++k)
-    text += csv_cell(0.02 * k) + "," +
-            csv_cell(panel_angle(0.02 * k, 1.02, 1.1) + (k == 40 ? 1.0 : 1e-3 * std::sin(9 * k))) +
-            "\n";
-  folder.write("t1.csv", text);
-  const Campaign campaign = campaign_of(panel_campaign());
-  Json tests = parse_json(one_way);
-  tests["fit"]["samples"] = 100;
-  const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
-  const FitResult result = fitted(campaign, spec);
-  REQUIRE(result.channels[0].outliers.size() == 1);
-  CHECK(result.channels[0].outliers[0].time == Approx(0.8));
-  CHECK(result.channels[0].outliers[0].sigmas == Approx(200).epsilon(0.1));
-  const std::string first = fit_findings(result, spec).front();
-  CHECK_THAT(first, Catch::StartsWith("root.angle of \"one way\": 1 of 81 numbers is far from the "
-                                      "rest: ") &&
-                        Catch::Contains(" deg at 0.8 s, ") && Catch::Contains(" σ from the fit"));
-  const Json json = fit_json(result, spec, Json::object());
-  CHECK(json["tests"][0]["traces"]["root.angle"]["outliers"].size() == 1);
-}
-
-TEST_CASE("a posterior at a limit of its prior is told") {
-  const Folder folder;
-  Json json = panel_campaign();
-  json["dispersions"][0]["distribution"] =
-      parse_json(R"({ "type": "uniform", "lower": 0.9, "upper": 1.1 })");
-  const Campaign campaign = campaign_of(json);
-  const auto findings = [&](double spring) {
-    folder.write("t1.csv", panel_trace(spring, 1, 0, 0.005, 1));
-    Json tests = parse_json(one_way);
-    tests["fit"]["samples"] = 100, tests["fit"]["parameters"] = {"spring"};
-    const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
-    std::string text;
-    for (const std::string& each : fit_findings(fitted(campaign, spec), spec)) text += each + '\n';
-    return text;
-  };
-  CHECK_THAT(findings(1.3), Catch::Contains("spring lies at the limit 1.1 of its prior"));
-  CHECK_THAT(findings(0.7), Catch::Contains("spring lies at the limit 0.9 of its prior"));
-  CHECK_THAT(findings(1.0), !Catch::Contains("at the limit"));
-}
-
-TEST_CASE("a prior that is cut on one side only has a limit there, and one that fades out none") {
-  const Folder folder;
-  folder.write("t1.csv", panel_trace(0.7, 1, 0, 0.005, 1));
-  const auto limit_of = [&](const char* law) {
-    Json json = panel_campaign();
-    json["dispersions"][0]["distribution"] = parse_json(law);
-    const Campaign campaign = campaign_of(json);
-    Json tests = parse_json(one_way);
-    tests["fit"]["samples"] = 100, tests["fit"]["parameters"] = {"spring"};
-    const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
-    const FitResult result = fitted(campaign, spec);
-    const Json fit = fit_json(result, spec, Json::object());
-    CHECK(fit["at_limits"] == (result.parameters[0].limit ? Json{"spring"} : Json::array()));
-    CHECK((fit_text(result, spec).find("\n    at the limit 0.95 of its prior") !=
-           std::string::npos) == result.parameters[0].limit.has_value());
-    return result.parameters[0].limit;
-  };
-  CHECK(
-      limit_of(R"({ "type": "normal", "mean": 1, "std": 0.05, "truncate": { "lower": 0.95 } })") ==
-      0.95);
-  CHECK_FALSE(limit_of(R"({ "type": "lognormal", "mu_log": 0, "sigma_log": 0.05 })"));
-}
-
 TEST_CASE("numbers that no run has, or that cannot be compared, are refused with their place") {
   const Folder folder;
   const Campaign campaign = campaign_of(panel_campaign());
@@ -370,21 +244,6 @@ TEST_CASE("chains that are not finished are no result") {
   CHECK_FALSE(result.finished);
   CHECK(fit_findings(result, wants).front().starts_with("not finished"));
   CHECK(fit_json(result, wants, Json::object())["finished"] == false);
-}
-
-TEST_CASE("the findings name the laws of cases that the written campaign does not have") {
-  const Folder folder;
-  folder.write("t1.csv", panel_trace(1.02, 1.1, 0, 0.005, 1));
-  Json json = panel_campaign();
-  json["cases"] = parse_json(R"([ { "name": "cold", "distributions": {
-    "friction": { "type": "normal", "mean": 2, "std": 0.3 } } } ])");
-  const Campaign campaign = campaign_of(json);
-  Json tests = parse_json(one_way);
-  tests["fit"]["samples"] = 100;
-  const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
-  const FitResult result = fitted(campaign, spec);
-  REQUIRE_FALSE(fit_findings(result, spec).empty());
-  CHECK(fit_findings(result, spec).back().ends_with("in every case: cold: friction"));
 }
 
 TEST_CASE("threads and lanes do not change a bit") {

@@ -65,4 +65,10 @@ inline FitResult fitted(const Campaign& campaign, const FitSpec& spec, FitOption
   return fit_campaign(campaign, spec, options, never, log, [](const EnsembleState&) {});
 }
 
+/// One trace of the panel, in "t1.csv".
+inline constexpr const char* one_way = R"({ "tests": [ { "name": "one way",
+    "trace": { "file": "t1.csv", "time": "t", "correlated": false,
+               "columns": { "root.angle": { "column": "th", "std": 0.005 } } } } ],
+  "fit": { "parameters": ["spring", "friction"], "samples": 800, "starts": 2 } })";
+
 } // namespace wingspread::test

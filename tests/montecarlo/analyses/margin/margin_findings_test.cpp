@@ -22,16 +22,16 @@ Verdict verdict(const char* output, long broken) {
 }
 
 /// A case in which so many runs did not deploy.
-CaseLook case_of(long stalled, std::vector<Verdict> verdicts) {
-  CaseLook look;
-  look.statuses[static_cast<std::size_t>(Status::deployed)] = runs_of_case - stalled;
-  look.statuses[static_cast<std::size_t>(Status::stalled)] = stalled;
-  look.verdicts = std::move(verdicts);
-  return look;
+CaseResult case_of(long stalled, std::vector<Verdict> verdicts) {
+  CaseResult one;
+  one.statuses[static_cast<std::size_t>(Status::deployed)] = runs_of_case - stalled;
+  one.statuses[static_cast<std::size_t>(Status::stalled)] = stalled;
+  one.verdicts = std::move(verdicts);
+  return one;
 }
 
 /// Of the two requirements of one_panel_margin: stalled runs break both.
-ScaleLook look(long stalled, long too_fast) {
+ScaleResult scale_with(long stalled, long too_fast) {
   return {case_of(stalled,
                   {verdict("deployed", stalled), verdict("root.latch_rate", stalled + too_fast)})};
 }
@@ -39,24 +39,27 @@ ScaleLook look(long stalled, long too_fast) {
 } // namespace
 
 TEST_CASE("what fails by runs alone that did not deploy is said once", "[margin]") {
-  CHECK(telling(look(8, 0)) == Failing{0});
-  CHECK(telling(look(8, 1)) == Failing{0, 1});
-  CHECK(telling(look(0, 8)) == Failing{1});
-  CHECK(telling(look(3, 2)).empty());
+  CHECK(to_report(scale_with(8, 0)) == Failing{0});
+  CHECK(to_report(scale_with(8, 1)) == Failing{0, 1});
+  CHECK(to_report(scale_with(0, 8)) == Failing{1});
+  CHECK(to_report(scale_with(3, 2)).empty());
   // Where "deployed" is not required, the first that fails for want of it stands for the others; and
   // in each case by itself.
-  const CaseLook unasked =
+  const CaseResult unasked =
       case_of(8, {verdict("root.latch_rate", 8), verdict("tip.latch_rate", 8)});
-  CHECK(telling({unasked, unasked}) == Failing{0, 2});
+  CHECK(to_report({unasked, unasked}) == Failing{0, 2});
   // Where it is, it stands for them wherever it is named.
-  CHECK(telling({case_of(8, {verdict("root.latch_rate", 8), verdict("deployed", 8)})}) ==
+  CHECK(to_report({case_of(8, {verdict("root.latch_rate", 8), verdict("deployed", 8)})}) ==
         Failing{1});
 }
 
 TEST_CASE("an edge says what sets it, and what fails there by the same runs", "[margin]") {
   MarginSearch search;
-  search.seen = {{0.5, look(9, 0)}, {0.8, look(0, 0)}, {1.2, look(1, 3)}, {1.5, look(0, 7)}};
-  const auto windows = windows_of(looks_of(search));
+  search.seen = {{0.5, scale_with(9, 0)},
+                 {0.8, scale_with(0, 0)},
+                 {1.2, scale_with(1, 3)},
+                 {1.5, scale_with(0, 7)}};
+  const auto windows = windows_of(failing_by_scale(search));
   REQUIRE(windows.size() == 1);
   const MarginEdge lower = lower_edge(search, windows.front());
   CHECK((lower.passing == 0.8 && lower.failing == 0.5));
@@ -67,7 +70,7 @@ TEST_CASE("an edge says what sets it, and what fails there by the same runs", "[
   CHECK(upper.set_by == std::vector<std::size_t>{1});
   CHECK(upper.as_well.empty());
   search.seen.erase(1.5);
-  const auto open = windows_of(looks_of(search));
+  const auto open = windows_of(failing_by_scale(search));
   const MarginEdge end = upper_edge(search, open.front());
   CHECK((end.passing == 1.2 && !end.failing && end.set_by.empty()));
 }
@@ -76,7 +79,7 @@ TEST_CASE("each condition's edges have a word", "[margin]") {
   const Campaign campaign = campaign_of(one_panel_margin(100));
   MarginResult result;
   result.cases = {{"nominal", {}}};
-  const auto kinds = [&](const std::map<double, ScaleLook>& seen) {
+  const auto kinds = [&](const std::map<double, ScaleResult>& seen) {
     MarginSearch search;
     search.seen = seen;
     std::vector<std::string_view> found_kinds;
@@ -87,7 +90,7 @@ TEST_CASE("each condition's edges have a word", "[margin]") {
     return found_kinds;
   };
   using Words = std::vector<std::string_view>;
-  const ScaleLook good = look(0, 0), stalls = look(9, 0), fast = look(0, 9);
+  const ScaleResult good = scale_with(0, 0), stalls = scale_with(9, 0), fast = scale_with(0, 9);
   CHECK(kinds({{1, good}, {2, good}}) == Words{"always", "always"});
   CHECK(kinds({{1, stalls}, {2, good}}) == Words{"lower", "lower"});
   CHECK(kinds({{1, good}, {2, fast}}) == Words{"always", "upper"});
@@ -102,14 +105,14 @@ TEST_CASE("what a recommended scale gives up is what is worse there than at pres
   MarginResult result;
   result.cases = {{"nominal", {}}};
   MarginSearch search;
-  search.seen = {{0.8, look(2, 0)}, {1, look(0, 3)}};
+  search.seen = {{0.8, scale_with(2, 0)}, {1, scale_with(0, 3)}};
   CHECK(concessions(campaign, result, search).empty());
   search.recommended = 0.8;
   const auto given_up = concessions(campaign, result, search);
   REQUIRE(given_up.size() == 1);
   CHECK(given_up[0].condition == 0); // the stalled; of the rates 2 are broken in place of 3
   CHECK((given_up[0].present->broken.empty() && given_up[0].recommended->broken.size() == 2));
-  search.seen[1] = look(2, 0); // as many, but nearer to the limit, which is one from below
+  search.seen[1] = scale_with(2, 0); // as many, but nearer to the limit, which is one from below
   search.seen[1][0].quantiles = {std::numeric_limits<double>::quiet_NaN(), -0.5};
   search.seen[0.8][0].quantiles = {std::numeric_limits<double>::quiet_NaN(), -0.6};
   search.seen[0.8][0].verdicts[1].requirement.min = -0.8;
@@ -122,11 +125,11 @@ TEST_CASE("what a recommended scale gives up is what is worse there than at pres
 
 TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {
   MarginSearch search;
-  search.seen = {{0.0625, look(0, 0)}, {16, look(0, 0)}};
+  search.seen = {{0.0625, scale_with(0, 0)}, {16, scale_with(0, 0)}};
   CHECK(why_withheld(search).empty());
   search.withheld = Withheld::no_window;
   CHECK(why_withheld(search) == "no scale that was looked at meets all requirements");
-  CaseLook& cut = search.seen[16].front(); // as if t_end had cut all peaks
+  CaseResult& cut = search.seen[16].front(); // as if t_end had cut all peaks
   Verdict& verdict = cut.verdicts.front();
   verdict.decision = Decision::undecided, verdict.not_listed = verdict.cut = verdict.open = 100;
   CHECK(why_withheld(search) == "no scale that was looked at meets all requirements; at some only "
@@ -154,7 +157,7 @@ TEST_CASE("springs are recommended where they were sized together, and have a wi
   result.searches.front().recommended = 1.2;
   CHECK(recommending(campaign_of(json), result) == &result.searches.front());
   CHECK_FALSE(is_met(result)); // not confirmed
-  result.searches.front().confirmation = look(0, 0);
+  result.searches.front().confirmation = scale_with(0, 0);
   CHECK(is_met(result));
   json["margin"]["mode"] = "each";
   CHECK(recommending(campaign_of(json), result) == nullptr);

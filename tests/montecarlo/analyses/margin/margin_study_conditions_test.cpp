@@ -18,7 +18,7 @@ TEST_CASE("with one of m springs lost, the weakest springs are m/(m − 1) times
     json["margin"]["cases"] = cases;
     json["margin"]["springs_per_hinge"] = springs;
     const MarginResult result = margin_of(campaign_of(json));
-    return only_window(windows_of(looks_of(result.searches.front()))).lower;
+    return only_window(windows_of(failing_by_scale(result.searches.front()))).lower;
   };
   const double whole = weakest({"nominal"}, 2);
   CHECK(weakest({"nominal", "one_spring_out"}, 2) == Approx(2 * whole).epsilon(0.005));
@@ -95,18 +95,18 @@ TEST_CASE("a required static margin bounds the window, count by count", "[margin
   CHECK((conditions[2].which_case == 1 && conditions[2].requirement == 1));
   const RunPlan plan(campaign);
   std::vector<double> draws(campaign.dispersions.size());
-  for (const auto& [scale, look] : search.seen) {
+  for (const auto& [scale, cases] : search.seen) {
     long broken = 0;
     for (long run = 0; run < 300; ++run) {
       plan.draw(run, draws);
       broken += 0.2 * scale * draws[0] < 3 * (0.08 + draws[1]) ? 1 : 0;
     }
     CAPTURE(scale);
-    CHECK(std::ssize(verdict_of(look, conditions[0]).broken) == broken);
+    CHECK(std::ssize(verdict_of(cases, conditions[0]).broken) == broken);
   }
-  const Window window = only_window(windows_of(looks_of(search)));
+  const Window window = only_window(windows_of(failing_by_scale(search)));
   CHECK((window.lower > 1.2 && window.lower < 1.7));
-  CHECK(looks_of(search).at(*window.below).contains(0));
+  CHECK(failing_by_scale(search).at(*window.below).contains(0));
   CHECK(*search.recommended > 1);
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("requirements are held in every case of the campaign", "[margin]") {
     Json own = json;
     if (!cases.empty()) own["cases"] = cases;
     const MarginResult result = margin_of(campaign_of(own));
-    return std::pair{only_window(windows_of(looks_of(result.searches.front()))), result};
+    return std::pair{only_window(windows_of(failing_by_scale(result.searches.front()))), result};
   };
   const Json cold = parse_json(R"({ "name": "cold", "scale": { "hinges.root.friction.coulomb": 1.5,
                                                                "hinges.root.friction.static": 1.5 } })");
@@ -142,8 +142,8 @@ TEST_CASE("requirements that cannot be met together leave no window", "[margin]"
   json["requirements"][1]["min"] = -0.2;
   const Campaign campaign = campaign_of(json);
   const MarginSearch search = margin_of(campaign).searches.front();
-  const Looks looks = looks_of(search);
-  CHECK(windows_of(looks).empty());
+  const FailingByScale by_scale = failing_by_scale(search);
+  CHECK(windows_of(by_scale).empty());
   CHECK_FALSE(search.recommended);
   CHECK_FALSE(search.confirmation);
   CHECK_FALSE(is_confirmed(search));
@@ -151,5 +151,5 @@ TEST_CASE("requirements that cannot be met together leave no window", "[margin]"
   const long allowed = *allowed_failures(300, 0.97, 0.9);
   for (double scale = 0.5; scale <= 2; scale *= 1.002)
     CHECK(closed_form(campaign, scale, 0.2).too_fast > allowed);
-  CHECK(closed_by(looks) == std::vector<std::size_t>{1});
+  CHECK(closed_by(by_scale) == std::vector<std::size_t>{1});
 }

@@ -29,7 +29,7 @@ TEST_CASE("the window is where the closed form has it, count by count", "[margin
   const MarginResult result = margin_of(campaign);
   REQUIRE(result.searches.size() == 1);
   const MarginSearch& search = result.searches.front();
-  for (const auto& [scale, look] : search.seen) {
+  for (const auto& [scale, cases] : search.seen) {
     const ClosedForm exact = closed_form(campaign, scale);
     CAPTURE(scale);
     CHECK(broken(search, scale, 0) == exact.not_deployed);
@@ -40,14 +40,14 @@ TEST_CASE("the window is where the closed form has it, count by count", "[margin
     const ClosedForm exact = closed_form(campaign, scale);
     return exact.not_deployed <= allowed && exact.too_fast <= allowed;
   };
-  const Looks looks = looks_of(search);
-  const Window window = only_window(windows_of(looks));
+  const FailingByScale by_scale = failing_by_scale(search);
+  const Window window = only_window(windows_of(by_scale));
   CHECK((meets(window.lower) && !meets(*window.below)));
   CHECK((meets(window.upper) && !meets(*window.above)));
   CHECK(window.lower / *window.below <= 1.01);
   CHECK(*window.above / window.upper <= 1.01);
-  CHECK(looks.at(*window.below).contains(0)); // the one does not deploy
-  CHECK(looks.at(*window.above) == Failing{1});
+  CHECK(by_scale.at(*window.below).contains(0)); // the one does not deploy
+  CHECK(by_scale.at(*window.above) == Failing{1});
   CHECK(window.upper / window.lower > 1.1);
   CHECK(meets(*search.recommended));
   CHECK(is_confirmed(search));
@@ -96,7 +96,7 @@ TEST_CASE("seeds of confirmation are their campaign's own, and far from its neig
 TEST_CASE("a campaign at the edges, run for itself, agrees on either side", "[margin]") {
   const Campaign campaign = campaign_of(one_panel_margin(400));
   const MarginSearch search = margin_of(campaign).searches.front();
-  const Window window = only_window(windows_of(looks_of(search)));
+  const Window window = only_window(windows_of(failing_by_scale(search)));
   for (const auto& [scale, passes] :
        {std::pair{window.lower, true}, std::pair{*window.below, false},
         std::pair{window.upper, true}, std::pair{*window.above, false}}) {
@@ -174,10 +174,10 @@ TEST_CASE("its progress never runs backwards nor beyond the end, and ends there"
   find_margin(
       campaign, evaluator,
       [&](const StudyProgress& now) {
-        falls = falls && (last.look == 0 || now.most_looks <= last.most_looks);
+        falls = falls && (last.analysis == 0 || now.most_analyses <= last.most_analyses);
         CHECK(now.runs <= now.most_runs);
-        CHECK(now.look <= now.most_looks);
-        CHECK(now.most_runs == now.most_looks * 2 * 100);
+        CHECK(now.analysis <= now.most_analyses);
+        CHECK(now.most_runs == now.most_analyses * 2 * 100);
         const double its = static_cast<double>(now.runs) / static_cast<double>(now.most_runs);
         CHECK(its >= share);
         share = its;
@@ -187,17 +187,17 @@ TEST_CASE("its progress never runs backwards nor beyond the end, and ends there"
   CHECK(falls);
   CHECK(share == 1);
   CHECK(last.runs == result.runs);
-  CHECK(last.look == std::ssize(result.searches[0].seen) + 1); // and the confirmation
+  CHECK(last.analysis == std::ssize(result.searches[0].seen) + 1); // and the confirmation
 }
 
-TEST_CASE("the first looks in shards are those that the study takes first, run for run",
+TEST_CASE("the first scales in shards are those that the study runs first, run for run",
           "[margin]") {
   struct Spy final : Evaluator {
-    std::map<std::string, std::vector<ResultRow>> looks; // by the scale and the case
+    std::map<std::string, std::vector<ResultRow>> of_scale; // by the scale and the case
     ThreadEvaluator threads{{.threads = 1}, never};
     long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override {
       const auto keep = [&](const Batch& batch) {
-        auto& rows = looks[plan.campaign().resolved.dump()];
+        auto& rows = of_scale[plan.campaign().resolved.dump()];
         rows.insert(rows.end(), batch.rows.begin(), batch.rows.end());
         sink.take(batch);
       };
@@ -211,15 +211,15 @@ TEST_CASE("the first looks in shards are those that the study takes first, run f
       campaign, whole, [](const StudyProgress&) {}, result);
   long runs = 0;
   for (long i = 1; i <= 3; ++i)
-    runs += make_first_looks(campaign, {i, 3}, parts, [&](const StudyProgress& now) {
-      CHECK(now.most_looks == 13);
-      CHECK(now.look <= 13);
+    runs += run_first_scales(campaign, {i, 3}, parts, [&](const StudyProgress& now) {
+      CHECK(now.most_analyses == 13);
+      CHECK(now.analysis <= 13);
     });
   CHECK(runs == 13 * 100); // the scales of the grid, among them 1
-  CHECK(parts.looks.size() == 13);
-  for (const auto& [look, rows] : parts.looks) {
-    REQUIRE(whole.looks.contains(look));
-    const auto& theirs = whole.looks[look];
+  CHECK(parts.of_scale.size() == 13);
+  for (const auto& [scale, rows] : parts.of_scale) {
+    REQUIRE(whole.of_scale.contains(scale));
+    const auto& theirs = whole.of_scale[scale];
     REQUIRE(rows.size() == theirs.size());
     const auto text = [](const std::vector<ResultRow>& all) {
       std::string lines;
@@ -265,7 +265,7 @@ TEST_CASE("where the lower edge lies outside of the range no weaker springs are 
           "[margin]") {
   const MarginResult result = margin_of(campaign_of(driven_by_momentum()));
   const MarginSearch& search = result.searches.front();
-  const Window window = only_window(windows_of(looks_of(search)));
+  const Window window = only_window(windows_of(failing_by_scale(search)));
   CHECK(failing(search.seen.at(0.5)).empty());
   CHECK((window.lower < 0.5 && window.below && window.above)); // found beyond it
   CHECK((window.upper > 1 && window.upper < 1.5));
@@ -276,7 +276,8 @@ TEST_CASE("where the lower edge lies outside of the range no weaker springs are 
   CHECK(present.drives[0].worst[1] < 0);
 }
 
-TEST_CASE("where no edge is found as far as one may look, nothing is recommended", "[margin]") {
+TEST_CASE("where no edge is found as far as the search may go, nothing is recommended",
+          "[margin]") {
   Json json = driven_by_momentum();
   json["margin"]["widest"] = {0.5, 16};
   const MarginSearch search = margin_of(campaign_of(json)).searches.front();

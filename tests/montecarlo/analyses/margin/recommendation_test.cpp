@@ -28,20 +28,20 @@ struct Wing {
   double (*weak)(double), (*strong)(double);
   std::vector<double> scales;
   double short_below = 0; ///< of static margins
-  int looks = 0;
+  int scales_run = 0;
 
-  [[nodiscard]] ScaleLook at(double scale) const {
-    return {CaseLook{{}, {verdict(weak(scale)), verdict(strong(scale))}}};
+  [[nodiscard]] ScaleResult at(double scale) const {
+    return {CaseResult{{}, {verdict(weak(scale)), verdict(strong(scale))}}};
   }
   [[nodiscard]] MarginSearch recommended() {
     MarginSearch search;
     for (const double scale : scales) search.seen[scale] = at(scale);
-    const auto look = [&](double scale) { search.seen[scale] = at(scale), ++looks; };
+    const auto run_at = [&](double scale) { search.seen[scale] = at(scale), ++scales_run; };
     const auto shortfall = [&](double scale) -> std::optional<Shortfall> {
       if (scale >= short_below) return std::nullopt;
       return Shortfall{scale, "root", MarginKind::ecss, scale - short_below, 1 - short_below};
     };
-    recommend({0.01, look, shortfall}, search);
+    recommend({0.01, run_at, shortfall}, search);
     return search;
   }
 };
@@ -52,7 +52,7 @@ double line(double at, double zero, double slope) { return std::max(0.0, slope *
 
 TEST_CASE("strain is what breaks over what may", "[margin]") {
   CHECK(strain(verdict(5)) == Approx(0.5).epsilon(1e-13));
-  CHECK(strain({CaseLook{{}, {verdict(1), verdict(7)}}, CaseLook{{}, {verdict(3)}}}) ==
+  CHECK(strain({CaseResult{{}, {verdict(1), verdict(7)}}, CaseResult{{}, {verdict(3)}}}) ==
         Approx(0.7).epsilon(1e-13));
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("the scale is the one whose worse side is best, and is searched for", 
   CHECK(search.as_good.lower <= *search.recommended);
   CHECK(*search.recommended <= search.as_good.upper);
   CHECK_FALSE(search.passed_over);
-  CHECK(wing.looks <= 20);
+  CHECK(wing.scales_run <= 20);
   CHECK(strain(search.seen.at(*search.recommended)) <= 0.6);
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("of several that are equally good the present springs are kept", "[mar
   CHECK(search.as_good.lower == Approx(0.695).epsilon(0.01)); // from there on half a run breaks it
   CHECK(search.as_good.upper == Approx(1.105).epsilon(0.01));
   CHECK(rule_of(search) == "present springs");
-  CHECK(wing.looks <= 8);
+  CHECK(wing.scales_run <= 8);
 }
 
 TEST_CASE("where the present springs are not as good, the middle of what is", "[margin]") {
@@ -135,7 +135,7 @@ TEST_CASE("without both edges nothing is recommended", "[margin]") {
   CHECK(search.withheld == Withheld::no_upper_edge);
   wing.strong = [](double) { return 900.0; };
   CHECK(wing.recommended().withheld == Withheld::no_window);
-  CHECK(wing.looks == 0);
+  CHECK(wing.scales_run == 0);
 }
 
 // At 0.6 no run breaks anything and at 1 some do, but weaker springs would be short of torque at rest.

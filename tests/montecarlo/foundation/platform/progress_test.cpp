@@ -45,11 +45,12 @@ TEST_CASE("nothing is written to what is no terminal") {
   std::fclose(file);
 }
 
-TEST_CASE("a study's line says which look is under way, and that its totals are bounds") {
-  Tally tally = tally_of({.look = 7, .most_looks = 31, .runs = 12'400, .most_runs = 62'000}, 2'400);
+TEST_CASE("a study's line says which analysis is under way, and that its totals are bounds") {
+  Tally tally =
+      tally_of({.analysis = 7, .most_analyses = 31, .runs = 12'400, .most_runs = 62'000}, 2'400);
   CHECK(progress_line(tally, 10) == "████░░░░░░░░░░░░░░░░░░░░ analysis 7 of at most 31 · 12400 of "
                                     "at most 62000 runs · 1000 runs/s");
-  tally = tally_of({.runs = 300, .most_runs = 1000}, 0); // of what has no looks to speak of
+  tally = tally_of({.runs = 300, .most_runs = 1000}, 0); // of what has no analyses to speak of
   CHECK(progress_line(tally, 3) ==
         "███████░░░░░░░░░░░░░░░░░ 300 of at most 1000 runs · 100 runs/s");
 }

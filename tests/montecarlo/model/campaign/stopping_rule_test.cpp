@@ -112,17 +112,18 @@ TEST_CASE("Checkpoints are the powers of two times 1000, and the end", "[stoppin
   const auto all = [](long runs) {
     std::vector<long> checkpoints;
     for (long done = 0; done < runs; done = checkpoints.back())
-      checkpoints.push_back(next_checkpoint(done, runs));
+      checkpoints.push_back(next_interim_analysis(done, runs));
     return checkpoints;
   };
   CHECK(all(10000) == std::vector<long>{1000, 2000, 4000, 8000, 10000});
   CHECK(all(8000) == std::vector<long>{1000, 2000, 4000, 8000});
   CHECK(all(1500) == std::vector<long>{1000, 1500});
   CHECK(all(300) == std::vector<long>{300});
-  CHECK(next_checkpoint(1500, 10000) == 2000);
-  CHECK((is_checkpoint(2000, 10000) && is_checkpoint(10000, 10000) && !is_checkpoint(0, 10000) &&
-         !is_checkpoint(1500, 10000)));
-  CHECK(
-      (count_looks(rule, 10000) == 5 && count_looks(rule, 300) == 1 && count_looks({}, 9999) == 1));
-  CHECK(count_looks(rule, std::numeric_limits<long>::max()) == 55); // 1000 · 2^53 and the end
+  CHECK(next_interim_analysis(1500, 10000) == 2000);
+  CHECK((is_interim_analysis(2000, 10000) && is_interim_analysis(10000, 10000) &&
+         !is_interim_analysis(0, 10000) && !is_interim_analysis(1500, 10000)));
+  CHECK((count_interim_analyses(rule, 10000) == 5 && count_interim_analyses(rule, 300) == 1 &&
+         count_interim_analyses({}, 9999) == 1));
+  CHECK(count_interim_analyses(rule, std::numeric_limits<long>::max()) ==
+        55); // 1000 · 2^53 and the end
 }

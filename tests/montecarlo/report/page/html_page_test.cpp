@@ -48,7 +48,7 @@ TEST_CASE("the block stands between the page's halves", "[page]") {
 TEST_CASE("the page of a large scene or of many sets keeps to its size", "[page]") {
   const auto numbers = [](const PageExtent& extent) { // of all sets, at the most
     const PageDetail d = page_detail(extent);
-    const std::size_t output = 9 * d.bins + 4 * d.knots + 7 * d.checkpoints + 8 * d.effects;
+    const std::size_t output = 9 * d.bins + 4 * d.knots + 7 * d.convergence_points + 8 * d.effects;
     const std::size_t outputs = std::min(extent.outputs, d.outputs);
     return extent.sets *
            (outputs * output + 2 * outputs * d.correlated_draws +
@@ -124,7 +124,7 @@ TEST_CASE("every output that a campaign can have is in the glossary", "[page]") 
         column.hinge < 0 ? "" : scene.hinges[static_cast<std::size_t>(column.hinge)].name + '.';
     std::string name = hinge.empty() ? column.name : "HINGE." + column.name.substr(hinge.size());
     if (column.other >= 0) name = "HINGE.rate_at.OTHER";
-    if (column.quantity == OutputColumn::Quantity::frequency) name = "mode_K.frequency";
+    if (column.quantity == OutputQuantity::frequency) name = "mode_K.frequency";
     CAPTURE(column.name);
     REQUIRE(glossary.contains(name));
     CHECK(!glossary[name]["unit"].get<std::string>().empty());

@@ -111,7 +111,7 @@ TEST_CASE("a campaign is not continued with fewer runs, nor where draws or looks
                       "it into a new folder"));
   CHECK_THAT(
       refused(sized("random", 6, "deployed 0.1")),
-      Catch::Contains("found 4, expected 6: the checkpoints of a campaign that may stop early "
+      Catch::Contains("found 4, expected 6: the interim analyses of a campaign that may stop early "
                       "depend on the number of runs; run it into a new folder\n"));
   CHECK_THAT(
       refused(sized("random", 6), {.shard = Shard{1, 2}, .resume = true}),

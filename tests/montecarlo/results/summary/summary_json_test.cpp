@@ -291,7 +291,7 @@ TEST_CASE("summary.json: when a campaign stops, and what that does to its bounds
         R"("quantile":0.5,"relative_width":0.01,"found":0.05,"met":false}]})");
   CHECK(json["definitions"]["rate_bounds"] ==
         "Clopper-Pearson, two-sided, at a confidence of 0.99 each, to hold at whichever of 5 "
-        "checkpoints the campaign stops");
+        "analyses the campaign stops");
 }
 
 TEST_CASE("summary.json says what the integration contributes, where that was measured") {

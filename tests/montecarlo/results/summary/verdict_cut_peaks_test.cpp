@@ -1,30 +1,71 @@
+// Verdicts on outputs without a value, and on peaks that t_end cut.
 #include "montecarlo/results/summary/verdict.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <limits>
+#include <vector>
+
 using namespace wingspread;
 
-TEST_CASE("peaks that t_end cut show nothing: neither a pass nor its opposite") {
-  const auto verdict_on = [](double limit, PeaksFinal final, long runs = 1000) {
-    Results results(ResultNames{{}, {"root.peak_moment"}, true});
-    for (long run = 0; run < runs; ++run)
-      results.append({run, Status::deployed, {}, {100}, "", "", final});
-    return judge({"", "root.peak_moment", limit, {}, .95, .9}, results);
-  };
-  const Verdict open = verdict_on(300, PeaksFinal::no); // it may rise beyond 300, or not
-  CHECK(open.decision == Decision::undecided);
-  CHECK((!open.disproved && open.cut == 1000 && open.open == 1000 && open.failures() == 1000));
-  CHECK(rests_on_cut_peaks(open));
-  CHECK(evidence(open) == "1000 of 1000 runs break it (1000 of them because t_end cut their "
-                          "peaks); at most 40 may. A cut peak may still rise and shows nothing: "
-                          "lengthen t_end");
-  CHECK_FALSE(is_decided(open));
-  const Verdict beyond = verdict_on(99, PeaksFinal::no); // it is beyond 99 already
-  CHECK((beyond.decision == Decision::fail && beyond.disproved && beyond.open == 0));
-  CHECK(verdict_on(300, PeaksFinal::yes).decision == Decision::pass);
-  CHECK(verdict_on(300, PeaksFinal::moments).decision == Decision::pass); // only forces are cut
-  CHECK(verdict_on(300, PeaksFinal::forces).decision == Decision::undecided);
-  const Verdict one = verdict_on(300, PeaksFinal::no, 1);
-  CHECK((one.decision == Decision::undecided && !one.disproved));
-  CHECK(verdict_on(99, PeaksFinal::no, 1).disproved);
+TEST_CASE("a run whose peak t_end cut is beyond every number for a limit of the peak") {
+  Results results(ResultNames{{}, {"root.peak_moment", "root.latch_time"}, true});
+  for (long run = 0; run < 59; ++run)
+    results.append({run,
+                    Status::deployed,
+                    {},
+                    {1.0 + static_cast<double>(run), 5},
+                    "",
+                    "",
+                    run == 7 ? PeaksFinal::no : PeaksFinal::yes});
+  const RankedOutput peak(results, results.outputs[0]), time(results, results.outputs[1]);
+  CHECK((peak.beyond() == 1 && time.beyond() == 0));
+  CHECK_FALSE(output_limits(peak, {.95, .95, Side::upper}).upper);
+  CHECK(output_limits(time, {.95, .95, Side::upper}).upper == 5);
+}
+
+TEST_CASE("evidence counts the runs that break an output's limit for they have no value") {
+  Results results(ResultNames{{}, {"root.latch_time"}, true});
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (long run = 0; run < 1000; ++run) {
+    const Status status = run < 2 ? Status::stalled : Status::deployed;
+    const double value = run < 3 ? none : static_cast<double>(run);
+    results.append({run, status, {}, {value}, "", "", PeaksFinal::yes});
+  }
+  const Requirement late{"", "root.latch_time", 998.5, {}, .99, .9};
+  CHECK(judge(late, results).absent == 3);
+  CHECK(evidence(judge(late, results)) ==
+        "4 of 1000 runs break it (3 of them because they did not deploy or have no value); at most "
+        "5 may");
+  const Requirement deployed{"", "deployed", {}, {}, .99, .9}; // says so itself
+  CHECK((judge(deployed, results).failures() == 2 && judge(deployed, results).absent == 0));
+}
+
+TEST_CASE("a peak that t_end cut breaks every requirement on it, whatever it had come to") {
+  Results results(ResultNames{{}, {"root.peak_moment", "root.latch_time"}, true});
+  for (long run = 0; run < 1000; ++run) {
+    const auto value = static_cast<double>(run + 1);
+    results.append({run,
+                    Status::deployed,
+                    {},
+                    {value, value},
+                    "",
+                    "",
+                    run < 3 ? PeaksFinal::no : PeaksFinal::yes});
+  }
+  Requirement peak{"", "root.peak_moment", 1001, {}, .99, .9};
+  const Verdict verdict = judge(peak, results);
+  CHECK(verdict.broken == std::vector<long>{0, 1, 2});
+  CHECK(verdict.cut == 3);
+  CHECK(evidence(verdict) ==
+        "3 of 1000 runs break it (3 of them because t_end cut their peaks); at most "
+        "5 may");
+  peak.max.reset();
+  peak.min = 0;
+  CHECK(judge(peak, results).broken.size() == 3);
+  peak.output = "root.latch_time"; // that one stands, wherever the run ends
+  CHECK((judge(peak, results).broken.empty() && judge(peak, results).cut == 0));
+  const RankedOutput ranks(results, results.outputs[0]);
+  CHECK((ranks.numbers().size() == 997 && std::isinf(ranks.worst_above().back())));
 }

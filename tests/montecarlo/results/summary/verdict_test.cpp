@@ -158,22 +158,6 @@ TEST_CASE("tolerance limits of an output put runs that did not deploy beyond eve
   CHECK(limits(Side::lower).lower == 1);
 }
 
-TEST_CASE("a run whose peak t_end cut is beyond every number for a limit of the peak") {
-  Results results(ResultNames{{}, {"root.peak_moment", "root.latch_time"}, true});
-  for (long run = 0; run < 59; ++run)
-    results.append({run,
-                    Status::deployed,
-                    {},
-                    {1.0 + static_cast<double>(run), 5},
-                    "",
-                    "",
-                    run == 7 ? PeaksFinal::no : PeaksFinal::yes});
-  const RankedOutput peak(results, results.outputs[0]), time(results, results.outputs[1]);
-  CHECK((peak.beyond() == 1 && time.beyond() == 0));
-  CHECK_FALSE(output_limits(peak, {.95, .95, Side::upper}).upper);
-  CHECK(output_limits(time, {.95, .95, Side::upper}).upper == 5);
-}
-
 TEST_CASE("a wing as bad as a requirement just forbids passes as seldom as the confidence says") {
   constexpr int trials = 2000;
   constexpr long runs = 500;
@@ -351,51 +335,6 @@ TEST_CASE("a group fails if any member fails, else is undecided if any is, in wh
                              : open ? Decision::undecided
                                     : Decision::pass));
   }
-}
-
-TEST_CASE("evidence counts the runs that break an output's limit for they have no value") {
-  Results results(ResultNames{{}, {"root.latch_time"}, true});
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  for (long run = 0; run < 1000; ++run) {
-    const Status status = run < 2 ? Status::stalled : Status::deployed;
-    const double value = run < 3 ? none : static_cast<double>(run);
-    results.append({run, status, {}, {value}, "", "", PeaksFinal::yes});
-  }
-  const Requirement late{"", "root.latch_time", 998.5, {}, .99, .9};
-  CHECK(judge(late, results).absent == 3);
-  CHECK(evidence(judge(late, results)) ==
-        "4 of 1000 runs break it (3 of them because they did not deploy or have no value); at most "
-        "5 may");
-  const Requirement deployed{"", "deployed", {}, {}, .99, .9}; // says so itself
-  CHECK((judge(deployed, results).failures() == 2 && judge(deployed, results).absent == 0));
-}
-
-TEST_CASE("a peak that t_end cut breaks every requirement on it, whatever it had come to") {
-  Results results(ResultNames{{}, {"root.peak_moment", "root.latch_time"}, true});
-  for (long run = 0; run < 1000; ++run) {
-    const auto value = static_cast<double>(run + 1);
-    results.append({run,
-                    Status::deployed,
-                    {},
-                    {value, value},
-                    "",
-                    "",
-                    run < 3 ? PeaksFinal::no : PeaksFinal::yes});
-  }
-  Requirement peak{"", "root.peak_moment", 1001, {}, .99, .9};
-  const Verdict verdict = judge(peak, results);
-  CHECK(verdict.broken == std::vector<long>{0, 1, 2});
-  CHECK(verdict.cut == 3);
-  CHECK(evidence(verdict) ==
-        "3 of 1000 runs break it (3 of them because t_end cut their peaks); at most "
-        "5 may");
-  peak.max.reset();
-  peak.min = 0;
-  CHECK(judge(peak, results).broken.size() == 3);
-  peak.output = "root.latch_time"; // that one stands, wherever the run ends
-  CHECK((judge(peak, results).broken.empty() && judge(peak, results).cut == 0));
-  const RankedOutput ranks(results, results.outputs[0]);
-  CHECK((ranks.numbers().size() == 997 && std::isinf(ranks.worst_above().back())));
 }
 
 TEST_CASE("a limit on the other side of zero from every value is found") {
