@@ -43,6 +43,7 @@ struct End {
   Status status = Status::timed_out;
   std::string reason; ///< of a stall
   Finality final{};   ///< of the peaks that were asked for, and of the latches
+  std::vector<int> never_released{}, released_later{}; ///< of a stall, as in Outcome
 };
 
 /// Decides whether a run ends at its present state.
@@ -96,9 +97,13 @@ public:
     const bool is_cut_short = run_.goal.first_latch_only && diary_.any_latch();
     // when motion ended tells more than when its end was certain
     if ((goes_to_t_end() || waits_for_rest()) && is_stuck()) stall_.reset();
-    if (!is_cut_short && (events_.releases().held() > 0 || (latches_left() && prove_stall())))
+    const bool no_latch = latches_left() && prove_stall();
+    const auto& releases = events_.releases();
+    if (!is_cut_short && (no_latch || releases.held() > 0)) {
       end.status = Status::stalled, end.reason = stall_.value_or("");
-    else if (!latches_left())
+      end.never_released = releases.never_released();
+      end.released_later = releases.released_later(no_latch, is_stuck());
+    } else if (!latches_left())
       end.status = diary_.any_latch() ? Status::deployed : Status::timed_out;
     if (end.status == Status::deployed && !is_cut_short) end.final.latches = latches_stay();
     if (wants_peaks()) describe_peaks(end.final);
@@ -132,8 +137,8 @@ private:
   }
   /// Whether all latches are engaged, and a hold may still let go. Where latches are left, the proof of a stall asks.
   [[nodiscard]] bool may_release() const {
-    return !latches_left() && events_.releases().may_come(
-                                  T(run_.how.t_end), is_stuck_for_good(run_.system, run_.step.x));
+    return !latches_left() &&
+           events_.releases().may_come(is_stuck_for_good(run_.system, run_.step.x));
   }
   /// Whether any motion changes an output. @see motor_energy.hpp for what counts as a motor's energy
   [[nodiscard]] bool waits_for_rest() const {
@@ -146,8 +151,7 @@ private:
   }
 
   [[nodiscard]] bool is_stuck() const {
-    return is_stuck_for_good(run_.system, run_.step.x) &&
-           !events_.releases().may_come(T(run_.how.t_end), true);
+    return is_stuck_for_good(run_.system, run_.step.x) && !events_.releases().may_come(true);
   }
 
   /// Whether an engaged latch may let go, as far as its holding moment tells.
@@ -206,7 +210,7 @@ private:
     const auto from = [](const T& t) {
       return ", from t = " + in_words(static_cast<double>(t)) + " s on";
     };
-    if (events_.releases().may_come(T(run_.how.t_end), is_stuck())) return false;
+    if (events_.releases().may_come(is_stuck())) return false;
     if (is_stuck())
       stall_ = "every hinge sticks, and the load on them stays as it is" + from(*standstill_);
     else if (!latches_stay())

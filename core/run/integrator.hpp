@@ -350,7 +350,7 @@ private:
 
   void end(const End& how) {
     diary_.close(how.status, how.reason, stepping_.work(), peaks_, how.final);
-    if (how.status == Status::stalled) diary_.blame(events_.releases().never_released());
+    if (how.status == Status::stalled) diary_.blame(how.never_released, how.released_later);
     ended_ = true;
   }
 
