@@ -16,6 +16,7 @@ import assemble
 import mock_numbers as numbers
 import mock_wing
 
+POINTS = 150  # of a scatter at most: enough for a run of each order; the program gives hundreds, and each costs every test of the page its time
 STATUSES = ["deployed", "stalled", "timed_out", "invalid", "failed"]
 
 
@@ -116,11 +117,9 @@ def limited(name, output, kind, limit, unit, both):
 def sensitivity_of(rows, outputs, hinges):
     effects = []
     for name, values in outputs.items():
-        ranked = []
-        for draw in draws_of(hinges):
-            pairs = [(row["draws"][draw], value) for row, value in zip(rows, values) if value is not None]
-            if len(pairs) > 10:
-                ranked.append((numbers.spearman(pairs), draw))
+        known = [(row["draws"], value) for row, value in zip(rows, values) if value is not None]
+        own = numbers.ranks([value for _, value in known])
+        ranked = [(numbers.spearman(numbers.ranks([draws[draw] for draws, _ in known]), own), draw) for draw in draws_of(hinges) if len(known) > 10]
         for rho, draw in sorted(ranked, key=lambda pair: -abs(pair[0]))[:12]:
             width, partial = 1.96 * math.sqrt((1 + rho * rho / 2) / (len(rows) - 3)), max(-1, min(1, 1.06 * rho))
             effects.append({"output": name, "draw": draw, "spearman": rho, "spearman_lower": max(-1, rho - width),
@@ -135,7 +134,7 @@ def scatter(rows, index, draw, name, values, rho):
     density = [0] * 1024
     for _, x, y, _ in kept:
         density[32 * min(31, bisect.bisect_right(y_edges, y) - 1) + min(31, bisect.bisect_right(x_edges, x) - 1)] += 1
-    points = kept[:: max(1, len(kept) // 400 + 1)]
+    points = kept[:: len(kept) // POINTS + 1]
     return {"draw": draw, "output": name, "spearman": rho, "x_edges": x_edges, "y_edges": y_edges, "density": density,
             "points": dict(zip(("run", "x", "y", "order"), map(list, zip(*points))))}
 
