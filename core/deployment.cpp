@@ -104,16 +104,30 @@ template <class Value> void keep_first(std::vector<Value>& all, std::size_t coun
   if (all.size() > count) all.resize(count);
 }
 
+/// The hinges at the ends of flexible body b, on its first and last segment: their moments are the panel's own there.
+[[nodiscard]] std::vector<int> end_hinges(const SegmentedScene& made, std::size_t b) {
+  const int first = made.segments[b].front(), last = made.segments[b].back();
+  std::vector<int> found;
+  for (int hinge = 0; hinge < std::ssize(made.joints); ++hinge) // a tree has as many as bodies
+    for (const int on : {made.scene.hinges[hinge].parent, made.scene.hinges[hinge].child})
+      if (on == first || on == last) found.push_back(hinge);
+  return found;
+}
+
 /// Converts the outcome of a segmented scene to the given scene: drops the joints, but keeps the largest moment in the
-/// joints of each body.
+/// joints and at the ends of each flexible body. The innermost joint alone is half an element away from a clamped end,
+/// where the moment is largest: its error would be about 1/joints.
 [[nodiscard]] Outcome without_joints(const SegmentedScene& made, Outcome&& out) {
   const std::size_t bodies = made.joints.size(), hinges = bodies; // a tree has as many
   if (!out.peak_moment.empty()) {
     out.bending_moment.resize(bodies);
-    for (std::size_t b = 0; b < bodies; ++b)
-      for (const int joint : made.joints[b])
-        if (const Peak& peak = out.peak_moment[joint]; peak.value > out.bending_moment[b].value)
-          out.bending_moment[b] = peak;
+    for (std::size_t b = 0; b < bodies; ++b) {
+      if (made.joints[b].empty()) continue;
+      for (const std::vector<int>& places : {made.joints[b], end_hinges(made, b)})
+        for (const int place : places)
+          if (const Peak& peak = out.peak_moment[place]; peak.value > out.bending_moment[b].value)
+            out.bending_moment[b] = peak;
+    }
   }
   for (LatchEvent& latch : out.latches) keep_first(latch.rates, hinges);
   keep_first(out.peak_moment, hinges), keep_first(out.peak_force, hinges);

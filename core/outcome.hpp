@@ -107,6 +107,12 @@ struct Phase {
   long steps = 0;          ///< accepted
 };
 
+/// What is proven at the end of a run for all later time. The members of the same names in Outcome explain each.
+struct Finality {
+  bool peaks = false, moments = false, forces = false;
+  bool latches = true;
+};
+
 /// All results of one run. Vectors over hinges are in Scene order. The segments and joints of flexible bodies are not
 /// in it, but for bending_moment.
 struct Outcome {
@@ -130,14 +136,13 @@ struct Outcome {
   /// Work of each hinge's motor while the hinge's latch was not engaged, J; 0 without a motor. Empty when not asked
   /// for, or where no hinge has a motor.
   std::vector<double> motor_energy;
-  /// The largest moment in the joints of each flexible body, by Scene::bodies, N·m; empty when no moments are asked
-  /// for, or without flexible bodies. Zero for a rigid body.
+  /// The largest moment in the joints of each flexible body and in the hinges on its end segments, by Scene::bodies, N·m;
+  /// empty when no moments are asked for, or without flexible bodies. Zero for a rigid body.
   std::vector<Peak> bending_moment;
   /// Natural frequencies of the scene with all latches engaged, even if the run did not deploy; lowest first, Hz. Empty
   /// if not asked for, or if the scene is unphysical or has no rest.
   std::vector<double> mode_frequencies;
   /// How far each hinge turned beyond its stowed angle up to t_end, rad, ≥ 0; empty when not asked for.
-  /// Final if peaks_final, unless the run stalled.
   std::vector<double> overtravel;
   /// Largest changes of the base's angle and rate up to t_end; nothing if the base is not free.
   std::optional<BasePeaks> base_peaks;
@@ -145,6 +150,11 @@ struct Outcome {
   /// there is no proof. None exists on a base that turns faster and faster, or if a hinge has neither an engaged latch
   /// nor a spring towards rest.
   bool peaks_final = false;
+  /// The same of the moments alone, those in flexible bodies included, and of the forces alone; true where peaks_final
+  /// is.
+  bool moments_final = false, forces_final = false;
+  /// False: the run deployed, and it is not proven that every latch with a holding_moment stays engaged after t_end.
+  bool latches_final = true;
   Configuration final; ///< at t_end; empty unless Goal::end_state
   EnergyAudit energy;  ///< zeros unless Goal::end_state or audit
   Work work;

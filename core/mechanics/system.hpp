@@ -77,7 +77,7 @@ public:
 
   /// Places every body in the workspace's frames, without forces, and commands the motors.
   void place_all(const State<T>& x, const T& t) {
-    command(t);
+    set_commands(t);
     place_base<M>(wing_, layout_, work_.driven, work_.frames[0], x, t);
     place_bodies<M>(wing_, topology(), work_.frames, x);
   }
@@ -103,7 +103,7 @@ private:
   template <bool forces>
   [[gnu::always_inline]] void evaluate(const State<T>& x, State<T>& dxdt, const T& t) {
     ++work_.evaluations;
-    if (!wing_.motors.empty()) command(t);
+    if (!wing_.motors.empty()) set_commands(t);
     if (work_.stuck > 0) {
       evaluate_with_locks<forces>(x, dxdt, t);
     } else if (!wing_.plates.empty()) {

@@ -26,16 +26,21 @@ template <class T> struct SeenPeaks {
   const std::vector<PeakOf<T>>* holds;           ///< what holds have borne, N·m
 };
 
-/// Whether the peaks seen lie above bounds on all later moments and forces.
+/// Whether the moments, and the forces, that were seen lie above bounds on all later ones. True of those not asked for.
+struct FinalLoads {
+  bool moments = true, forces = true;
+};
+
 /// @param moment, force bounds, hinge i at [i − first]
 template <class T, class Bounds>
-[[nodiscard]] bool no_load_can_rise(const SeenPeaks<T>& seen, int bodies, const Bounds& moment,
-                                    const Bounds& force, int first) {
+[[nodiscard]] FinalLoads final_loads(const SeenPeaks<T>& seen, int bodies, const Bounds& moment,
+                                     const Bounds& force, int first) {
+  FinalLoads all;
   for (int i = 1; i <= bodies; ++i) {
-    if (seen.moments && !(moment[i - first] <= (*seen.moments)[i].value)) return false;
-    if (seen.forces && !(force[i - first] <= (*seen.forces)[i].value)) return false;
+    if (seen.moments && !(moment[i - first] <= (*seen.moments)[i].value)) all.moments = false;
+    if (seen.forces && !(force[i - first] <= (*seen.forces)[i].value)) all.forces = false;
   }
-  return true;
+  return all;
 }
 
 /// Whether no hinge can turn further beyond its stowed angle than it has.
@@ -114,7 +119,12 @@ public:
     is_prepared_ = false;
     modes_.reset();
     thorough_ = {};
+    proven_ = {false, false};
   }
+
+  /// Of which loads any call of `prove` since `reset` has proven that they will not rise, though it may have failed for
+  /// other peaks.
+  [[nodiscard]] const FinalLoads& proven() const { return proven_; }
 
   /// Whether the modes of the latched wing can prove nothing: some do not decay, or there is no
   /// linear model.
@@ -247,7 +257,7 @@ private:
   /// @param time t_end − t, s @param momentum H @param most bounds on all that follows
   [[nodiscard]] bool no_peak_can_rise(const AnySystem& system, const State<T>& x, const T& time,
                                       const T& momentum, const HingeBounds& most,
-                                      const SeenPeaks<T>& seen) const {
+                                      const SeenPeaks<T>& seen) {
     if (seen.base) {
       const int base = BaseExcursion<T>::coordinate;
       const T at_rest = x[base] - T(modes_->turn_of_base(&x[system.layout().angle(1)]));
@@ -286,11 +296,23 @@ private:
     return true;
   }
 
+  /// Whether neither moments nor forces can rise. Notes each of the two that is proven.
+  /// @param moment, force, first as of final_loads
+  template <class Bounds>
+  [[nodiscard]] bool no_load_can_rise(const SeenPeaks<T>& seen, int bodies, const Bounds& moment,
+                                      const Bounds& force, int first) {
+    const FinalLoads now = final_loads(seen, bodies, moment, force, first);
+    proven_.moments = proven_.moments || (seen.moments && now.moments);
+    proven_.forces = proven_.forces || (seen.forces && now.forces);
+    return now.moments && now.forces;
+  }
+
   RemainingEnergy<T> remaining_;
   EnergyBounds<T> bounds_;
   RestModel model_;
   std::optional<ModalBounds> modes_; ///< none: not all modes decay
   ThoroughAttempts<T> thorough_;
+  FinalLoads proven_{false, false};
   bool is_prepared_ = false;
 };
 

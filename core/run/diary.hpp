@@ -78,7 +78,7 @@ public:
 
   /// Makes the outcome of a run that has ended.
   void close(Status status, std::string reason, const Work& work,
-             const PeakSearch<T, AnySystem>& peaks, bool peaks_final) {
+             const PeakSearch<T, AnySystem>& peaks, const Finality& final) {
     end_phase(work.steps);
     const Wing<T>& wing = run_.system.wing();
     Outcome& out = outcome_;
@@ -106,7 +106,9 @@ public:
     if (run_.at.base > 0)
       out.base_peaks = {static_cast<double>(peaks.base().angle),
                         static_cast<double>(peaks.base().rate)};
-    out.peaks_final = peaks_final;
+    out.peaks_final = final.peaks;
+    out.moments_final = final.moments, out.forces_final = final.forces;
+    out.latches_final = final.latches;
     out.work = work;
     if (!run_.goal.end_state) return;
     out.final = configuration_at(run_.system, run_.step.x, run_.step.t);

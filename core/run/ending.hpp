@@ -34,14 +34,15 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace wingspread {
 
 /// How a run has ended.
 struct End {
   Status status = Status::timed_out;
-  std::string reason;       ///< of a stall
-  bool peaks_final = false; ///< proven: no peak that was asked for would be exceeded
+  std::string reason; ///< of a stall
+  Finality final{};   ///< of the peaks that were asked for, and of the latches
 };
 
 /// Decides whether a run ends at its present state.
@@ -99,10 +100,8 @@ public:
       end.status = Status::stalled, end.reason = stall_.value_or("");
     else if (!latches_left())
       end.status = diary_.any_latch() ? Status::deployed : Status::timed_out;
-    if (!wants_peaks()) return end;
-    end.peaks_final = peaks_are_proven_ || is_stuck() ||
-                      ((latches_left() ? prove_stall() : diary_.any_latch()) && latches_stay() &&
-                       prove_peaks_final(false)); // the base's are those up to t_end
+    if (end.status == Status::deployed && !is_cut_short) end.final.latches = latches_stay();
+    if (wants_peaks()) describe_peaks(end.final);
     return end;
   }
 
@@ -233,6 +232,31 @@ private:
                             peaks_.holds().empty() ? nullptr : &peaks_.holds()};
     return final_peaks_.prove(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end), seen,
                               !latches_left());
+  }
+
+  /// Sets what is proven of the peaks. Those of a base, of holds and of overtravel are the ones up to t_end.
+  void describe_peaks(Finality& final) {
+    const Goal& goal = run_.goal;
+    final.peaks = peaks_are_proven_ || is_stuck();
+    const bool settled =
+        final.peaks || ((latches_left() ? prove_stall() : diary_.any_latch()) && latches_stay());
+    final.peaks = final.peaks || (settled && prove_peaks_final(false));
+    final.moments = final.peaks || (settled && goal.peak_moment && prove_moments_final());
+    final.forces = final.peaks || (settled && goal.peak_force && prove_forces_final());
+    if (goal.peak_moment || goal.peak_force)
+      final.peaks = (final.moments || !goal.peak_moment) && (final.forces || !goal.peak_force);
+  }
+  /// Proves it of the moments alone, or of the forces alone, where not all peaks are proven. @pre as above
+  [[nodiscard]] bool prove_moments_final() {
+    return final_peaks_.proven().moments || prove_loads_final(&peaks_.moments(), nullptr);
+  }
+  [[nodiscard]] bool prove_forces_final() {
+    return final_peaks_.proven().forces || prove_loads_final(nullptr, &peaks_.forces());
+  }
+  [[nodiscard]] bool prove_loads_final(const std::vector<PeakOf<T>>* moments,
+                                       const std::vector<PeakOf<T>>* forces) {
+    return final_peaks_.prove(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end),
+                              {moments, forces, nullptr, nullptr, nullptr}, !latches_left());
   }
 
   Underway<T, AnySystem>& run_;

@@ -349,7 +349,7 @@ private:
   }
 
   void end(const End& how) {
-    diary_.close(how.status, how.reason, stepping_.work(), peaks_, how.peaks_final);
+    diary_.close(how.status, how.reason, stepping_.work(), peaks_, how.final);
     if (how.status == Status::stalled) diary_.blame(events_.releases().never_released());
     ended_ = true;
   }

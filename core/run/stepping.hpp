@@ -89,7 +89,8 @@ public:
   [[nodiscard]] std::optional<std::string> plan() {
     if (h_ < T(0)) choose_first_step();
     if (tried_ >= run_.how.max_steps)
-      return "the limit of " + std::to_string(run_.how.max_steps) + " steps was reached";
+      return "the limit of " + std::to_string(run_.how.max_steps) +
+             " steps (max_steps) was reached";
     const T rest = end_of_stretch() - run_.step.t, wanted = wanted_step(rest);
     last_ = wanted >= rest * T(1 - 1e-12);
     run_.step.h = last_ ? rest : wanted;

@@ -138,7 +138,8 @@ class FitChecks:
 
     def fit_predictions(self, fit):
         """The outputs that vary, in degrees and in radians."""
-        varies = {name: one for name, one in fit["prediction"].items() if any(low != high for low, _, high in one.values())}
+        varies = {name: one for name, one in fit["prediction"].items()
+                  if any(one[when][0] != one[when][2] for when in ("before", "after"))}
         for unit, factor in (("rad", 1), ("deg", DEGREES)):
             self.run_script("const s = document.getElementById('angles'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", unit)
             for row, (name, one) in zip(self.table("Prediction: median (5 % … 95 %)"), varies.items(), strict=True):

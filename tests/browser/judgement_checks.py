@@ -75,6 +75,8 @@ class JudgementChecks:
         heads = lambda given: (self.told("#verdicts", given), self.run_script("return [...document.querySelector('table.requirements').tHead.rows[0].cells].map(one => one.textContent)"))[1][2:4]
         self.assertEqual([heads(rows), heads(rows[:3]), heads(rows[4:]), heads([rows[0], {**rows[1], "confidence": 0.5}])],
                          [["Quantile or share", "One-sided 90 % bound"], ["Quantile", "One-sided 90 % bound"], ["Share", "One-sided 90 % bound"], ["Quantile", "One-sided bound"]])
+        self.told("#verdicts", [rows[0], {**rows[2], "allowed": 10, "cut": 30}])
+        self.assertIn("none: t_end cut peaks", [row[3] for row in self.table("Requirements, the worst first")])
         bars = self.run_script("W.set().statuses = [['deployed', 1990], ['stalled', 6], ['failed', 4], ['invalid', 0]].map(([status, count]) => ({ status, count, rate: count / 2000, lower: 0, upper: 1 })); W.outcomes(); return [...document.querySelectorAll('.stack span')].map(one => [one.className, Number(one.style.flexGrow)])")
         self.assertEqual(bars, [["deployed", 1990], ["stalled", 12], ["failed", 12]])  # the few can be seen
 

@@ -53,6 +53,17 @@ TEST_CASE("new keeps files that it did not make, and makes the same ones again")
   CHECK(contents(wing) == before);
 }
 
+TEST_CASE("numbers of a yoke need a yoke") {
+  const Folder folder;
+  for (const char* option : {"--yoke-mass", "--yoke-length"}) {
+    const std::string out = folder.path() / option;
+    const auto refused = run_program(folder, {"new", "--out", out, "--panels", "2", option, "2"});
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.error, HasFacts({option, "requires --yoke"}));
+    CHECK(run_program(folder, {"new", "--out", out, "--yoke", option, "2"}).code == 0);
+  }
+}
+
 TEST_CASE("new refuses a wing that cannot be, and says if one does not deploy") {
   const Folder folder;
   const std::string out = folder.path() / "w";

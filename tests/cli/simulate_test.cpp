@@ -173,7 +173,8 @@ TEST_CASE("a simulation that fails says why") {
       run_program(folder, {"simulate", folder.write("campaign.json", campaign.dump()), "--json"});
   CHECK(code == 3);
   CHECK(parse_json(out)["status"] == "failed");
-  CHECK(error.starts_with("error: the run failed numerically: the limit of 10 steps was reached"));
+  CHECK(error.starts_with(
+      "error: the run failed numerically: the limit of 10 steps (max_steps) was reached"));
 }
 
 TEST_CASE("check says what a file holds, or all that is wrong with it") {

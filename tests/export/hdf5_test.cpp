@@ -92,9 +92,11 @@ void check_rows(const H5::Group& group, const std::filesystem::path& folder) {
   if (!rows.has_peaks_final) return;
   const auto final = numbers<signed char>(group, "peaks_final", H5::PredType::NATIVE_SCHAR);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const int code = rows.peaks_final[i] == PeaksFinal::yes  ? 1
-                     : rows.peaks_final[i] == PeaksFinal::no ? 0
-                                                             : -1;
+    const int code = rows.peaks_final[i] == PeaksFinal::yes       ? 1
+                     : rows.peaks_final[i] == PeaksFinal::no      ? 0
+                     : rows.peaks_final[i] == PeaksFinal::moments ? 2
+                     : rows.peaks_final[i] == PeaksFinal::forces  ? 3
+                                                                  : -1;
     CHECK(final[i] == code);
   }
 }

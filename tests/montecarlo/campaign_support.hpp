@@ -40,6 +40,27 @@ inline Json full_campaign(int runs) {
   return campaign;
 }
 
+/// One panel under a constant torque, with a soft latch. All runs deploy at 2.15 to 2.2 s, and their moment peaks about
+/// 0.5 s later, below 15 N·m: t_end between the two cuts the peaks of all runs.
+inline Json ringing_panel(int runs, double t_end, double dissipation) {
+  Json campaign = parse_json(R"({
+    "scene": { "name": "ringing_panel", "base": { "motion": "fixed" },
+      "bodies": [ { "name": "panel", "mass": 10, "inertia": 0.5 } ],
+      "hinges": [ { "name": "root", "parent": "base", "child": "panel",
+        "parent_point": [0, 0], "child_point": [-0.5, 0],
+        "angle": { "stowed": "90 deg", "latched": 0 },
+        "spring": { "torque_stowed": 2, "torque_latched": 2 },
+        "latch": { "stiffness": 30 } } ] },
+    "dispersions": [ { "name": "spring", "distribution": { "type": "uniform", "lower": 0.98, "upper": 1.02 },
+                       "apply": "scale", "to": ["hinges.root.spring.scale"] } ],
+    "requirements": [ { "output": "root.peak_moment", "max": 20, "probability": 0.9, "confidence": 0.9 } ],
+    "margin": { "scale": ["hinges.root.spring.scale"], "range": [0.9, 1.6] } })");
+  campaign["scene"]["hinges"][0]["latch"]["dissipation"] = dissipation;
+  campaign["sampling"] = {{"runs", runs}, {"seed", 3}};
+  campaign["integration"] = {{"t_end", t_end}};
+  return campaign;
+}
+
 inline Campaign campaign_of(const Json& json) { return read_campaign(json.dump(), ""); }
 
 inline const std::atomic<bool> never = false;

@@ -14,7 +14,6 @@
 namespace wingspread {
 namespace {
 
-constexpr long predicted_runs = 1000;
 constexpr std::array<double, 3> predicted_quantiles{0.05, 0.5, 0.95};
 
 void refuse_unsuitable(const std::filesystem::path& folder, bool resume) {
@@ -29,19 +28,29 @@ void refuse_unsuitable(const std::filesystem::path& folder, bool resume) {
     refuse("no interrupted study", "one to continue, or a new or an empty folder");
 }
 
-/// The output columns of the first runs, sorted; without missing values.
-std::vector<std::vector<double>> sorted_outputs(const Campaign& campaign, ThreadPool pool,
-                                                const std::atomic<bool>& stop) {
+/// An output of the first runs.
+struct OutputOfRuns {
+  std::vector<double> values{}; ///< sorted, without missing ones
+  long cut = 0;                 ///< runs whose peak t_end cut
+};
+
+/// The output columns of the first runs.
+std::vector<OutputOfRuns> sorted_outputs(const Campaign& campaign, ThreadPool pool,
+                                         const std::atomic<bool>& stop) {
   const RunPlan plan(campaign);
-  std::vector<std::vector<double>> outputs(plan.names().outputs.size());
+  const std::vector<std::string>& names = plan.names().outputs;
+  std::vector<OutputOfRuns> outputs(names.size());
   const auto keep = [&](const Batch& batch) {
     for (const ResultRow& row : batch.rows)
-      for (std::size_t i = 0; i < outputs.size(); ++i)
-        if (std::isfinite(row.outputs[i])) outputs[i].push_back(row.outputs[i]);
+      for (std::size_t i = 0; i < outputs.size(); ++i) {
+        if (std::isfinite(row.outputs[i])) outputs[i].values.push_back(row.outputs[i]);
+        if (is_cut(peak_kind(names[i]), row.peaks_final.value_or(PeaksFinal::unknown)))
+          ++outputs[i].cut;
+      }
   };
   if (evaluator_of(pool, stop)->make(plan, {0, predicted_runs}, {keep}) < predicted_runs)
     throw Stopped{};
-  for (std::vector<double>& output : outputs) std::ranges::sort(output);
+  for (OutputOfRuns& output : outputs) std::ranges::sort(output.values);
   return outputs;
 }
 
@@ -82,11 +91,12 @@ std::vector<PredictedOutput> predicted_outputs(const Campaign& before, const Cam
   const auto first = sorted_outputs(before, pool, stop), second = sorted_outputs(after, pool, stop);
   std::vector<PredictedOutput> all;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (first[i].empty() || second[i].empty()) continue;
+    if (first[i].values.empty() || second[i].values.empty()) continue;
     PredictedOutput& output = all.emplace_back(PredictedOutput{names[i]});
+    output.cut = first[i].cut + second[i].cut;
     for (std::size_t k = 0; k < predicted_quantiles.size(); ++k) {
-      output.before[k] = quantile(first[i], predicted_quantiles[k]);
-      output.after[k] = quantile(second[i], predicted_quantiles[k]);
+      output.before[k] = quantile(first[i].values, predicted_quantiles[k]);
+      output.after[k] = quantile(second[i].values, predicted_quantiles[k]);
     }
   }
   return all;

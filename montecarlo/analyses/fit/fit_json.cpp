@@ -127,7 +127,8 @@ Json fit_json(const FitResult& result, const FitSpec& spec, const Json& about) {
   Json prediction = Json::object();
   for (const PredictedOutput& output : result.prediction)
     prediction[output.name] = {{"before", quantiles_json(output.before)},
-                               {"after", quantiles_json(output.after)}};
+                               {"after", quantiles_json(output.after)},
+                               {"cut", output.cut}};
   Json json = about;
   json.update({{"finished", result.finished},
                {"findings", fit_findings(result, spec)},

@@ -216,7 +216,7 @@ private:
       named = object.required("file", file, "a string, the name of a CSV file");
       columns.push_back({at, "", "", "s", true});
       if (const auto time = object.require("time", "the time's column"))
-        read_header(*time, columns.back());
+        if (auto header = read_header(*time, columns.back())) header->refuse_others();
     }
     object.optional("time_offset_std", test.time_offset_std, Dimension{"s", "≥ 0"},
                     is_not_negative);

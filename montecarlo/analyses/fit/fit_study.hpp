@@ -70,10 +70,14 @@ inline constexpr double conflict_sigmas = 4;
 /// so much; one that the tests put twice its standard deviation inside the limit has not.
 inline constexpr double at_limit = 0.01, share_at_limit = 0.25;
 
+/// Runs of each campaign, before and after the tests, for the prediction.
+inline constexpr long predicted_runs = 1000;
+
 /// Quantiles 5, 50 and 95 % of an output with the priors and with the posterior.
 struct PredictedOutput {
   std::string name;
   std::array<double, 3> before{}, after{};
+  long cut = 0; ///< runs of both whose peak t_end cut (finality.hpp)
 };
 
 struct FitResult {

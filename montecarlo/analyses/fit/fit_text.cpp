@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/formats/text_layout.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -156,6 +157,18 @@ std::string candidates_text(const FitResult& result) {
   return text;
 }
 
+/// Finds the predicted peaks that t_end cut.
+void add_cut_peaks(const FitResult& result, std::vector<std::string>& list) {
+  std::vector<std::string> names;
+  long most = 0;
+  for (const PredictedOutput& output : result.prediction)
+    if (output.cut > 0) names.push_back(output.name), most = std::max(most, output.cut);
+  if (!names.empty())
+    list.push_back(fmt::format("t_end cut the predicted peaks of {} in up to {} of {} runs: their "
+                               "quantiles are those of the cut values. Lengthen t_end",
+                               fmt::join(names, ", "), most, 2 * predicted_runs));
+}
+
 std::string prediction_text(const FitResult& result) {
   if (result.prediction.empty()) return "";
   std::string text =
@@ -175,6 +188,7 @@ std::string prediction_text(const FitResult& result) {
 std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& spec) {
   std::vector<std::string> list;
   add_misfits(result, spec, list);
+  add_cut_peaks(result, list);
   if (!result.finished)
     list.push_back(fmt::format(
         "not finished: effective sample size {:.0f} of {}, split R-hat {:.3f} "

@@ -6,7 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <map>
+#include <numeric>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -41,6 +45,40 @@ std::vector<double> confidences_of(const Campaign& campaign, const MarginResult&
     confidences.push_back(
         confidence_alone(campaign.requirements, campaign.requirements[condition.requirement]));
   return confidences;
+}
+
+/// Whether only the cut peaks stand against every requirement that a scale does not meet.
+bool is_closed_by_cut_peaks(const MarginSearch& search) {
+  return std::ranges::any_of(search.seen, [](const auto& seen) {
+    if (failing(seen.second).empty()) return false;
+    return std::ranges::all_of(seen.second, [](const CaseLook& look) {
+      return std::ranges::all_of(look.verdicts, [](const Verdict& verdict) {
+        return verdict.decision == Decision::pass || rests_on_cut_peaks(verdict);
+      });
+    });
+  });
+}
+
+std::string warn_of(const CutPeaks& each, const MarginResult& result) {
+  return fmt::format("{}{}: at scale {} t_end cut the peak in {} of {} runs, and a cut peak breaks "
+                     "the requirement. Lengthen t_end",
+                     each.requirement,
+                     result.cases.size() == 1 ? "" : fmt::format(" ({})", each.which_case),
+                     each.scale, each.cut, each.runs);
+}
+
+/// The warning of the scale with most deployed runs whose latches may let go after t_end.
+std::optional<std::string> open_latches(const MarginSearch& search) {
+  long most = 0, runs = 0;
+  double at = 1;
+  for (const auto& [scale, look] : search.seen)
+    for (const CaseLook& each : look)
+      if (each.open_latches > most) {
+        most = each.open_latches, at = scale;
+        runs = std::accumulate(each.statuses.begin(), each.statuses.end(), 0L);
+      }
+  if (most == 0) return std::nullopt;
+  return fmt::format("at scale {} {}", at, warn_of_open_latches(most, runs));
 }
 
 /// Whether more runs break the condition, or its quantile comes nearer to the limit.
@@ -150,12 +188,36 @@ std::string why_this_one(const MarginSearch& search) {
                                               : "their geometric mean is recommended");
 }
 
+std::vector<CutPeaks> cut_peaks(const MarginResult& result, const MarginSearch& search) {
+  std::map<std::pair<std::size_t, std::size_t>, CutPeaks> most; // by case and verdict
+  for (const auto& [scale, look] : search.seen)
+    for (std::size_t which = 0; which < look.size(); ++which)
+      for (std::size_t k = 0; k < look[which].verdicts.size(); ++k) {
+        const Verdict& verdict = look[which].verdicts[k];
+        const bool used = scale == 1 || scale == search.recommended;
+        if (verdict.cut == 0 || !(used || rests_on_cut_peaks(verdict))) continue;
+        CutPeaks& known = most[{which, k}];
+        const CutPeaks here{scale, to_string(verdict.requirement), result.cases[which].name,
+                            verdict.cut, verdict.runs};
+        const auto rank = [](const CutPeaks& each) {
+          return std::pair(each.cut, -std::abs(std::log(each.scale)));
+        };
+        if (rank(here) > rank(known)) known = here;
+      }
+  std::vector<CutPeaks> all;
+  for (auto& [place, each] : most) all.push_back(std::move(each));
+  return all;
+}
+
 std::string why_withheld(const MarginSearch& search) {
   switch (search.withheld) {
   case Withheld::nothing:
     return "";
   case Withheld::no_window:
-    return "no scale that was looked at meets all requirements";
+    return fmt::format("no scale that was looked at meets all requirements{}",
+                       is_closed_by_cut_peaks(search)
+                           ? "; at some only because t_end cut peaks: lengthen t_end"
+                           : "");
   case Withheld::no_lower_edge:
     return fmt::format("nothing fails down to {}: no edge was found, and how far down the springs "
                        "may go is not known",
@@ -174,6 +236,8 @@ std::string why_withheld(const MarginSearch& search) {
 std::vector<std::string> margin_warnings(const MarginResult& result) {
   std::vector<std::string> lines;
   for (const MarginSearch& search : result.searches) {
+    for (const CutPeaks& each : cut_peaks(result, search)) lines.push_back(warn_of(each, result));
+    if (const auto open = open_latches(search)) lines.push_back(*open);
     if (!search.recommended) continue;
     std::string margins;
     for (const Shortfall& each :

@@ -70,11 +70,22 @@ concessions(const Campaign& campaign, const MarginResult& result, const MarginSe
 /// The rule by which the recommended scale was chosen: "least strain", "present springs" or "geometric mean".
 [[nodiscard]] std::string_view rule_of(const MarginSearch& search);
 
+/// The cut peaks (finality.hpp) of a requirement in a case at one scale.
+struct CutPeaks {
+  double scale = 1;
+  std::string requirement, which_case;
+  long cut = 0, runs = 0;
+};
+/// For each condition the scale with most cut peaks; of equals the one nearest to the present springs. Of scales at
+/// which they alone stand against a pass, of the present springs and of the recommended ones.
+[[nodiscard]] std::vector<CutPeaks> cut_peaks(const MarginResult& result,
+                                              const MarginSearch& search);
+
 /// The reason why no scale is recommended; empty if one is.
 [[nodiscard]] std::string why_withheld(const MarginSearch& search);
 
 /// Warnings of the recommended scales: static margins of the nominal wing below 0. No run shows them: a wing may deploy
-/// by momentum.
+/// by momentum. And of all scales: peaks that t_end cut, and latches that may let go after it.
 [[nodiscard]] std::vector<std::string> margin_warnings(const MarginResult& result);
 
 /// Whether every search has a confirmed window. The exit code of `margin` depends on it.

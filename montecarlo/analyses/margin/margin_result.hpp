@@ -32,6 +32,8 @@ struct CaseLook {
   std::vector<Verdict> verdicts;  ///< one for each requirement that applies
   /// For each verdict the required quantile over the runs with the output; NaN without such runs.
   std::vector<double> quantiles{};
+  long open_latches =
+      0; ///< deployed runs of which it is not proven that their latches stay engaged
 };
 using ScaleLook = std::vector<CaseLook>; ///< one per case
 

@@ -101,6 +101,7 @@ double quantile_over_runs(const Requirement& requirement, const Results& results
 CaseLook look_of(const Campaign& campaign, const MarginCase& which, const Results& results) {
   CaseLook look;
   for (const Status status : results.status) ++look.statuses[static_cast<std::size_t>(status)];
+  look.open_latches = count_open_latches(results);
   look.verdicts = judge_campaign(campaign, results);
   std::erase_if(look.verdicts,
                 [&](const Verdict& verdict) { return !applies(verdict.requirement, which); });

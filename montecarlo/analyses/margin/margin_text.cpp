@@ -73,9 +73,10 @@ private:
   /// "at 1.18: pass: 2 of 2000 runs break it, 2 allowed".
   [[nodiscard]] std::string at(std::size_t condition, double scale) const {
     const Verdict& seen = verdict(condition, scale);
-    return fmt::format("{:34}at {}: {}: {} of {} runs break it, {} allowed\n", "", scale,
-                       to_string(seen.decision), seen.broken.size(), seen.runs,
-                       seen.allowed.value_or(0));
+    return fmt::format(
+        "{:34}at {}: {}: {} of {} runs break it, {} allowed\n{}", "", scale,
+        to_string(seen.decision), seen.broken.size(), seen.runs, seen.allowed.value_or(0),
+        seen.cut > 0 ? fmt::format("{:34}t_end cut the peak in {} of them\n", "", seen.cut) : "");
   }
 
   [[nodiscard]] std::string edge(const char* label, const MarginEdge& edge) const {
@@ -170,6 +171,11 @@ private:
     std::string text = "  EMPTY: no scale meets all requirements.\n";
     for (const std::size_t condition : closed_by(looks_))
       text += fmt::format("    {}\n", wrapped(name(condition) + ": " + holds(condition), 6));
+    for (const CutPeaks& each : cut_peaks(report_.result, search_))
+      text += fmt::format("    {}\n",
+                          wrapped(fmt::format("t_end cut the peak in {} of {} runs at scale {}: {}",
+                                              each.cut, each.runs, each.scale, each.requirement),
+                                  6));
     return text;
   }
 

@@ -1,6 +1,7 @@
 #include "montecarlo/analyses/rare/limit_state.hpp"
 
 #include "core/scene/torque.hpp"
+#include "montecarlo/engine/runs/finality.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/spec_error.hpp"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -134,6 +136,7 @@ double LimitState::of_deployed(const Scene& scene, const Outcome& outcome) const
 
 double LimitState::of(const Scene& scene, const Outcome& outcome) const {
   if (column_) {
+    if (is_cut(peak(), peaks_final_of(outcome))) return std::numeric_limits<double>::quiet_NaN();
     const double value = output_of(*column_, outcome);
     return event_.above ? event_.limit - value : value - event_.limit;
   }

@@ -8,7 +8,7 @@
 ///
 /// An output beyond a limit:  g = limit − value (event above) or value − limit (event below), in the output's unit. A
 /// run without the output (no deployment time, or a failed run without peaks) counts as the event, just as it breaks a
-/// requirement.
+/// requirement. So does a run whose peak t_end cut (finality.hpp): g is NaN.
 ///
 /// Not deployed:  for a deployed wing g is the smallest of its reserves, each as a share of the nominal wing's:
 ///
@@ -56,7 +56,11 @@ public:
   [[nodiscard]] const RareEvent& event() const { return event_; }
   /// The quantities that a run must compute for the event.
   [[nodiscard]] const Goal& goal() const { return goal_; }
-  /// g of a run; NaN for a run without the output (subset_simulation counts NaN as the event).
+  /// The family of the event's output, if it is a peak.
+  [[nodiscard]] PeakKind peak() const {
+    return column_ ? peak_kind(column_->name) : PeakKind::none;
+  }
+  /// g of a run; NaN for a run without the output, and for a cut peak (subset_simulation counts NaN as the event).
   [[nodiscard]] double of(const Scene& scene, const Outcome& outcome) const;
   /// g as a Measure of a RunPlan, with the event as its recipe. @pre the limit state outlives it
   [[nodiscard]] Measure measure() const;

@@ -23,7 +23,7 @@ double distance(const NormalPoint& z) {
 class NormalRuns {
 public:
   NormalRuns(const Campaign& campaign, const LimitState& limit_state, Evaluator& evaluator)
-      : evaluator_(evaluator),
+      : evaluator_(evaluator), peak_(limit_state.peak()),
         plan_(
             campaign,
             [this](long k, std::span<Tails> u) {
@@ -37,6 +37,7 @@ public:
   struct Judged {
     double g;
     Status status;
+    bool cut, open; ///< t_end cut the peak; a latch may let go after it
   };
 
   /// g and status of the runs at the points, in their order. @throws Stopped
@@ -47,7 +48,10 @@ public:
     const RunRange all{0, std::ssize(points)};
     std::vector<Judged> judged;
     const auto keep = [&](const Batch& batch) {
-      for (const ResultRow& row : batch.rows) judged.push_back({row.outputs.front(), row.status});
+      for (const ResultRow& row : batch.rows)
+        judged.push_back({row.outputs.front(), row.status,
+                          is_cut(peak_, row.peaks_final.value_or(PeaksFinal::unknown)),
+                          row.status == Status::deployed && row.reason == latches_may_open});
       told(std::ssize(judged));
     };
     if (evaluator_.make(plan_, all, {keep}) < all.size()) throw Stopped{};
@@ -69,6 +73,7 @@ public:
 
 private:
   Evaluator& evaluator_;
+  PeakKind peak_;
   std::span<const NormalPoint> points_; ///< the points of the plan's runs
   RunPlan plan_;
 };
@@ -170,9 +175,10 @@ private:
     const auto told = [&](long now) {
       progress_({0, 0, made_ + now, std::max(most_, made_ + now)});
     };
-    for (const auto& [value, status] : runs_.judge(moved, told)) {
+    for (const auto& [value, status, cut, open] : runs_.judge(moved, told)) {
       values.push_back(value);
       ++result_.statuses[static_cast<std::size_t>(status)];
+      result_.cut += cut, result_.open_latches += open;
     }
     made_ += std::ssize(points);
     return values;

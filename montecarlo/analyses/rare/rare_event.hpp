@@ -41,6 +41,8 @@ struct RareResult {
   std::vector<std::pair<std::string, double>> unseen;
   RareEstimate estimate;                 ///< over all strata
   std::array<long, 5> statuses{};        ///< of all runs made, in the order of Status
+  long cut = 0;                          ///< runs whose peak t_end cut; they count as the event
+  long open_latches = 0;                 ///< deployed runs whose latches may let go after t_end
   std::optional<LikeliestRun> likeliest; ///< none if no sampled run has the event
 };
 

@@ -220,6 +220,14 @@ bool matters(const StratumEstimate& part, const RareEstimate& all) {
   return part.stratum.probability * part.estimate.interval.upper >= 0.01 * all.interval.upper;
 }
 
+/// "t_end cut the peak in 500 of 500 runs: …"; empty if it cut none.
+std::string cut_text(const RareResult& result) {
+  if (result.cut == 0) return "";
+  return fmt::format("t_end cut the peak in {} of {} runs: they count as the event, so the "
+                     "probability may be too large. Lengthen t_end",
+                     result.cut, result.estimate.evaluations);
+}
+
 std::string unseen_text(const std::string& name, double draws) {
   return fmt::format(
       "\"{}\" has values that the simulation may miss: the rarest one is drawn {:.2g} "
@@ -232,6 +240,9 @@ std::string unseen_text(const std::string& name, double draws) {
 
 std::vector<std::string> doubts_of(const RareResult& result) {
   std::vector<std::string> doubts;
+  if (result.cut > 0) doubts.push_back(cut_text(result));
+  if (result.open_latches > 0)
+    doubts.push_back(warn_of_open_latches(result.open_latches, result.estimate.evaluations));
   const auto any = [&](auto is) {
     return std::ranges::any_of(result.strata, [&](const StratumEstimate& part) {
       return matters(part, result.estimate) && is(part);
@@ -281,14 +292,17 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
          "the estimated probability of its last level, which is larger than the event's; one that "
          "stopped because all its runs were equally far from the event counts with 0; by "
          "plain_sampling: with_event over the runs of the first_levels"},
-        {"bias", "relative error by which the probability is too large on average: 0.4 times "
+        {"bias", "relative error by which the probability is too large on average: 0.5 times "
                  "the squared variation of a repeat, as measured on events of known probability; "
-                 "neither probability nor bounds are corrected for it"},
+                 "the lower bound is less by it; probability and upper bound are not corrected"},
         {"variation", "coefficient of variation of the mean: by the correlation along chains, "
                       "by the repeats' spread, and the larger of the two"},
-        {"bounds", "probability exp(+- q variation), q normal or Student's, the wider; no "
+        {"bounds", "probability exp(+- q variation), q normal or Student's, the wider; the lower "
+                   "one less by the bias; no "
                    "lower one where a repeat did not reach the event; by plain_sampling: "
                    "Clopper-Pearson, two-sided"},
+        {"peaks_cut", "runs whose peak t_end cut: they count as the event, as they break a "
+                      "requirement in wingspread run"},
         {"plain_runs", "runs of plain sampling for the same variation"},
         {"distance", "of the likeliest run: length of the vector of its normal coordinates, "
                      "of rows drawn together one coordinate"},
@@ -307,6 +321,7 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
       {"warnings", doubts_of(result)},
       {"repeats", repeats_json(result.strata.front(), options.event)},
       {"statuses", by_status},
+      {"peaks_cut", result.cut},
       {"likeliest",
        result.likeliest ? likeliest_json(*result.likeliest, campaign) : Json(nullptr)}};
 }
@@ -319,6 +334,7 @@ std::string rare_text(const RareResult& result, const RareOptions& options,
                   campaign.scene.name, campaign.of_case.empty() ? "" : " · " + campaign.of_case,
                   options.repeats, options.samples, campaign.sampling.seed);
   text += result_text(result, options.confidence, with_unit(options.event));
+  if (result.cut > 0) text += paragraph(cut_text(result), 0);
   if (all.reached && all.bias > 0)
     text += fmt::format("Bias: such estimates are too large by about {} on average\n",
                         percent(all.bias, 1));

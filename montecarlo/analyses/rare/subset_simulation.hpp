@@ -17,19 +17,20 @@
 ///
 ///     z' = ρ z + √(1 − ρ²) ξ,  ξ standard normal; z' is taken if g(z') ≤ b_j, else z stays  (2)
 ///
-/// This leaves the normal law restricted to {g ≤ b_j} invariant, and each coordinate may have a ρ_i of its own.
-/// Coordinates in which the seeds lie close together move less: 1 − ρ_i² = min(1, λ s_i)², with s_i the seeds' standard
-/// deviation. λ is adapted so that 44 % of the moves are accepted.
+/// This leaves the normal law restricted to {g ≤ b_j} invariant. 1 − ρ² = λ², and λ ≤ 1 is adapted so that 44 % of the
+/// moves are accepted. A λ of each coordinate in proportion to the seeds' standard deviation there (Papaioannou et al.)
+/// was ruled out: that deviation follows the seeds' own values, so the largest coordinates shrink the most. With |z|² of
+/// 24 coordinates as the limit state and N = 500, estimates were 22 % too small, and 16.6 % of 95 % upper bounds below
+/// P. With one λ they are 6 % too large, and 1.5 % are; other limit states have the same δ by either.
 ///
 ///     δ² = Σ δ_j²,  δ_j² = (1 − P_j)/(P_j N) (1 + γ_j)                                      (3)
 ///     γ_j = 2 Σ_k (1 − k/L) r_j(k)                                                          (4)
 ///
 /// with r_j(k) the correlation between points of a chain that are k steps apart.
 ///
-/// Bias: on average the estimate exceeds P by about 0.4 δ² P (δ of one repetition), because thresholds and shares come
-/// from the same points. Measured on events of known probability 8e-4: +1.6 ± 0.9 % with N = 2000, +4.7 ± 1.2 % with
-/// N = 500. The bias decreases as 1/N; averaging repetitions does not reduce it. Adapting λ within a level is not the
-/// cause: with λ fixed per level the bias was +3.9 ± 1.3 %.
+/// Bias: on average the estimate exceeds P by about 0.5 δ² P (δ of one repetition), because thresholds and shares come
+/// from the same points. README.md has the measurements: +0.3 to +0.6 δ². The bias decreases as 1/N; averaging
+/// repetitions does not reduce it. Adapting λ within a level is not the cause: with λ fixed per level it was as large.
 ///
 /// An event that is not rare: a repetition ends at its first level if n_1 ≥ c. If one does, or if none has a second
 /// level, the first levels of all R repetitions are pooled: N R independent draws, of which `hits` have the event, with
@@ -128,8 +129,8 @@ struct RareEstimate {
 };
 
 /// The mean of the estimates. Its interval is P exp(± q δ), the wider of two: δ by (3) with the normal quantile q, and
-/// δ from the spread with Student's. If the event was not reached, the interval starts at 0 and its upper end is
-/// estimated, not guaranteed. An event that is not rare, and an atom: see above.
+/// δ from the spread with Student's; the lower end is less by the bias. If the event was not reached, the interval starts
+/// at 0 and its upper end is estimated, not guaranteed. An event that is not rare, and an atom: see above.
 /// @pre at least one estimate; all have the same number of samples
 [[nodiscard]] RareEstimate combined(std::span<const SubsetEstimate> estimates, double confidence);
 

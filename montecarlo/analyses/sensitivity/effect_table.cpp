@@ -1,5 +1,6 @@
 #include "montecarlo/analyses/sensitivity/effect_table.hpp"
 
+#include "montecarlo/engine/runs/finality.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 
@@ -57,6 +58,8 @@ std::string heading_of(const std::string& output, long count, std::string_view c
   return text;
 }
 
+std::string cut_heading(long cut) { return cut > 0 ? fmt::format(" · {} cut by t_end", cut) : ""; }
+
 std::string effect_block(const std::string& heading, const std::string& columns, std::size_t count,
                          const std::function<double(std::size_t)>& size,
                          const std::function<std::string(std::size_t)>& line) {
@@ -100,6 +103,23 @@ std::string MovedBy::table(std::string_view heading) const {
 
 std::string quoted(const std::vector<std::string>& names) {
   return fmt::format("\"{}\"", fmt::join(names, "\", \""));
+}
+
+void warn_of_t_end(const std::vector<CutOutput>& outputs, long open_latches, long runs,
+                   std::vector<std::string>& warnings) {
+  std::vector<std::string> names;
+  long least = runs, most = 0;
+  for (const auto& [name, cut] : outputs) {
+    if (cut == 0) continue;
+    names.push_back(name);
+    least = std::min(least, cut), most = std::max(most, cut);
+  }
+  if (!names.empty())
+    warnings.push_back(fmt::format(
+        "in {}{} of {} runs t_end cut the peaks of {}: the effects are those on the values cut at "
+        "t_end, not on the peaks. Sign and order may differ with a longer t_end",
+        least < most ? fmt::format("{} to ", least) : "", most, runs, quoted(names)));
+  if (open_latches > 0) warnings.push_back(warn_of_open_latches(open_latches, runs));
 }
 
 } // namespace wingspread

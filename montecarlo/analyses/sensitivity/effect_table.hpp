@@ -29,6 +29,9 @@ inline constexpr std::size_t name_width = 30;
                                      std::string_view counted, long missing,
                                      std::string_view what_of_them);
 
+/// " · 12 cut by t_end"; empty for none.
+[[nodiscard]] std::string cut_heading(long cut);
+
 /// One output's table: the largest effects first, one line for the rest.
 /// @param size sort key of each of `count` dispersions; NaN comes last
 /// @param line text of each dispersion, with its line feed
@@ -55,6 +58,16 @@ private:
   std::string lines_;
   std::vector<std::string> unmoved_;
 };
+
+/// An output with cut peaks (finality.hpp).
+struct CutOutput {
+  std::string name;
+  long cut = 0; ///< runs
+};
+/// Adds the warnings of what t_end cut: peaks, and latches that may let go after it.
+/// @param outputs all; those without cut peaks are left out
+void warn_of_t_end(const std::vector<CutOutput>& outputs, long open_latches, long runs,
+                   std::vector<std::string>& warnings);
 
 /// `"a", "b"`.
 [[nodiscard]] std::string quoted(const std::vector<std::string>& names);

@@ -33,10 +33,6 @@ struct Values {
   std::vector<double> y;
 };
 
-bool is_cut(const Results& results, std::string_view output, std::size_t row) {
-  return is_peak(output) && results.peaks_final[row] == PeaksFinal::no;
-}
-
 bool has_draws(const Results& results, std::size_t row) {
   return std::ranges::all_of(results.draws,
                              [row](const Column& draw) { return std::isfinite(draw.values[row]); });
@@ -50,7 +46,7 @@ Values limited_values(const Requirement& requirement, const Results& results) {
   for (std::size_t row = 0; row < results.size(); ++row) {
     const double y = requirement.absolute ? std::abs(column->values[row]) : column->values[row];
     if (results.status[row] != Status::deployed || !std::isfinite(y) ||
-        is_cut(results, column->name, row) || !has_draws(results, row))
+        results.is_cut(row, peak_kind(column->name)) || !has_draws(results, row))
       continue;
     values.rows.push_back(row);
     values.y.push_back(sign_of(requirement) * y);

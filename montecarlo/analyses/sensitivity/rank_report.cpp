@@ -45,6 +45,7 @@ Json sensitivity_json(const RankSensitivity& all, const Json& about) {
     }
     outputs[output.output] = {{"count", output.count},
                               {"missing", output.missing},
+                              {"cut", output.cut},
                               {"entangled", output.entangled},
                               {"dispersions", effects}};
   }
@@ -57,6 +58,7 @@ Json sensitivity_json(const RankSensitivity& all, const Json& about) {
        {{"spearman", "Pearson's of the mid-ranks, over the runs that have the output"},
         {"prcc", "partial correlation of the mid-ranks, all other dispersions held"},
         {"bounds", bounds_definition(all)},
+        {"cut", "runs whose peak t_end cut: their values are those up to t_end"},
         {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
         {"moves_nothing", "dispersions of which no coefficient differs from 0 at the confidence "
                           "shared over all outputs"},
@@ -99,8 +101,9 @@ std::string sensitivity_table(const RankSensitivity& all, std::string_view title
                          value_text(spearman.value, spearman.bounds));
     };
     text += effect_block(
-        heading_of(output.output, output.count, "runs", output.missing, "without a value"), columns,
-        all.dispersions.size(), size, line);
+        heading_of(output.output, output.count, "runs", output.missing, "without a value") +
+            cut_heading(output.cut),
+        columns, all.dispersions.size(), size, line);
   }
   return text;
 }
@@ -126,6 +129,9 @@ std::string moved_by_table(const RankSensitivity& all, std::string_view title) {
 
 std::vector<std::string> warnings(const RankSensitivity& all) {
   std::vector<std::string> list;
+  std::vector<CutOutput> cut;
+  for (const OutputRanks& output : all.outputs) cut.push_back({output.output, output.cut});
+  warn_of_t_end(cut, all.open_latches, all.runs, list);
   if (!all.unvaried.empty())
     list.push_back(fmt::format("the draws of {} do not vary", quoted(all.unvaried)));
   if (!all.idle.empty())

@@ -306,9 +306,11 @@ std::vector<Found> coefficients(const std::vector<RankedColumn>& draws,
   return found;
 }
 
-OutputRanks output_ranks(const std::string& name, const Found& found, std::size_t runs,
+OutputRanks output_ranks(const std::string& name, const Found& found, const Results& results,
                          bool entangled, const Judge& judge) {
-  OutputRanks result{name, found.count, static_cast<long>(runs) - found.count, {}, entangled};
+  const auto runs = static_cast<long>(results.size());
+  OutputRanks result{name, found.count, runs - found.count,
+                     {},   entangled,   count_cut(results, name)};
   for (std::size_t j = 0; j < found.all.spearman.size(); ++j)
     result.effects.push_back(judge.effect(found, j));
   return result;
@@ -364,9 +366,10 @@ RankSensitivity rank_sensitivity(const Results& results, double confidence, cons
     const std::vector<Found> found = coefficients(draws, these, keep, groups, entangled);
     for (std::size_t k = 0; k < which.size(); ++k)
       all.outputs[which[k]] =
-          output_ranks(outputs[which[k]]->name, found[k], results.size(), entangled, judge);
+          output_ranks(outputs[which[k]]->name, found[k], results, entangled, judge);
   }
   note_dispersions(results, draws, with_draws, all);
+  all.open_latches = count_open_latches(results);
   return all;
 }
 

@@ -31,6 +31,7 @@ struct OutputRanks {
   long count = 0, missing = 0;     ///< runs with a value, and without one (left out)
   std::vector<RankEffect> effects; ///< per dispersion, in the campaign's order
   bool entangled = false;          ///< ranks are linearly dependent: no partial coefficients
+  long cut = 0;                    ///< runs whose peak t_end cut (finality.hpp)
 };
 
 struct RankSensitivity {
@@ -48,6 +49,8 @@ struct RankSensitivity {
   /// effect.
   std::vector<std::string> collinear;
   std::map<std::string, std::vector<std::string>> rows; ///< as in RunsMade
+  long open_latches =
+      0; ///< deployed runs of which it is not proven that their latches stay engaged
 };
 
 /// How the runs were made, as far as the bounds depend on it.

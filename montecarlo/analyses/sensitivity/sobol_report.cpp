@@ -26,7 +26,7 @@ std::string bounds_definition(const SobolBounds& how) {
 /// The outputs without indices because they lack a value at some point.
 std::vector<std::string> incomplete(const SobolSensitivity& all) {
   std::vector<std::string> names;
-  for (const auto& [name, indices] : all.outputs)
+  for (const auto& [name, indices, cut] : all.outputs)
     if (indices.incomplete > 0) names.push_back(name);
   return names;
 }
@@ -35,7 +35,7 @@ std::vector<std::string> incomplete(const SobolSensitivity& all) {
 
 Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
   Json outputs = Json::object();
-  for (const auto& [name, indices] : all.outputs) {
+  for (const auto& [name, indices, cut] : all.outputs) {
     Json effects = Json::object();
     for (std::size_t i = 0; i < all.dispersions.size(); ++i) {
       const auto& [first, total, inert] = indices.effects[i];
@@ -45,6 +45,7 @@ Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
     }
     outputs[name] = {{"rows", indices.rows},
                      {"incomplete", indices.incomplete},
+                     {"cut", cut},
                      {"mean", json_number(indices.mean)},
                      {"variance", json_number(indices.variance)},
                      {"dispersions", effects}};
@@ -61,6 +62,7 @@ Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
        {{"first", "Saltelli 2010: mean of f_B (f_ABi - f_A) over the variance"},
         {"total", "Jansen 1999: mean of (f_A - f_ABi)^2 over twice the variance"},
         {"bounds", bounds_definition(all.bounds)},
+        {"cut", "runs whose peak t_end cut: their values are those up to t_end"},
         {"incomplete", "rows in which one of the points does not have the output: where there are "
                        "any, it has no indices"},
         {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
@@ -72,7 +74,7 @@ Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
 std::string sensitivity_csv(const SobolSensitivity& all) {
   std::string text = "output,dispersion,rows,incomplete,first,first_lower,first_upper,"
                      "total,total_lower,total_upper\n";
-  for (const auto& [name, indices] : all.outputs)
+  for (const auto& [name, indices, cut] : all.outputs)
     for (std::size_t i = 0; i < all.dispersions.size(); ++i) {
       append_csv_cell(text, name);
       append_csv_cells(text, all.dispersions[i], indices.rows, indices.incomplete);
@@ -86,7 +88,7 @@ std::string sensitivity_csv(const SobolSensitivity& all) {
 std::string sensitivity_table(const SobolSensitivity& all, std::string_view title) {
   std::string text = fmt::format("{}\n", title);
   const std::string columns = column_names("total", "first", all.bounds.confidence);
-  for (const auto& [name, indices] : all.outputs) {
+  for (const auto& [name, indices, cut] : all.outputs) {
     const SobolIndices& found = indices;
     const auto size = [&](std::size_t i) { return found.effects[i].total.value; };
     const auto line = [&](std::size_t i) {
@@ -96,7 +98,8 @@ std::string sensitivity_table(const SobolSensitivity& all, std::string_view titl
                          value_text(first.value, first.bounds));
     };
     text += effect_block(
-        heading_of(name, found.rows, "rows", found.incomplete, "with a missing value: no indices"),
+        heading_of(name, found.rows, "rows", found.incomplete, "with a missing value: no indices") +
+            cut_heading(cut),
         columns, all.dispersions.size(), size, line);
     double sum = 0;
     for (const SobolEffect& effect : found.effects) sum += effect.first.value;
@@ -109,7 +112,7 @@ std::string sensitivity_table(const SobolSensitivity& all, std::string_view titl
 std::string moved_by_table(const SobolSensitivity& all, std::string_view title) {
   constexpr double least = 0.02; // heuristic: of the variance
   MovedBy moved;
-  for (const auto& [name, indices] : all.outputs) {
+  for (const auto& [name, indices, cut] : all.outputs) {
     const SobolIndices& found = indices;
     const auto total = [&](std::size_t i) { return found.effects[i].total.value; };
     moved.add(name, all.dispersions.size(), total, least, [&](std::size_t i) {
@@ -122,6 +125,9 @@ std::string moved_by_table(const SobolSensitivity& all, std::string_view title) 
 
 std::vector<std::string> warnings(const SobolSensitivity& all) {
   std::vector<std::string> list;
+  std::vector<CutOutput> cut;
+  for (const auto& output : all.outputs) cut.push_back({output.name, output.cut});
+  warn_of_t_end(cut, all.open_latches, all.runs, list);
   if (const std::vector<std::string> idle = all.idle(); !idle.empty())
     list.push_back(fmt::format("no output of any run changes with {}", quoted(idle)));
   if (all.bounds.replicates == 1) list.emplace_back(one_replicate);

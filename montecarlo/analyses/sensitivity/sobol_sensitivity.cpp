@@ -32,7 +32,9 @@ SobolSensitivity sobol_sensitivity(const Results& results, std::vector<std::stri
                        std::move(coordinates),
                        {}};
   for (const Column& output : results.outputs)
-    all.outputs.push_back({output.name, sobol_indices(output.values, d, bounds)});
+    all.outputs.push_back(
+        {output.name, sobol_indices(output.values, d, bounds), count_cut(results, output.name)});
+  all.open_latches = count_open_latches(results);
   const Column deployed = deployed_column(results);
   if (moments(sorted_present(deployed.values)).std > 0)
     all.outputs.push_back({deployed.name, sobol_indices(deployed.values, d, bounds)});

@@ -20,8 +20,11 @@ struct SobolSensitivity {
   struct Output {
     std::string name;
     SobolIndices indices;
+    long cut = 0; ///< runs whose peak t_end cut (finality.hpp)
   };
   std::vector<Output> outputs;
+  long open_latches =
+      0; ///< deployed runs of which it is not proven that their latches stay engaged
   /// Dispersions without any effect: changing them alone changes no bit of any output, in any row.
   [[nodiscard]] std::vector<std::string> idle() const;
 };

@@ -10,18 +10,6 @@
 
 namespace wingspread {
 
-std::string_view to_string(PeaksFinal final) {
-  switch (final) {
-  case PeaksFinal::no:
-    return "false";
-  case PeaksFinal::yes:
-    return "true";
-  case PeaksFinal::unknown:
-    break;
-  }
-  return "";
-}
-
 std::vector<std::string> header_cells(const ResultNames& names) {
   std::vector<std::string> cells{"run", "status"};
   std::ranges::copy(names.draws, std::back_inserter(cells));
@@ -70,6 +58,23 @@ void Results::release() const {
   peaks_final.release();
   latch_order.release();
   reason.release();
+}
+
+long count_cut(const Results& results, std::string_view output) {
+  const PeakKind kind = peak_kind(output);
+  if (kind == PeakKind::none) return 0;
+  long cut = 0;
+  for (const PeaksFinal final : results.peaks_final) cut += is_cut(kind, final) ? 1 : 0;
+  results.peaks_final.release();
+  return cut;
+}
+
+long count_open_latches(const Results& results) {
+  long open = 0;
+  for (std::size_t row = 0; row < results.size(); ++row) open += results.may_open(row) ? 1 : 0;
+  results.status.release();
+  results.reason.release();
+  return open;
 }
 
 void append_header(std::string& buffer, const ResultNames& names) {

@@ -2,10 +2,11 @@
 ///
 /// Columns of runs.csv in the order written: `run` (counted from 0; the number that `replay --run` takes), `status`,
 /// the draws by name, the outputs by name, `peaks_final` if peaks are among them, `latch_order`, and `reason` (why a
-/// run did not deploy; else empty). The readers accept the columns in any order.
+/// run did not deploy, or latches_may_open; else empty). The readers accept the columns in any order.
 #pragma once
 
 #include "core/deployment.hpp"
+#include "montecarlo/engine/runs/finality.hpp"
 #include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/platform/spilled.hpp"
 #include "montecarlo/foundation/platform/text_column.hpp"
@@ -30,20 +31,14 @@ struct ResultNames {
   bool operator==(const ResultNames&) const = default;
 };
 
-/// Whether it is proven that a run's peaks are not exceeded after its end. `no`: t_end came before a proof. `unknown`:
-/// the run failed or was invalid.
-enum class PeaksFinal : signed char { unknown, no, yes };
-/// "true", "false", or "" for unknown.
-[[nodiscard]] std::string_view to_string(PeaksFinal final);
-
 /// One run. An output that did not happen is not finite, and an empty cell in the file.
 struct ResultRow {
   long run = 0; ///< counted from 0
   Status status = Status::failed;
-  std::vector<double> draws;   ///< in the order of ResultNames::draws
-  std::vector<double> outputs; ///< in the order of ResultNames::outputs
-  std::string latch_order;     ///< "root>mid>tip"; empty when no hinge latched
-  std::string reason;
+  std::vector<double> draws;               ///< in the order of ResultNames::draws
+  std::vector<double> outputs;             ///< in the order of ResultNames::outputs
+  std::string latch_order;                 ///< "root>mid>tip"; empty when no hinge latched
+  std::string reason;                      ///< why it did not deploy; or latches_may_open
   std::optional<PeaksFinal> peaks_final{}; ///< nothing if the column does not exist
 };
 
@@ -73,9 +68,23 @@ struct Results {
   /// @pre the row has as many draws and outputs as the table has columns.
   void append(const ResultRow& row);
   [[nodiscard]] ResultRow row(std::size_t index) const;
+  /// Whether t_end cut a run's peaks of this kind.
+  [[nodiscard]] bool is_cut(std::size_t index, PeakKind kind) const {
+    return wingspread::is_cut(kind, peaks_final[index]);
+  }
+  /// Whether a run deployed, and it is not proven that its latches stay engaged.
+  [[nodiscard]] bool may_open(std::size_t index) const {
+    return status[index] == Status::deployed && reason[index] == latches_may_open;
+  }
   /// Releases the memory of all columns that lie in files (spilled.hpp).
   void release() const;
 };
+
+/// The number of runs whose value of the output is a peak that t_end cut.
+[[nodiscard]] long count_cut(const Results& results, std::string_view output);
+
+/// The number of runs that deployed, and of which it is not proven that their latches stay engaged.
+[[nodiscard]] long count_open_latches(const Results& results);
 
 /// The column names of runs.csv in the order written.
 [[nodiscard]] std::vector<std::string> header_cells(const ResultNames& names);

@@ -34,10 +34,9 @@ Status parse_status(const CsvReader& reader, const std::string& cell) {
 }
 
 PeaksFinal parse_final(const CsvReader& reader, const std::string& cell) {
-  for (const PeaksFinal known : {PeaksFinal::unknown, PeaksFinal::no, PeaksFinal::yes})
-    if (cell == to_string(known)) return known;
+  if (const auto final = peaks_final_named(cell)) return *final;
   throw reader.error(std::string(peaks_final_column), fmt::format("'{}'", cell),
-                     "true, false, or nothing");
+                     "true, false, peak_moment, peak_force, or nothing");
 }
 
 double parse_value(const CsvReader& reader, const std::string& cell, const std::string& column) {

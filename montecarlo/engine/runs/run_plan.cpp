@@ -61,7 +61,7 @@ RunPlan::RunPlan(const Campaign& campaign, UnitPoints points, Measure measure)
     : RunPlan(campaign, std::move(points)) {
   columns_.clear();
   names_.outputs = {measure.name};
-  names_.peaks_final = false;
+  names_.peaks_final = measure.goal.peak_moment || measure.goal.peak_force;
   goal_ = measure.goal;
   measure_ = std::move(measure);
 }

@@ -5,16 +5,6 @@
 
 namespace wingspread {
 
-namespace {
-
-PeaksFinal finality_of(const Outcome& outcome) {
-  if (outcome.status == Status::invalid || outcome.status == Status::failed)
-    return PeaksFinal::unknown;
-  return outcome.peaks_final ? PeaksFinal::yes : PeaksFinal::no;
-}
-
-} // namespace
-
 Runner::Runner(const RunPlan& plan) : plan_(&plan), scene_(plan.campaign().scene) {
   if (plan.samples()) taker_.emplace(scene_, *plan.samples());
 }
@@ -102,8 +92,8 @@ ResultRow Runner::row_of(long k, std::vector<double>&& draws, Outcome& outcome) 
   // A draw that overflowed becomes an empty cell; the reason of its invalid run names the value.
   std::ranges::transform(row.draws, row.draws.begin(), finite_or_none);
   row.status = outcome.status;
-  row.reason = outcome.reason;
-  if (plan_->names().peaks_final) row.peaks_final = finality_of(outcome);
+  row.reason = outcome.latches_final ? outcome.reason : std::string(latches_may_open);
+  if (plan_->names().peaks_final) row.peaks_final = peaks_final_of(outcome);
   row.latch_order = latch_order(plan_->campaign().scene, outcome);
   return row;
 }

@@ -85,15 +85,15 @@ int make_new(const NewOptions& options) {
   return exit_code::done;
 }
 
-/// Adds an option whose text `read` accepts, or refuses with a message.
+/// Adds an option whose text `read` accepts, or refuses with a message. Returns it.
 template <class Read>
-void add_number(CLI::App& command, NewOptions& options, std::string_view option,
-                std::string_view what, std::string_view unit, Read read) {
+CLI::Option* add_number(CLI::App& command, NewOptions& options, std::string_view option,
+                        std::string_view what, std::string_view unit, Read read) {
   const auto parse = [&options, read, name = std::string(option)](const std::string& text) {
     options.designed = true;
     if (const auto message = read(text, options.design)) throw CLI::ValidationError(name, *message);
   };
-  command.add_option_function<std::string>(std::string(option), parse, std::string(what))
+  return command.add_option_function<std::string>(std::string(option), parse, std::string(what))
       ->type_name(std::string(unit));
 }
 
@@ -109,16 +109,19 @@ void add_design_options(CLI::App& command, NewOptions& options) {
   within(command.add_option("--panels", design.panels, "Panels of a wing"), 1, most_panels)
       ->type_name("N")
       ->each(designed);
-  command.add_flag_function(
+  CLI::Option* yoke = command.add_flag_function(
       "--yoke", [&options](std::int64_t) { options.designed = options.design.yoke = true; },
       "A yoke between the spacecraft and the first panel");
-  for (const DesignNumber& number : design_numbers())
-    add_number(command, options, number.option,
-               fmt::format("{}, {}; default: {}", number.what, number.dimension.condition,
-                           WingDesign().*number.value),
-               number.dimension.unit, [number](const std::string& text, WingDesign& into) {
-                 return read_design_number(text, number, into);
-               });
+  for (const DesignNumber& number : design_numbers()) {
+    CLI::Option* option =
+        add_number(command, options, number.option,
+                   fmt::format("{}, {}; default: {}", number.what, number.dimension.condition,
+                               WingDesign().*number.value),
+                   number.dimension.unit, [number](const std::string& text, WingDesign& into) {
+                     return read_design_number(text, number, into);
+                   });
+    if (number.of_yoke) option->needs(yoke);
+  }
   add_number(command, options, damper_option,
              "damper of the root hinge, ≥ 0; default: one that doubles the time", "N·m·s/rad",
              [](const std::string& text, WingDesign& into) { return read_damper(text, into); });

@@ -138,7 +138,7 @@ the cases. All cases use the same draws. The exit code is the worst of all cases
 campaign's confidence. Several goals must be reached together:
   "root.peak_moment@0.99 5 N*m"  the 0.99 quantile; a plain number is in SI units: N·m
   "root.peak_moment@0.99 2%"     the same, as a share of the quantile
-  "deployed 1%"                  the share of runs that deploy (or stall, …: any status, or HINGE.held):
+  "deployed 1%"                  the share of runs that deploy (or of any status, HINGE.held):
                                  the interval is 0.01 wide, from 98.5 to 99.5 % for example
   "requirement deployed"         the requirement, by name or output, has passed or failed
 The goals are checked after 1000, 2000, 4000, … runs and nowhere else, so a campaign always stops

@@ -274,6 +274,8 @@ the folder that making all runs at once gives, byte for byte.
 Both analyses name for each output the dispersions that move it, the most important first; --all
 prints the coefficients with their bounds. They write all of them to sensitivity.json and
 sensitivity.csv in the folder, or in --out. A warning names each dispersion that moves no output.
+Effects on peaks that t_end cut are those on the values up to t_end: a warning gives the number of
+runs, and a longer t_end decides them.
 
 Example:
   wingspread sensitivity results/first

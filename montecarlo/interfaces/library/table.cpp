@@ -42,8 +42,7 @@ Table table_of(const StoredCampaign& stored, const ResultNames& names, Results&&
   data->complete = is_complete(stored, results);
   data->names = names;
   data->status = words_of(results.status, statuses);
-  data->peaks_final = words_of(results.peaks_final,
-                               std::array{PeaksFinal::unknown, PeaksFinal::no, PeaksFinal::yes});
+  data->peaks_final = words_of(results.peaks_final, all_peaks_final);
   data->latch_orders = texts_of(results.latch_order);
   data->campaign = campaign_text(stored.campaign, stored.stamp);
   data->warnings = std::move(warnings);

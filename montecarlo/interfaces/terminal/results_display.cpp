@@ -66,7 +66,8 @@ void print_notes(const Summary& summary) {
                "it); without it, take another --seed and a number of runs fixed beforehand\n",
                summary.interim.count(), fmt::join(summary.interim.before, ", "));
   const auto is_open = [](const Verdict& verdict) {
-    return !is_decided(verdict) && !verdict.one_run; // more of the same run decide nothing
+    // more of the same run decide nothing, nor do more runs whose peaks t_end cuts
+    return !is_decided(verdict) && !verdict.one_run && !rests_on_cut_peaks(verdict);
   };
   if (std::ranges::any_of(summary.requirements, is_open))
     fmt::print(

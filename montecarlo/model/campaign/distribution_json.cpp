@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace wingspread {
 namespace {
@@ -124,6 +126,23 @@ void read_truncation(const JsonCursor& at, std::optional<Truncation>& truncate,
   object.refuse_others();
 }
 
+/// Whether a fault is that of one parameter's range, and the parameter was read: it holds whatever the others are.
+bool is_of_itself(const DistributionFault& fault, const Law& law, const std::string& pointer,
+                  std::span<const Problem> unread) {
+  const std::string name = fault.path.substr(0, fault.path.find('/'));
+  const bool has_range = std::visit(
+      [&]<class L>(const L&) {
+        return std::ranges::any_of(L::parameters(), [&](const auto& parameter) {
+          return parameter.name == name && parameter.range != Range::finite;
+        });
+      },
+      law);
+  const std::string at = pointer + "/" + name;
+  return has_range && std::ranges::none_of(unread, [&](const Problem& problem) {
+           return problem.pointer == at || problem.pointer.starts_with(at + "/");
+         });
+}
+
 } // namespace
 
 void read_csv_column(const JsonCursor& at, const std::string& name, const std::string& column,
@@ -164,8 +183,10 @@ Distribution read_distribution(const JsonCursor& at, const std::filesystem::path
   if (const auto truncate = object.find("truncate"))
     read_truncation(*truncate, distribution.truncate, unit);
   object.refuse_others();
-  if (at.problems().size() == before)
-    for (const DistributionFault& fault : faults(distribution))
+  const std::vector<Problem> unread(at.problems().begin() + static_cast<std::ptrdiff_t>(before),
+                                    at.problems().end());
+  for (const DistributionFault& fault : faults(distribution))
+    if (unread.empty() || is_of_itself(fault, distribution.law, at.pointer(), unread))
       at.refuse(fault.found, fault.expected, fault.path.empty() ? "" : "/" + fault.path);
   return distribution;
 }

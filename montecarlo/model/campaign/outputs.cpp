@@ -140,9 +140,13 @@ bool has_peaks(const Outputs& outputs) {
   return outputs.contains(OutputFamily::peak_moment) || outputs.contains(OutputFamily::peak_force);
 }
 
-bool is_peak(std::string_view output) {
+bool is_peak(std::string_view output) { return peak_kind(output) != PeakKind::none; }
+
+PeakKind peak_kind(std::string_view output) {
   const std::string quantity = parse_output_name(output).quantity;
-  return quantity == "peak_moment" || quantity == "peak_force" || quantity == "peak_bending_moment";
+  if (quantity == "peak_force") return PeakKind::force;
+  const bool moment = quantity == "peak_moment" || quantity == "peak_bending_moment";
+  return moment ? PeakKind::moment : PeakKind::none;
 }
 
 void match_peaks_final(Outputs& outputs) {

@@ -56,6 +56,9 @@ using Outputs = std::set<OutputFamily>;
 
 /// Whether an output is a peak. t_end may cut a peak; its largest value is then unknown.
 [[nodiscard]] bool is_peak(std::string_view output);
+/// The family of an output that is a peak: of moments, those in flexible bodies included, or of forces.
+enum class PeakKind { none, moment, force };
+[[nodiscard]] PeakKind peak_kind(std::string_view output);
 
 /// Adds `peaks_final` if the outputs include peaks, else removes it.
 void match_peaks_final(Outputs& outputs);

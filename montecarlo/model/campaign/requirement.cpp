@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <utility>
 
 namespace wingspread {
@@ -98,6 +99,29 @@ void refuse_repeated_ids(const JsonCursor& at, std::span<const Requirement> requ
       at.element(i).member("id").refuse_repeated("an identifier of its own");
 }
 
+/// Whether both state the same, whatever they are called and where they come from. In another group it is another
+/// statement, judged at another confidence.
+bool state_the_same(const Requirement& a, const Requirement& b) {
+  const auto statement = [](const Requirement& one) {
+    return std::tie(one.output, one.max, one.min, one.absolute, one.probability, one.confidence,
+                    one.group);
+  };
+  return statement(a) == statement(b);
+}
+
+/// Notes each requirement that an earlier one states.
+void refuse_repeated_requirements(const JsonCursor& at, std::span<const Requirement> requirements) {
+  for (std::size_t i = 1; i < requirements.size(); ++i) {
+    const auto first = std::ranges::find_if(requirements.first(i), [&](const Requirement& other) {
+      return state_the_same(other, requirements[i]);
+    });
+    if (first != requirements.begin() + static_cast<std::ptrdiff_t>(i))
+      at.element(i).refuse(fmt::format("the requirement of {}/{} a second time", at.pointer(),
+                                       first - requirements.begin()),
+                           "each requirement once");
+  }
+}
+
 /// Reads a requirement on a static margin. Its only limit is `min`, 0 by default.
 void read_static_margin(JsonObject& object, const Scene* scene, Requirement& requirement) {
   requirement.static_margin.emplace();
@@ -167,10 +191,12 @@ void read_requirements(const JsonCursor& at, const std::vector<std::string>* out
                        std::vector<Requirement>& requirements, const Scene* scene) {
   if (!at.value().is_array()) return void(at.refuse("an array of requirements"));
   requirements.clear();
+  const std::size_t before = at.problems().size();
   for (const JsonCursor& element : at.elements())
     requirements.push_back(read_requirement(element, outputs, all_outputs, scene));
   check_groups(at, requirements);
   refuse_repeated_ids(at, requirements);
+  if (at.problems().size() == before) refuse_repeated_requirements(at, requirements);
 }
 
 void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requirements,

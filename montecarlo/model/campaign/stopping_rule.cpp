@@ -18,7 +18,7 @@ constexpr long first_checkpoint = 1000;
 constexpr std::string_view decision_prefix = "requirement ";
 constexpr const char* quantile_expected = "a number, > 0 and < 1: the quantile that is meant";
 constexpr const char* share_expected =
-    "a width, for a share of runs: 0.01 is one in a hundred of all runs";
+    "a width > 0 and < 1 for a share of runs: 0.01 is one in a hundred of all runs";
 
 void refuse_unknown_output(const JsonCursor& at, const std::string& output,
                            const std::vector<std::string>& outputs) {
@@ -42,6 +42,8 @@ void read_width(JsonObject& object, WidthGoal& goal) {
   if (width) width->note_quantity("in the output's unit", "> 0");
   if (width && width->value().is_string() && !unit.empty())
     object.optional("width", goal.width, Dimension{unit, "> 0"}, is_positive);
+  else if (is_share(goal.output))
+    object.optional("width", goal.width, share_expected, is_proper_share);
   else
     object.optional("width", goal.width, "a number, in the output's unit, > 0", is_positive);
   object.optional("relative_width", goal.width, "a number, > 0", is_positive);

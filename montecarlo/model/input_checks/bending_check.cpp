@@ -67,7 +67,7 @@ void check_bending(const Scene& scene, InputWarnings& warnings) {
                    fmt::format("{}: the clamped panel vibrates at {:.4g} Hz with its segments, and "
                                "at {:.4g} Hz uncut",
                                body.flexible->joints, cut, whole),
-                   "more joints: the error falls as 1/joints²");
+                   "more joints: the frequency's error falls as 1/joints²");
     const double rod = body.mass * std::pow(length_of(body), 2) / 12;
     if (body.inertia > (1 + most_beyond_rod) * rod)
       warnings.add(

@@ -166,7 +166,10 @@ std::string describe_motor(const std::optional<Motor>& motor) {
 std::string describe_latch(const std::optional<Latch>& latch) {
   if (!latch) return "; no latch";
   const std::string backlash =
-      latch->backlash == 0 ? "" : fmt::format(", backlash {} deg", degrees_text(latch->backlash));
+      latch->backlash == 0
+          ? ""
+          : fmt::format(", backlash {} deg in all (±{})", degrees_text(latch->backlash),
+                        degrees_text(latch->backlash / 2));
   const std::string damping = latch->dissipation
                                   ? fmt::format("dissipation {} s/rad", *latch->dissipation)
                                   : fmt::format("{} N·m·s/rad", latch->damping);

@@ -164,7 +164,8 @@ void read_latch(const JsonCursor& at, std::optional<Latch>& latch) {
                  "damping", "a number, N·m·s/rad, ≥ 0, or \"dissipation\" in its place")) {
     damping->read(latch->damping, Dimension{"N·m·s/rad", "≥ 0"});
   }
-  object.optional("backlash", latch->backlash, Dimension{"rad", "≥ 0"});
+  object.optional("backlash", latch->backlash,
+                  Dimension{"rad", "≥ 0: the total play, half of it on either side"});
   const auto read_limit = [&](const char* key, std::optional<double>& limit, Dimension dimension) {
     double value = 0;
     if (const auto found = object.find(key); found && found->read(value, dimension)) limit = value;

@@ -53,7 +53,7 @@ struct DesignNumber {
   std::string_view what;   ///< "length of a panel, from hinge to hinge"
   Dimension dimension;
   double WingDesign::*value;
-  bool of_yoke = false; ///< asked only with a yoke
+  bool of_yoke = false; ///< asked, and accepted, only with a yoke
   bool may_be_zero = false;
 };
 [[nodiscard]] std::span<const DesignNumber> design_numbers();

@@ -81,10 +81,13 @@ void append_csv_point(std::string& csv, const TravelPoint& point) {
   csv += '\n';
 }
 
-/// "+0.67"; "∞" where nothing resists; "–" of NaN.
+/// "+0.67", "+3e+17"; "∞" where nothing resists; "–" of NaN.
 std::string margin_text(double margin, int digits = 2) {
+  constexpr double most = 1e5; // columns have seven to ten characters
   if (std::isnan(margin)) return "–";
-  return std::isinf(margin) ? "∞" : fmt::format("{:+.{}f}", margin, digits);
+  if (std::isinf(margin)) return "∞";
+  return std::abs(margin) < most ? fmt::format("{:+.{}f}", margin, digits)
+                                 : fmt::format("{:+.1e}", margin);
 }
 
 std::string table_lines(const CaseMargins& at) {

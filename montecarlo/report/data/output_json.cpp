@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -100,13 +101,16 @@ Json convergence_json(const Convergence& convergence) {
   return json;
 }
 
-Json tolerance_json(const OutputSummary& output) {
+Json tolerance_json(const Summary& summary, const OutputSummary& output) {
   Json json = Json::array();
-  for (const auto& [spec, limits] : output.tolerance_limits) {
+  for (const ToleranceLimitEstimate& estimate : output.tolerance_limits) {
+    const auto& [spec, limits, beyond] = estimate;
     json.push_back(
         {{"text", fmt::format("{:g} % at {:g} %, {}", 100 * spec.probability, 100 * spec.confidence,
                               side_names[static_cast<std::size_t>(spec.side)])}});
     add_bounds(json.back(), limits);
+    if (std::string why = why_no_limit(summary, estimate); !why.empty())
+      json.back()["note"] = std::move(why);
   }
   return json;
 }
@@ -156,7 +160,7 @@ Json output_json(const PageSource& source, std::size_t index, const PageDetail& 
   json.update(moments_json(output));
   json["quantiles"] = quantiles_json(output);
   (source.has_rows() ? add_pictures : add_streaming_pictures)(source, index, detail, json);
-  json["tolerance_limits"] = tolerance_json(output);
+  json["tolerance_limits"] = tolerance_json(source.summary, output);
   json["limits"] = limits_json(source, output.name);
   return json;
 }

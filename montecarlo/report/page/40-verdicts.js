@@ -101,6 +101,9 @@
       (each) => worstOf.get(keyOf(each)) === worst,
     );
     const named = worst !== "passed" && deciding.length < total && deciding.length <= 3 ? `: ${listed(deciding.map(shortOf))}` : "";
+    // Enough runs, and a pass but for peaks that t_end cut: more runs decide nothing.
+    const cut = deciding.filter((each) => each.allowed !== null && each.cut > 0).length;
+    const why = [cut < deciding.length ? "too few runs" : null, cut ? "peaks that t_end cut" : null].filter(Boolean).join(" or ");
     const text = {
       failed:
         counts.failed === total
@@ -108,8 +111,8 @@
           : `${counts.failed} of ${total} requirements ${one(counts.failed, "fail", "fails")}${where}${named}`,
       open:
         counts.open === total
-          ? `${all} is undecided: too few runs`
-          : `${counts.open} of ${total} requirements ${one(counts.open, "are", "is")} undecided, for too few runs${named}`,
+          ? `${all} is undecided: ${why}`
+          : `${counts.open} of ${total} requirements ${one(counts.open, "are", "is")} undecided, for ${why}${named}`,
       passed: `${all} ${one(total, "pass", "passes")}${several ? " in every case" : ""}`,
     }[worst];
     return h(
@@ -168,9 +171,11 @@
     if (W.isNumber(one.limit))
       return W.isNumber(one.guaranteed_value)
         ? valueText(one.guaranteed_value, one, set)
-        : one.not_deployed || one.without_value
-          ? "too few runs with a value"
-          : "too few runs";
+        : one.allowed !== null && one.cut > 0
+          ? "none: t_end cut peaks"
+          : one.not_deployed || one.without_value
+            ? "too few runs with a value"
+            : "too few runs";
     return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : "too few runs";
   }
   function marginText(one, set) {

@@ -175,7 +175,7 @@
       rows.push([
         `tolerance: ${one.text}`,
         [one.lower, one.upper].filter(W.isNumber).map(text).join(" … ") || F.none,
-        "",
+        one.note || "",
       ]);
     return W.table(
       `Quantiles of ${F.name(output)}`, // over all runs

@@ -35,8 +35,10 @@ constexpr std::array outputs{
         "HINGE.motor_energy",
         "work of the hinge's motor on the wing while the hinge's latch is not engaged; below 0 if "
         "the motor brakes"},
-    Entry{"BODY.peak_bending_moment",
-          "largest |moment| in the joints of a flexible body over the whole run"},
+    Entry{
+        "BODY.peak_bending_moment",
+        "largest |moment| in a flexible body over the whole run: in its joints, and in the hinges "
+        "at its ends"},
     Entry{"mode_K.frequency", "natural frequency of the draw's wing with every latch engaged, "
                               "lowest first; without damping"},
     Entry{"base.peak_angle", "largest change of a free base's angle from the start"},
@@ -57,7 +59,9 @@ constexpr std::array terms{
           "the same with the required confidence for the population of wings: a "
           "binomial bound, and the tolerance limit of Wilks"},
     Entry{"margin", "distance from the confidence bound to the limit: at least 0 for a pass"},
-    Entry{"undecided", "too few runs to show the requirement, whatever their outcome"},
+    Entry{"undecided",
+          "too few runs to show the requirement, whatever their outcome; or only peaks "
+          "that t_end cut stand against a pass"},
     Entry{"bounds", "of shares: exact (Clopper-Pearson); of quantiles: order statistics; both for "
                     "independent draws"},
     Entry{"latch order", "the hinges' names in the order of their latching"},

@@ -1,6 +1,9 @@
+#include "core/proofs/natural_modes.hpp"
 #include "montecarlo/report/text/outcome_report.hpp"
 #include "montecarlo/results/summary/latch_jump.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -137,6 +140,7 @@ void add_sequence(const Scene& scene, const Outcome& outcome, Json& json) {
   if (std::ranges::any_of(scene.hinges, may_miss)) {
     json["missed"] = events_json(scene, outcome.missed);
     json["let_go"] = events_json(scene, outcome.let_go);
+    json["latches_final"] = outcome.latches_final;
   }
 }
 
@@ -148,13 +152,30 @@ bool has_cut_peaks(const Outcome& outcome) {
   return ran && peaks && !outcome.peaks_final;
 }
 
+std::string cut_peaks_warning(const Outcome& outcome) {
+  return fmt::format("t_end cut the peak{}: it is not proven that none would be exceeded after it",
+                     outcome.moments_final  ? " forces"
+                     : outcome.forces_final ? " moments"
+                                            : "s");
+}
+
 std::vector<std::string> outcome_warnings(const Scene& scene, const Outcome& outcome) {
   std::vector<std::string> lines;
   for (const Overtravel& overtravel : overtravels(scene, outcome))
     lines.push_back(warning(overtravel));
   if (const auto jumps = latch_jumps(scene, outcome); !jumps.empty())
     lines.push_back(warning(jumps));
-  if (has_cut_peaks(outcome)) lines.emplace_back(cut_peaks_warning);
+  if (const auto forces = forces_of_jumps(scene, outcome); !forces.empty())
+    lines.push_back(warning_of_forces(forces));
+  if (has_cut_peaks(outcome)) lines.push_back(cut_peaks_warning(outcome));
+  if (!outcome.latches_final) lines.emplace_back(open_latches_warning);
+  if (outcome.status == Status::failed && outcome.reason.find("max_steps") != std::string::npos)
+    if (const auto frequencies = natural_frequencies(scene); !frequencies.empty())
+      lines.push_back(fmt::format(
+          "steps follow the fastest vibration, {:.4g} Hz with all latches engaged (`wingspread "
+          "modes` shows it): a softer latch, fewer joints of flexible bodies or an earlier t_end "
+          "take fewer steps, or raise max_steps",
+          frequencies.back()));
   return lines;
 }
 

@@ -11,10 +11,14 @@ namespace wingspread {
 
 /// Whether the run reached t_end before its peaks were proven final.
 [[nodiscard]] bool has_cut_peaks(const Outcome& outcome);
-inline constexpr const char* cut_peaks_warning =
-    "t_end cut the peaks: it is not proven that none would be exceeded after it";
+/// "t_end cut the peaks: …", or the peak forces, or the peak moments.
+[[nodiscard]] std::string cut_peaks_warning(const Outcome& outcome);
+inline constexpr const char* open_latches_warning =
+    "it is not proven that every latch with a holding_moment stays engaged after t_end. Lengthen "
+    "t_end";
 
-/// Warnings of one run: overtravel, latches whose damping decides the peak, cut peaks. In this order, each on one line.
+/// Warnings of one run: overtravel, latches whose damping decides the peak, cut peaks, latches that may let go after
+/// t_end. In this order, each on one line.
 [[nodiscard]] std::vector<std::string> outcome_warnings(const Scene& scene, const Outcome& outcome);
 
 /// The run as JSON: latches in order of time; null for values that do not exist or were not requested. An invalid run

@@ -84,10 +84,13 @@ std::vector<ExportColumn> export_columns(const Campaign& campaign, const ResultN
                        describe_output(names.outputs[i])});
   if (names.peaks_final)
     columns.push_back({Kind::peaks_final, 0, std::string(peaks_final_column), "",
-                       "1: the peaks are proven, 0: t_end cut them, -1: not known"});
+                       "1: the peaks are proven, 0: t_end cut them, 2 and 3: proven of the moments "
+                       "alone, of the forces alone, -1: not known"});
   columns.push_back({Kind::latch_order, 0, "latch_order", "",
                      "the hinges that latched, in order of time; empty: none"});
-  columns.push_back({Kind::reason, 0, "reason", "", "why the run is not deployed; else empty"});
+  columns.push_back(
+      {Kind::reason, 0, "reason", "",
+       "why the run is not deployed, or that its latches may let go after t_end; else empty"});
   return columns;
 }
 

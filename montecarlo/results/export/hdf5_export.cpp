@@ -210,7 +210,7 @@ private:
   }
 
   static std::int8_t peaks_final_code(PeaksFinal final) {
-    return final == PeaksFinal::unknown ? -1 : final == PeaksFinal::yes ? 1 : 0;
+    return static_cast<std::int8_t>(static_cast<int>(final) - 1);
   }
 
   template <class Number> void put_bytes(Number value) {

@@ -74,6 +74,11 @@ void refuse_differences(const StoredCampaign& there, const Campaign& ours, std::
   find_differences(there.campaign.resolved, ours.resolved, "", all);
   std::string reason = all.empty() ? "the same values in another order" : "";
   std::erase_if(all, [&](const Difference& each) { return each.pointer == told; });
+  // Earlier extensions are not the user's: a campaign that is the same otherwise continues them.
+  const auto is_extension = [](const Difference& each) {
+    return each.pointer == "/sampling/extended_from";
+  };
+  if (!std::ranges::all_of(all, is_extension)) std::erase_if(all, is_extension);
   for (std::size_t i = 0; i < std::min(all.size(), most_told); ++i)
     problems.push_back({file, all[i].pointer,
                         describe_side(all[i].found) + " (when the folder was made)",

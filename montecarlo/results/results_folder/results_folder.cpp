@@ -1,5 +1,6 @@
 #include "montecarlo/results/results_folder/results_folder.hpp"
 
+#include "distributions/prepared_distribution.hpp"
 #include "montecarlo/engine/accuracy/accuracy.hpp"
 #include "montecarlo/engine/runs/row_reader.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -62,7 +64,7 @@ void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, Su
     const RankedOutput ranks(results, results.outputs[i]);
     for (const ToleranceLimitSpec& tolerance : spec.tolerance_limits)
       summary.outputs[i].tolerance_limits.push_back(
-          {tolerance, output_limits(ranks, tolerance, summary.interim)});
+          {tolerance, output_limits(ranks, tolerance, summary.interim), ranks.beyond()});
   }
 }
 
@@ -158,6 +160,7 @@ void add_nominal(const Campaign& campaign, Summary& summary) {
                                            goal_of(campaign.outputs), Observer{});
   summary.nominal = {outcome.status, latch_order(campaign.scene, outcome), outcome.reason};
   summary.latch_jumps = latch_jumps(nominal_scene(campaign), outcome);
+  summary.jump_forces = forces_of_jumps(nominal_scene(campaign), outcome);
   const std::vector<OutputColumn> columns = output_columns(campaign.scene, campaign.outputs);
   for (std::size_t i = 0; i < columns.size(); ++i)
     summary.outputs[i].nominal = output_of(columns[i], outcome);
@@ -223,6 +226,27 @@ ResultsFile read_stored_results(const StoredCampaign& stored) {
   return read;
 }
 
+std::vector<StrangeDraws> strange_draws(const Campaign& campaign, const Results& results) {
+  constexpr double tail = 1e-15;
+  std::vector<StrangeDraws> found;
+  for (std::size_t i = 0; i < campaign.dispersions.size(); ++i) {
+    const PreparedDistribution law(campaign.dispersions[i].distribution);
+    StrangeDraws draws{.name = campaign.dispersions[i].name,
+                       .lower = law.quantile(tail),
+                       .upper = law.quantile_complement(tail)};
+    const double digits = 1e-9 * std::max(std::abs(draws.lower), std::abs(draws.upper));
+    const Spilled<double>& values = results.draws[i].values;
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      const double value = values[row];
+      if (!(value < draws.lower - digits || value > draws.upper + digits)) continue;
+      if (draws.runs++ == 0) draws.run = results.runs[row], draws.value = value;
+    }
+    values.release();
+    if (draws.runs > 0) found.push_back(std::move(draws));
+  }
+  return found;
+}
+
 Summary stored_summary(const StoredCampaign& stored, const Results& results,
                        const StatisticsSpec& spec, int threads) {
   const Campaign& campaign = stored.campaign;
@@ -236,7 +260,10 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results,
   summary.requirements = judge_campaign(campaign, results, interim);
   if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, summary);
   if (!campaign.until.empty()) summary.until = goals_of(stored, results);
-  if (!stored.foreign) add_nominal(campaign, summary);
+  if (stored.foreign)
+    summary.strange_draws = strange_draws(campaign, results);
+  else
+    add_nominal(campaign, summary);
   summary.overtravels = overtravels(campaign.scene, results);
   if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
   withdraw_if_one_run(campaign, summary);

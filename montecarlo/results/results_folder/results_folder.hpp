@@ -100,6 +100,10 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
 [[nodiscard]] Summary stored_summary(const StoredCampaign& stored, const Results& results,
                                      const StatisticsSpec& spec, int threads = 0);
 
+/// Draws that the campaign's laws do not give. A law without an end has one where 1e-15 of its probability is left.
+[[nodiscard]] std::vector<StrangeDraws> strange_draws(const Campaign& campaign,
+                                                      const Results& results);
+
 /// Adds the nominal run and its outputs. Not for rows of another tool.
 void add_nominal(const Campaign& campaign, Summary& summary);
 

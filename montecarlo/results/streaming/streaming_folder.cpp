@@ -16,7 +16,7 @@
 namespace wingspread {
 namespace {
 
-constexpr std::string_view magic = "wingspread run --no-rows, 1";
+constexpr std::string_view magic = "wingspread run --no-rows, 2";
 
 std::string broken_header(const ResultNames& names) {
   std::string header;

@@ -72,14 +72,14 @@ StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultN
   for (const std::string& output : names.outputs)
     is_overtravel_.push_back(output.ends_with(".overtravel"));
   for (const RequiredOutput& required : required_)
-    is_peak_.push_back(required.column < names.outputs.size() &&
-                       wingspread::is_peak(required.output));
+    peak_.push_back(required.column < names.outputs.size() ? peak_kind(required.output)
+                                                           : PeakKind::none);
   for (const Requirement& requirement : campaign.requirements) {
     const auto found = std::ranges::find_if(required_, [&](const RequiredOutput& each) {
       return each.output == requirement.output && each.absolute == requirement.absolute;
     });
     population_of_.push_back(static_cast<std::size_t>(found - required_.begin()));
-    requirement_counts_.push_back({0, 0, 0, Extremes(Extremes::End::highest, most_broken)});
+    requirement_counts_.push_back({0, 0, 0, 0, Extremes(Extremes::End::highest, most_broken)});
   }
   if (names.draws.size() * (names.outputs.size() + 1) <= most_streaming_pairs)
     correlations_.emplace(names.draws.size(), names.outputs.size() + 1);
@@ -131,14 +131,17 @@ void StreamingStatistics::add_outputs(const ResultRow& row) {
 }
 
 bool StreamingStatistics::add_requirements(const ResultRow& row, std::span<const double> margins) {
-  const bool is_cut = row.peaks_final == PeaksFinal::no;
+  const auto is_cut = [&](std::size_t q) {
+    return wingspread::is_cut(peak_[q], row.peaks_final.value_or(PeaksFinal::unknown));
+  };
+  const auto value_of = [&](const RequiredOutput& required) {
+    return required.column < row.outputs.size() ? row.outputs[required.column]
+                                                : margins[required.column - row.outputs.size()];
+  };
   for (std::size_t q = 0; q < required_.size(); ++q) {
     const RequiredOutput& required = required_[q];
-    const double value = required.column < row.outputs.size()
-                             ? row.outputs[required.column]
-                             : margins[required.column - row.outputs.size()];
-    const bool counts =
-        row.status == Status::deployed && !std::isnan(value) && !(is_peak_[q] && is_cut);
+    const double value = value_of(required);
+    const bool counts = row.status == Status::deployed && !std::isnan(value) && !is_cut(q);
     seen_[q] = !counts ? infinity : required.absolute ? std::abs(value) : value;
     if (counts)
       populations_[q].values.add(seen_[q], row.run);
@@ -158,8 +161,9 @@ bool StreamingStatistics::add_requirements(const ResultRow& row, std::span<const
     ++requirement_counts_[r].failures;
     requirement_counts_[r].worst.add(badness, row.run);
     if (badness != infinity || q >= required_.size()) continue;
-    const bool cut = row.status == Status::deployed && is_peak_[q] && is_cut;
+    const bool cut = row.status == Status::deployed && is_cut(q);
     ++(cut ? requirement_counts_[r].cut : requirement_counts_[r].absent);
+    if (cut && may_meet(requirement, value_of(required_[q]))) ++requirement_counts_[r].open;
   }
   return breaks;
 }
@@ -204,6 +208,7 @@ void StreamingStatistics::add(const StreamingStatistics& other) {
   for (std::size_t r = 0; r < requirement_counts_.size(); ++r) {
     requirement_counts_[r].failures += other.requirement_counts_[r].failures;
     requirement_counts_[r].cut += other.requirement_counts_[r].cut;
+    requirement_counts_[r].open += other.requirement_counts_[r].open;
     requirement_counts_[r].absent += other.requirement_counts_[r].absent;
     requirement_counts_[r].worst.add(other.requirement_counts_[r].worst);
   }

@@ -44,6 +44,7 @@ struct RequiredOutput {
 /// The runs that break a requirement.
 struct RequirementCounts {
   long failures = 0, cut = 0; ///< `cut`: deployed runs among them whose peak t_end cut
+  long open = 0;              ///< runs among those cut that may meet it (verdict.hpp)
   long absent = 0;            ///< runs among them that did not deploy or lack the output
   Extremes worst;             ///< the worst runs; a value worse than any number is infinite
 };
@@ -58,6 +59,8 @@ struct StoppedPopulation {
   FinalAngleColumns columns;
   Population angles;
 };
+
+using PeaksCounts = std::array<long, all_peaks_final.size()>; ///< runs by PeaksFinal
 
 class StreamingStatistics {
 public:
@@ -96,7 +99,7 @@ public:
   }
   [[nodiscard]] const std::map<std::string, long>& latch_orders() const { return orders_; }
   [[nodiscard]] long other_orders() const { return other_orders_; }
-  [[nodiscard]] const std::array<long, 3>& peaks() const { return peaks_; } ///< by PeaksFinal
+  [[nodiscard]] const PeaksCounts& peaks() const { return peaks_; }
   [[nodiscard]] const ReasonCounts& reasons() const { return reasons_; }
   /// Each draw with each output and, last, with `deployed`; nothing if there are too many pairs.
   [[nodiscard]] const std::optional<CoMoments>& correlations() const { return correlations_; }
@@ -111,12 +114,12 @@ private:
   const Campaign* campaign_;
   long runs_ = 0;
   std::array<long, 5> status_{};
-  std::array<long, 3> peaks_{};
+  PeaksCounts peaks_{};
   std::vector<Output> outputs_;
   std::vector<bool> is_overtravel_;
   std::vector<StoppedPopulation> stopped_;
   std::vector<RequiredOutput> required_;
-  std::vector<bool> is_peak_; ///< of each required output
+  std::vector<PeakKind> peak_; ///< of each required output
   std::vector<RequiredPopulation> populations_;
   std::vector<RequirementCounts> requirement_counts_;
   /// For each requirement, the index of its population; "deployed" has none, and the index is populations_.size().

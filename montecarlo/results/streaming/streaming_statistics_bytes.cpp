@@ -49,9 +49,10 @@ void StreamingStatistics::write(StateWriter& to) const {
     values.write(to);
     put_count(to, worse);
   }
-  for (const auto& [failures, cut, absent, worst] : requirement_counts_) {
+  for (const auto& [failures, cut, open, absent, worst] : requirement_counts_) {
     put_count(to, failures);
     put_count(to, cut);
+    put_count(to, open);
     put_count(to, absent);
     worst.write(to);
   }
@@ -96,9 +97,10 @@ StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultN
     get_count(from, population.worse);
     populations_.push_back(std::move(population));
   }
-  for (auto& [failures, cut, absent, worst] : requirement_counts_) {
+  for (auto& [failures, cut, open, absent, worst] : requirement_counts_) {
     get_count(from, failures);
     get_count(from, cut);
+    get_count(from, open);
     get_count(from, absent);
     worst.read(from);
   }

@@ -98,6 +98,7 @@ public:
       : values_(population.values), worse_(population.worse) {}
 
   [[nodiscard]] const RankedPopulation& numbers() const { return values_; }
+  [[nodiscard]] long beyond() const { return worse_; }
   /// The value at a rank counted from above, 1 for the largest; nothing if a run worse than any number has that rank.
   /// @param end where runs worse than any number rank
   [[nodiscard]] std::optional<OrderStatistic> from_above(long rank, MissingRank end) const {
@@ -169,7 +170,7 @@ std::vector<Verdict> verdicts_of(const Campaign& campaign, const StreamingStatis
     verdict.runs = statistics.runs();
     for (const RunValue& worst : counted.worst.sorted()) verdict.broken.push_back(worst.run);
     verdict.not_listed = counted.failures - std::ssize(verdict.broken);
-    verdict.cut = counted.cut, verdict.absent = counted.absent;
+    verdict.cut = counted.cut, verdict.open = counted.open, verdict.absent = counted.absent;
     decide(confidence_alone(campaign.requirements, requirement), {}, verdict);
     const auto found = std::ranges::find_if(statistics.required(), [&](const RequiredOutput& each) {
       return each.output == requirement.output && each.absolute == requirement.absolute;
@@ -259,15 +260,15 @@ Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistic
     if (required.absolute || required.column >= names.outputs.size()) continue;
     for (const ToleranceLimitSpec& limit : spec.tolerance_limits)
       summary.outputs[required.column].tolerance_limits.push_back(
-          {limit, limits_of(ranked[q], statistics.runs(), limit)});
+          {limit, limits_of(ranked[q], statistics.runs(), limit), ranked[q].beyond()});
   }
   add_nominal(campaign, summary);
   add_overtravels(campaign.scene, names, statistics, summary);
   summary.stalled_at = stopped_hinges(statistics);
   if (names.peaks_final) {
-    const auto& peaks = statistics.peaks();
-    const auto of = [&](PeaksFinal final) { return peaks[static_cast<std::size_t>(final)]; };
-    summary.peaks = {of(PeaksFinal::yes), of(PeaksFinal::no), of(PeaksFinal::unknown)};
+    summary.peaks.emplace();
+    for (const PeaksFinal final : all_peaks_final)
+      summary.peaks->add(final, statistics.peaks()[static_cast<std::size_t>(final)]);
   }
   withdraw_if_one_run(campaign, summary);
   return summary;

@@ -34,7 +34,7 @@ std::vector<LatchedRun> fewest_latched_of(const Results& results, std::size_t mo
 void add_deployed(const Requirement& requirement, const Results& results, const Column& column,
                   std::size_t most, BrokenRuns& broken) {
   const double sign = sign_of(requirement), limit = limit_of(requirement);
-  const bool peak = is_peak(column.name);
+  const PeakKind peak = peak_kind(column.name);
   const auto worse = [&](const JudgedRun& a, const JudgedRun& b) {
     return sign * a.value > sign * b.value;
   };
@@ -47,7 +47,7 @@ void add_deployed(const Requirement& requirement, const Results& results, const 
       continue;
     }
     if (!broken.worst || worse(each, *broken.worst)) broken.worst = each;
-    if (peak && results.peaks_final[row] == PeaksFinal::no) {
+    if (results.is_cut(row, peak)) {
       ++broken.cut;
     } else if (sign * value > limit) {
       ++broken.beyond;

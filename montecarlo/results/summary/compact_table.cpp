@@ -164,17 +164,57 @@ std::string in_two_digits(double error) {
   return std::isnan(error) ? "–" : fmt::format("{:.2g}", error);
 }
 
-/// The largest error of the integration over the standard error of the mean, of all outputs; NaN if unknown.
-double largest_share(const Summary& summary) {
-  double largest = undefined;
+/// The largest errors of the integration. An output that does not vary, or of a single run, has no standard error: its
+/// error is compared with its value.
+struct LargestErrors {
+  double of_standard_error =
+      undefined;               ///< over the standard error of the mean; NaN if no output has one
+  double of_value = undefined; ///< over |mean|, of outputs without one; NaN if there are none
+  std::string of_zero;         ///< "1e-12 rad of base.peak_angle", an output that is 0; or empty
+};
+
+LargestErrors largest_errors(const Summary& summary) {
+  LargestErrors found;
   for (std::size_t i = 0; i < summary.accuracy->outputs.size(); ++i) {
-    const double error = summary.accuracy->outputs[i].largest;
-    if (error == 0)
-      largest = std::fmax(largest, 0);
-    else
-      largest = std::fmax(largest, error / summary.outputs[i].mean_error);
+    const auto& [name, runs, error, rms] = summary.accuracy->outputs[i];
+    const double sampling = summary.outputs[i].mean_error;
+    const double value = std::abs(summary.outputs[i].moments.mean);
+    if (std::isnan(error)) continue;
+    if (sampling > 0)
+      found.of_standard_error = std::fmax(found.of_standard_error, error / sampling);
+    else if (value > 0 || error == 0)
+      found.of_value = std::fmax(found.of_value, error == 0 ? 0 : error / value);
+    else if (found.of_zero.empty())
+      found.of_zero = fmt::format("{:.1g} {} of {}", error, parse_output_name(name).unit, name);
   }
-  return largest;
+  return found;
+}
+
+/// "≤ 8e-06 % of a standard error, ≤ 2e-07 % of a value that does not vary".
+std::string errors_text(const Summary& summary) {
+  const LargestErrors found = largest_errors(summary);
+  std::vector<std::string> parts;
+  if (!std::isnan(found.of_standard_error))
+    parts.push_back(fmt::format("≤ {:.1g} % of a standard error", 100 * found.of_standard_error));
+  // next to an error of a standard error, exactness needs no word
+  if (parts.empty() ? !std::isnan(found.of_value) : found.of_value > 0)
+    parts.push_back(fmt::format("≤ {:.1g} % of a value without standard error ({})",
+                                100 * found.of_value,
+                                summary.runs == 1 ? "a single run" : "it does not vary"));
+  if (!found.of_zero.empty()) parts.push_back(found.of_zero + ", which is 0");
+  return parts.empty() ? "unknown" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// The runs in which the errors are at most so large.
+std::string errors_where(const Summary& summary) {
+  const Accuracy& found = *summary.accuracy;
+  const bool all_known = found.in_doubt.empty() && found.unreached == 0 &&
+                         (found.runs == summary.runs || (summary.one_run && found.runs > 0));
+  if (all_known && summary.runs == 1) return "in the only run";
+  if (all_known) return fmt::format("in all {} runs", summary.runs);
+  return fmt::format("in ≥ {} of runs ({:g} % confidence)",
+                     percent(1 - share_at_most(found, 0, summary.confidence), 1),
+                     100 * summary.confidence);
 }
 
 std::string accuracy_lines(const Summary& summary) {
@@ -195,13 +235,8 @@ std::string accuracy_lines(const Summary& summary) {
 /// The largest error, and the runs that it does not hold for.
 std::string accuracy_line(const Summary& summary) {
   const Accuracy& found = *summary.accuracy;
-  const double share = largest_share(summary);
-  std::string line = fmt::format(
-      "integration errors {} in ≥ {} of runs ({:g} % confidence)",
-      std::isnan(share)   ? "unknown"
-      : std::isinf(share) ? "in an output that does not vary"
-                          : fmt::format("≤ {:.1g} % of a standard error", 100 * share),
-      percent(1 - share_at_most(found, 0, summary.confidence), 1), 100 * summary.confidence);
+  std::string line =
+      fmt::format("integration errors {} {}", errors_text(summary), errors_where(summary));
   const auto add = [&](std::size_t runs, const char* one, const char* many) {
     if (runs > 0)
       line += fmt::format("; {} of {} repeated {}", runs, found.runs, runs == 1 ? one : many);
@@ -218,7 +253,7 @@ std::string worst_accuracy(CompactCases cases) {
   double largest = -1;
   for (const CaseSummary& each : cases) {
     if (!each.summary.accuracy) continue;
-    const double share = largest_share(each.summary);
+    const double share = largest_errors(each.summary).of_standard_error;
     if (worst && !(share > largest)) continue;
     worst = &each, largest = std::isnan(share) ? -1 : share;
   }

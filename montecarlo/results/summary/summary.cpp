@@ -242,6 +242,21 @@ std::string why_no_bound(const Summary& summary, const OutputSummary& output) {
                      summary.confidence);
 }
 
+std::string why_no_limit(const Summary& summary, const ToleranceLimitEstimate& estimate) {
+  const auto& [spec, limits, beyond] = estimate;
+  const bool missing =
+      (spec.side != Side::upper && !limits.lower) || (spec.side != Side::lower && !limits.upper);
+  if (!missing) return "";
+  const double c = summary.interim.confidence_of_bound(spec.confidence);
+  const long order = tolerance_order(summary.runs, spec.side, spec.probability, c);
+  if (order > 0)
+    return fmt::format("{} of {} runs rank beyond every number; at most {} may", beyond,
+                       summary.runs, order - 1);
+  const auto least = runs_to_show(spec.probability, c, spec.side == Side::both ? 1 : 0);
+  return fmt::format("{} are too few: it takes {}", counted(summary.runs, "run", "runs"),
+                     least ? std::to_string(*least) : fmt::format("more than {}", most_runs_sized));
+}
+
 Column deployed_column(const Results& results) {
   Column column{"deployed", {}};
   for (const Status status : results.status) {

@@ -72,6 +72,8 @@ struct QuantileEstimate {
 struct ToleranceLimitEstimate {
   ToleranceLimitSpec spec;
   Bounds limits;
+  /// Runs that rank beyond every number (verdict.hpp): not deployed, without a value, or with a peak that t_end cut.
+  long beyond = 0;
 };
 
 struct OutputSummary {
@@ -102,9 +104,13 @@ struct DrawCorrelation {
   Correlation value;
 };
 
-/// Numbers of runs whose peaks are proven, cut by t_end, or unknown (failed or invalid runs).
-struct PeaksCount {
-  long proven = 0, cut = 0, unknown = 0;
+/// Draws of another tool's runs that the dispersion's law does not give.
+struct StrangeDraws {
+  std::string name;                            ///< of the dispersion
+  long runs = 0;                               ///< with such a draw
+  long run = 0;                                ///< the first
+  double value = undefined;                    ///< its draw
+  double lower = undefined, upper = undefined; ///< the law's values, but for 1e-15 of each tail
 };
 
 /// Angles, rad, at which a hinge stopped: its final_angle over the stalled runs in which it did not latch.
@@ -143,16 +149,18 @@ struct Summary {
   std::vector<DrawCorrelation> correlations; ///< each draw with each output and with `deployed`
   /// Added by write_statistics (results_folder.hpp) if the campaign asks for it.
   std::vector<Verdict> requirements{};
-  std::optional<NominalRun> nominal{};    ///< its outputs are in `outputs`
-  std::optional<Accuracy> accuracy{};     ///< of the integration; nothing if not measured
-  std::vector<StoppedHinge> stalled_at{}; ///< in the order of the columns; only with final_angle
-  std::vector<Overtravel> overtravels{};  ///< of hinges without a stop
-  std::vector<LatchJump> latch_jumps{};   ///< of the nominal run
-  std::optional<PeaksCount> peaks{};      ///< nothing if not recorded
-  std::vector<GoalFound> until{};         ///< goals of the stopping rule
-  bool stopped = false;                   ///< all goals were met before all runs were made
-  InterimAnalyses interim{};              ///< which share the risk of every bound and verdict
-  bool without_rows = false;              ///< computed from streaming statistics
+  std::optional<NominalRun> nominal{};       ///< its outputs are in `outputs`
+  std::optional<Accuracy> accuracy{};        ///< of the integration; nothing if not measured
+  std::vector<StoppedHinge> stalled_at{};    ///< in the order of the columns; only with final_angle
+  std::vector<Overtravel> overtravels{};     ///< of hinges without a stop
+  std::vector<LatchJump> latch_jumps{};      ///< of the nominal run
+  std::vector<std::string> jump_forces{};    ///< forces_of_jumps of the nominal run
+  std::vector<StrangeDraws> strange_draws{}; ///< only of runs of another tool
+  std::optional<PeaksCount> peaks{};         ///< nothing if not recorded
+  std::vector<GoalFound> until{};            ///< goals of the stopping rule
+  bool stopped = false;                      ///< all goals were met before all runs were made
+  InterimAnalyses interim{};                 ///< which share the risk of every bound and verdict
+  bool without_rows = false;                 ///< computed from streaming statistics
   bool one_run =
       false; ///< nothing is dispersed, and all runs have the same result (judge_campaign.hpp)
 };
@@ -175,5 +183,8 @@ struct Summary {
                                           const QuantileEstimate& quantile);
 /// Why a quantile lacks a bound, though it exists.
 [[nodiscard]] std::string why_no_bound(const Summary& summary, const OutputSummary& output);
+/// Why a tolerance limit that was asked for is missing; empty if none is.
+[[nodiscard]] std::string why_no_limit(const Summary& summary,
+                                       const ToleranceLimitEstimate& estimate);
 
 } // namespace wingspread

@@ -67,6 +67,12 @@ Json definitions(const Summary& summary) {
     json["quantile_missing"] =
         "quantiles are over all n runs: those without a value rank as missing_ranks says; null "
         "where one of them has the rank; among_runs_with_value: over the others alone";
+  if (std::ranges::any_of(summary.outputs,
+                          [](const auto& each) { return !each.tolerance_limits.empty(); }))
+    json["tolerance"] = "over all n runs, as requirements: a run that did not deploy, has no value "
+                        "or has a peak that t_end cut is beyond_every_number: above for an upper "
+                        "or two-sided limit, below for a lower one. Quantiles, unlike limits, use "
+                        "every value that a run has";
   if (summary.nominal)
     json["nominal"] = "of the run with every dispersion at the median of its law, tables included";
   if (summary.without_rows) {
@@ -83,8 +89,10 @@ Json definitions(const Summary& summary) {
         "lower bound of the confidence that all passed requirements hold: 1 - the sum of (1 - c) "
         "over all requirements";
   if (summary.peaks)
-    json["peaks_final"] = "runs whose peaks are proven (true) or were cut by t_end (false): a cut "
-                          "peak breaks every requirement on it";
+    json["peaks_final"] =
+        "runs whose peaks are proven (true) or were cut by t_end (false): a cut peak breaks every "
+        "requirement on it, and disproves none unless it is beyond the limit already; moments_cut, "
+        "forces_cut: where only the one or the other was cut in some runs";
   if (summary.accuracy)
     json["accuracy"] =
         "runs drawn at random and repeated by the reference: largest and RMS difference; "
@@ -182,27 +190,18 @@ Json quantiles_json(const Summary& summary, const OutputSummary& output) {
   return json;
 }
 
-/// Why a tolerance limit is null.
-std::string missing_limit(const Summary& summary, const ToleranceLimitSpec& spec) {
-  const double c = summary.interim.confidence_of_bound(spec.confidence);
-  const auto least = runs_to_show(spec.probability, c, spec.side == Side::both ? 1 : 0);
-  if (least && summary.runs >= *least)
-    return "no number: too many runs did not deploy or are without a value";
-  return fmt::format("{} runs are too few: it takes {}", summary.runs,
-                     least ? std::to_string(*least) : fmt::format("more than {}", most_runs_sized));
-}
-
 Json tolerance_json(const Summary& summary, const OutputSummary& output) {
   Json json = Json::array();
-  for (const auto& [spec, limits] : output.tolerance_limits) {
+  for (const ToleranceLimitEstimate& estimate : output.tolerance_limits) {
+    const auto& [spec, limits, beyond] = estimate;
     Json entry{{"probability", spec.probability},
                {"confidence", spec.confidence},
                {"side", side_names[static_cast<std::size_t>(spec.side)]}};
     if (spec.side != Side::upper) entry["lower"] = json_number(limits.lower);
     if (spec.side != Side::lower) entry["upper"] = json_number(limits.upper);
-    const bool missing =
-        (spec.side != Side::upper && !limits.lower) || (spec.side != Side::lower && !limits.upper);
-    if (missing) entry["note"] = missing_limit(summary, spec);
+    if (beyond > 0) entry["beyond_every_number"] = beyond;
+    if (std::string why = why_no_limit(summary, estimate); !why.empty())
+      entry["note"] = std::move(why);
     json.push_back(std::move(entry));
   }
   return json;
@@ -245,8 +244,6 @@ Json verdict_json(const Summary& summary, const Verdict& verdict) {
   json.update(evidence_json(verdict));
   if (!verdict.allowed && verdict.least_runs) json["least_runs"] = *verdict.least_runs;
   if (!verdict.requirement.group.empty()) json["confidence_alone"] = verdict.confidence_alone;
-  if (verdict.cut > 0) json["failures"]["peaks_cut"] = verdict.cut;
-  if (verdict.absent > 0) json["failures"]["without_value"] = verdict.absent;
   if (summary.interim.count() > 1) json["confidence_at_this_analysis"] = verdict.confidence;
   if (const auto& joint = verdict.joint) {
     json["risk_of_wrong_pass"] = joint->risk;
@@ -350,10 +347,7 @@ Json summary_json(const Summary& summary, const Json& about) {
   add_reasons(json, summary);
   add_stopped(json, summary);
   add_latch_orders(json, summary);
-  if (summary.peaks)
-    json["peaks_final"] = {{"true", summary.peaks->proven},
-                           {"false", summary.peaks->cut},
-                           {"missing", summary.peaks->unknown}};
+  if (summary.peaks) json["peaks_final"] = peaks_json(*summary.peaks);
   json["outputs"] = Json::object();
   for (const OutputSummary& output : summary.outputs)
     json["outputs"][output.name] = output_json(summary, output);

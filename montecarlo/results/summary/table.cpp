@@ -14,6 +14,7 @@
 #include <functional>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 namespace wingspread {
 
@@ -204,22 +205,49 @@ std::string in_digits_if_any(const std::optional<double>& value) {
   return value ? in_digits(*value) : "–";
 }
 
+/// The rule by which runs are ranked for tolerance limits, and why limits are missing, with their outputs.
+std::string tolerance_notes(const Summary& summary) {
+  bool beyond = false;
+  std::vector<std::pair<std::string, std::vector<std::string>>> missing;
+  for (const OutputSummary& output : summary.outputs)
+    for (const ToleranceLimitEstimate& estimate : output.tolerance_limits) {
+      beyond = beyond || estimate.beyond > 0;
+      const std::string why = why_no_limit(summary, estimate);
+      if (why.empty()) continue;
+      auto same = std::ranges::find(missing, why, &decltype(missing)::value_type::first);
+      if (same == missing.end()) same = missing.insert(missing.end(), {why, {}});
+      if (same->second.empty() || same->second.back() != output.name)
+        same->second.push_back(output.name);
+    }
+  std::string text;
+  for (const auto& [why, names] : missing)
+    text += "  " + wrapped(fmt::format("–: {} ({})", why, fmt::join(names, ", ")), 4) + '\n';
+  if (beyond)
+    text += "  " +
+            wrapped("Limits are over all runs, as requirements: a run ranks beyond every number if "
+                    "it did not deploy, has no value, or t_end cut its peak, even where the "
+                    "quantiles above use its value.",
+                    4) +
+            '\n';
+  return text;
+}
+
 /// A line for each output and each limit asked for.
 std::string tolerance(const Summary& summary) {
   std::string text;
   for (const OutputSummary& output : summary.outputs)
-    for (const auto& [spec, limits] : output.tolerance_limits) {
+    for (const auto& [spec, limits, beyond] : output.tolerance_limits) {
       const std::string content =
           fmt::format("{:.10g} % at {:.10g} %", 100 * spec.probability, 100 * spec.confidence);
-      text += fmt::format("{}{}{:>14}{:>14}\n", in_column("  " + output.name, 44),
-                          in_column(content, 28),
-                          spec.side == Side::upper ? "" : in_digits_if_any(limits.lower),
-                          spec.side == Side::lower ? "–" : in_digits_if_any(limits.upper));
+      text += fmt::format("{}{}{:>14}", in_column("  " + output.name, 44), in_column(content, 28),
+                          spec.side == Side::upper ? "" : in_digits_if_any(limits.lower));
+      if (spec.side != Side::lower) text += fmt::format("{:>14}", in_digits_if_any(limits.upper));
+      text += '\n';
     }
   if (text.empty()) return "";
   return fmt::format("\n{:<44}{:<28}{:>14}{:>14}\n", "TOLERANCE LIMITS", "content, confidence",
                      "lower", "upper") +
-         text;
+         text + tolerance_notes(summary);
 }
 
 /// The worst runs that break a requirement, and the command that replays the first.

@@ -43,21 +43,17 @@ const Column* column_of(const Results& results, std::span<const Column> besides,
 /// How an output's values are read before they are compared with a limit.
 struct Reading {
   bool absolute = false;
-  bool is_peak = false; ///< if so, a value cut by t_end is read as infinite
+  PeakKind peak = PeakKind::none; ///< of which a value cut by t_end is read as infinite
 };
 
 Reading reading_of(const Column* column, bool absolute) {
-  return {absolute, column && is_peak(column->name)};
-}
-
-bool is_cut(const Results& results, std::size_t row, const Reading& how) {
-  return how.is_peak && results.peaks_final[row] == PeaksFinal::no;
+  return {absolute, column ? peak_kind(column->name) : PeakKind::none};
 }
 
 /// The value if the run deployed and the value counts; else infinite.
 double value_or_infinite(const Results& results, std::size_t row, double value,
                          const Reading& how) {
-  if (results.status[row] != Status::deployed || std::isnan(value) || is_cut(results, row, how))
+  if (results.status[row] != Status::deployed || std::isnan(value) || results.is_cut(row, how.peak))
     return infinity;
   return how.absolute ? std::abs(value) : value;
 }
@@ -70,11 +66,13 @@ void add_breaking(const Results& results, const Column* column, Verdict& verdict
   Spilled<long>& broken = verdict.broken; // begins with the runs that are worse than any number
   std::vector<Badness> beyond;
   for (std::size_t row = 0; row < results.size(); ++row) {
-    const double value = value_or_infinite(results, row, column ? column->values[row] : 0, how);
+    const double seen = column ? column->values[row] : 0;
+    const double value = value_or_infinite(results, row, seen, how);
     if (value == infinity) {
       broken.push_back(results.runs[row]);
-      const bool cut = results.status[row] == Status::deployed && is_cut(results, row, how);
+      const bool cut = results.status[row] == Status::deployed && results.is_cut(row, how.peak);
       if (column) ++(cut ? verdict.cut : verdict.absent);
+      if (cut && may_meet(requirement, seen)) ++verdict.open;
     } else if (sign * value > limit) {
       beyond.push_back({results.runs[row], sign * value});
     }
@@ -87,8 +85,9 @@ void add_breaking(const Results& results, const Column* column, Verdict& verdict
 }
 
 Decision decision_of(const Verdict& verdict) {
-  if (verdict.allowed)
-    return verdict.failures() <= *verdict.allowed ? Decision::pass : Decision::fail;
+  if (verdict.allowed && verdict.failures() <= *verdict.allowed) return Decision::pass;
+  if (rests_on_cut_peaks(verdict)) return Decision::undecided;
+  if (verdict.allowed) return Decision::fail;
   return verdict.disproved ? Decision::fail : Decision::undecided;
 }
 
@@ -137,6 +136,15 @@ double limit_of(const Requirement& requirement) {
   return requirement.min ? -*requirement.min : 0;
 }
 
+bool may_meet(const Requirement& requirement, double cut_peak) {
+  return requirement.min || !(cut_peak > limit_of(requirement));
+}
+
+bool rests_on_cut_peaks(const Verdict& verdict) {
+  return verdict.allowed && verdict.failures() > *verdict.allowed &&
+         verdict.failures() - verdict.open <= *verdict.allowed;
+}
+
 std::string_view to_string(Decision decision) {
   switch (decision) {
   case Decision::pass:
@@ -160,7 +168,7 @@ void decide(double confidence, const InterimAnalyses& interim, Verdict& verdict)
   verdict.joint = rule.joint;
   verdict.allowed = rule.allowed;
   verdict.least_runs = runs_to_show(p, c, 0);
-  verdict.disproved = is_disproved(interim, n, p, confidence, broken);
+  verdict.disproved = is_disproved(interim, n, p, confidence, broken - verdict.open);
   verdict.share = static_cast<double>(n - broken) / static_cast<double>(n);
   verdict.guaranteed_share = clopper_pearson_lower(n - broken, n, c);
   verdict.decision = decision_of(verdict);
@@ -266,7 +274,7 @@ std::string evidence(const Verdict& verdict) {
   std::vector<std::string> causes;
   if (verdict.cut > 0)
     causes.push_back(fmt::format("{} of them because t_end cut {}", verdict.cut,
-                                 verdict.cut == 1 ? "its peaks" : "their peaks"));
+                                 verdict.cut == 1 ? "its peak" : "their peaks"));
   if (verdict.absent > 0)
     causes.push_back(fmt::format("{} of them because {}", verdict.absent,
                                  verdict.absent == 1 ? "it did not deploy or has no value"
@@ -275,7 +283,11 @@ std::string evidence(const Verdict& verdict) {
   if (verdict.allowed) {
     const bool open = verdict.decision == Decision::fail && !verdict.disproved;
     return fmt::format("{}; at most {} may{}{}", found, *verdict.allowed,
-                       open ? ": not shown, and not disproved either" : "", joint_risk(verdict));
+                       rests_on_cut_peaks(verdict)
+                           ? ". A cut peak may still rise and shows nothing: lengthen t_end"
+                       : open ? ": not shown, and not disproved either"
+                              : "",
+                       joint_risk(verdict));
   }
   if (verdict.disproved) return found + ": disproved";
   const std::string least = verdict.least_runs

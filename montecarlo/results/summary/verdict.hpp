@@ -4,7 +4,9 @@
 /// A run breaks a requirement if it did not deploy, if the output did not happen, or if its value is beyond the limit.
 /// A run that stalled, timed out, failed or was invalid is "worse than any number": for a `max` it ranks above every
 /// value, for a `min` below. Leaving such runs out would make the result look better than it is. A run whose peak was
-/// cut by t_end breaks a requirement on that peak too, because the peak might have risen.
+/// cut by t_end (finality.hpp) breaks a requirement on that peak too, because the peak might have risen. It disproves
+/// none, unless its value is beyond the limit already: where the cut peaks alone stand against a pass, the verdict is
+/// `undecided`, and a longer t_end decides it.
 ///
 /// Symbols as in wilks.hpp: n runs, k of them break the requirement P ≥ p at confidence c.
 #pragma once
@@ -25,7 +27,7 @@ namespace wingspread {
 enum class Decision {
   pass,     ///< the runs show P ≥ p
   fail,     ///< they do not, though n runs are enough to show it; or they disprove it
-  undecided ///< n runs are too few to show it, and do not disprove it
+  undecided ///< n runs are too few to show it, or t_end cut their peaks; and they do not disprove it
 };
 [[nodiscard]] std::string_view to_string(Decision decision);
 
@@ -46,6 +48,7 @@ struct Verdict {
   bool disproved = false;         ///< P < p is shown at the same confidence
   bool one_run = false;           ///< all runs are the same run and show no probability
   long cut = 0;                   ///< deployed runs that break it because t_end cut their peak
+  long open = 0;   ///< those among them whose cut peak is not beyond the limit: they may meet it
   long absent = 0; ///< runs that break a limit because they did not deploy or lack the output
   /// Least and largest value, if the limit lies on the other side of zero from all values.
   std::optional<std::array<double, 2>> beyond_zero{};
@@ -67,10 +70,13 @@ struct Verdict {
 [[nodiscard]] double sign_of(const Requirement& requirement);
 [[nodiscard]] double limit_of(const Requirement& requirement);
 
+/// Whether a run whose peak t_end cut at this value may meet the requirement: the peak is at least the value.
+[[nodiscard]] bool may_meet(const Requirement& requirement, double cut_peak);
+
 /// Decides a verdict: sets everything except the values of the output.
 /// @param confidence at which the requirement would be judged in a single analysis
 /// @param interim    the interim analyses that share the risk
-/// @pre requirement, runs, broken, not_listed and cut are set
+/// @pre requirement, runs, broken, not_listed, cut and open are set
 void decide(double confidence, const InterimAnalyses& interim, Verdict& verdict);
 
 /// Least and largest value, if the limit lies on the other side of zero from both.
@@ -89,6 +95,9 @@ public:
   [[nodiscard]] std::span<const double> numbers() const {
     return std::span(values_).subspan(worse_, values_.size() - 2 * worse_);
   }
+
+  /// Number of runs worse than any number.
+  [[nodiscard]] long beyond() const { return static_cast<long>(worse_); }
 
   /// Smallest first, with +∞ at the end for runs worse than any number.
   [[nodiscard]] std::span<const double> worst_above() const {
@@ -117,6 +126,9 @@ private:
                                              const InterimAnalyses& interim = {},
                                              std::span<const Column> besides = {});
 
+/// Whether the requirement would pass if the cut peaks did not break it.
+[[nodiscard]] bool rests_on_cut_peaks(const Verdict& verdict);
+
 /// Whether the requirement is passed or disproved, so that more runs need not be made for it.
 [[nodiscard]] bool is_decided(const Verdict& verdict);
 
@@ -140,8 +152,9 @@ struct GroupVerdict {
 /// "wingspread replay DIR --run 17".
 [[nodiscard]] std::string replay_command(std::string_view folder, long run);
 
-/// Tolerance limits of an output over all runs. Runs that did not deploy or have no value rank above every number for
-/// an upper and a two-sided limit, below for a lower one.
+/// Tolerance limits of an output over all runs. Runs that did not deploy, have no value or have a peak that t_end cut
+/// rank above every number for an upper and a two-sided limit, below for a lower one. So a requirement passes if and
+/// only if the limit of its probability and confidence keeps within its own.
 /// @pre as for judge
 [[nodiscard]] Bounds output_limits(const RankedOutput& output, const ToleranceLimitSpec& spec,
                                    const InterimAnalyses& interim = {});

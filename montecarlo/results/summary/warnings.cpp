@@ -1,20 +1,30 @@
 #include "montecarlo/results/summary/warnings.hpp"
 
+#include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
+#include <utility>
 
 namespace wingspread {
 namespace {
 
-std::string warn_of_cut_peaks(long cut, long runs) {
-  return fmt::format("in {} of {} runs t_end cut the peaks: they may still rise, and break every "
-                     "requirement on a peak",
-                     cut, runs);
+/// @pre some runs have cut peaks
+std::string warn_of_cut_peaks(const PeaksCount& peaks, long runs) {
+  return cut_peaks_text(peaks, runs) +
+         ": they may still rise, and break every requirement on a peak; statistics and "
+         "correlations are of the cut values. Lengthen t_end";
+}
+
+/// Deployed runs with a reason: latches_may_open is the only one.
+long count_open_latches(const Summary& summary) {
+  long open = 0;
+  for (const ReasonCount& each : summary.reasons)
+    if (each.status == Status::deployed && each.reason == latches_may_open) open += each.count;
+  return open;
 }
 
 std::string warn_of_far_limit(const Verdict& verdict) {
@@ -44,34 +54,62 @@ std::string warn_of_moved_runs(const Accuracy& accuracy) {
                      one ? "it moves" : "they move");
 }
 
-/// The text without the digits of its numbers: equal for warnings of the same kind about the same parts.
-std::string kind_of(std::string_view text) {
-  std::string kind;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    // digits of a name ("panel_2") follow a letter or an underscore, those of a number do not
-    const bool digit = std::isdigit(static_cast<unsigned char>(text[i])) != 0;
-    const bool in_name =
-        i > 0 && (std::isalpha(static_cast<unsigned char>(text[i - 1])) != 0 || text[i - 1] == '_');
-    if (!digit || in_name) kind += text[i];
-  }
-  return kind;
+std::string warn_of_draws(const StrangeDraws& draws, long runs) {
+  return fmt::format("in {} of {} runs the draw {} is outside its law, {:.5g} to {:.5g}: {:.5g} in "
+                     "run {}. The campaign is perhaps not that of these runs",
+                     draws.runs, runs, draws.name, draws.lower, draws.upper, draws.value,
+                     draws.run);
 }
 
-/// A warning, and the cases that have it.
+/// A warning, and the cases that have it, with the numbers of each (reason_pattern.hpp).
 struct SharedWarning {
-  std::string text;
-  std::vector<std::string> cases;
-  bool same = true; ///< the numbers are equal in all of them
+  std::vector<std::string> words, cases;
+  std::vector<std::vector<std::string>> numbers; ///< by case
 };
+
+double number_in(const std::string& text) { return parse_csv_number(text).value_or(0); }
+
+/// "7 to 60" where the cases differ in a number, the least and the largest.
+std::string numbers_at(const SharedWarning& warning, std::size_t place) {
+  std::vector<std::string> texts;
+  for (const auto& numbers : warning.numbers) texts.push_back(numbers[place]);
+  const auto [least, largest] = std::ranges::minmax(texts, {}, number_in);
+  return least == largest ? least : fmt::format("{} to {}", least, largest);
+}
+
+bool differs(const SharedWarning& warning, std::size_t place) {
+  return std::ranges::any_of(warning.numbers, [&](const auto& numbers) {
+    return numbers[place] != warning.numbers.front()[place];
+  });
+}
+
+/// "every case: cold 60, hot 7": each case's own number where they differ in one.
+std::string cases_text(const SharedWarning& warning, const std::vector<std::size_t>& differing,
+                       std::size_t cases) {
+  const bool every = warning.cases.size() == cases;
+  if (differing.size() != 1)
+    return every ? "every case" : fmt::format("{}", fmt::join(warning.cases, ", "));
+  std::vector<std::string> each;
+  for (std::size_t i = 0; i < warning.cases.size(); ++i)
+    each.push_back(warning.cases[i] + ' ' + warning.numbers[i][differing.front()]);
+  return fmt::format("{}{}", every ? "every case: " : "", fmt::join(each, ", "));
+}
+
+std::string to_string(const SharedWarning& warning, std::size_t cases) {
+  std::string text = warning.words.front();
+  std::vector<std::size_t> differing;
+  for (std::size_t place = 0; place + 1 < warning.words.size(); ++place) {
+    if (differs(warning, place)) differing.push_back(place);
+    text += numbers_at(warning, place) + warning.words[place + 1];
+  }
+  return fmt::format("{} ({})", text, cases_text(warning, differing, cases));
+}
 
 } // namespace
 
 PeaksCount count_peaks_final(const Results& results) {
   PeaksCount count;
-  for (const PeaksFinal final : results.peaks_final)
-    ++(final == PeaksFinal::yes  ? count.proven
-       : final == PeaksFinal::no ? count.cut
-                                 : count.unknown);
+  for (const PeaksFinal final : results.peaks_final) count.add(final);
   results.peaks_final.release();
   return count;
 }
@@ -83,12 +121,18 @@ std::vector<std::string> warnings(const Summary& summary) {
         fmt::format("nothing is dispersed: all {} runs are the same run. Shares, bounds "
                     "and verdicts show no probability",
                     summary.runs));
+  for (const StrangeDraws& draws : summary.strange_draws)
+    lines.push_back(warn_of_draws(draws, summary.runs));
   for (const Overtravel& overtravel : summary.overtravels)
     lines.push_back(warning(overtravel, summary.runs));
   if (!summary.latch_jumps.empty())
     lines.push_back("in the nominal run: " + warning(summary.latch_jumps));
+  if (!summary.jump_forces.empty())
+    lines.push_back("in the nominal run: " + warning_of_forces(summary.jump_forces));
   if (summary.peaks && summary.peaks->cut > 0)
-    lines.push_back(warn_of_cut_peaks(summary.peaks->cut, summary.runs));
+    lines.push_back(warn_of_cut_peaks(*summary.peaks, summary.runs));
+  if (const long open = count_open_latches(summary); open > 0)
+    lines.push_back(warn_of_open_latches(open, summary.runs));
   if (summary.accuracy && !summary.accuracy->moved.empty())
     lines.push_back(warn_of_moved_runs(*summary.accuracy));
   for (const Verdict& verdict : summary.requirements)
@@ -100,19 +144,15 @@ std::vector<std::string> warnings(std::span<const CaseSummary> cases) {
   std::vector<SharedWarning> found;
   for (const CaseSummary& each : cases)
     for (const std::string& text : warnings(each.summary)) {
-      const auto known = std::ranges::find_if(
-          found, [&](const SharedWarning& other) { return kind_of(other.text) == kind_of(text); });
+      ReasonPattern pattern = pattern_of(text);
+      auto known = std::ranges::find(found, pattern.words, &SharedWarning::words);
       if (known == found.end())
-        found.push_back({text, {each.name}});
-      else
-        known->cases.push_back(each.name), known->same = known->same && known->text == text;
+        known = found.insert(found.end(), {std::move(pattern.words), {}, {}});
+      known->cases.push_back(each.name);
+      known->numbers.push_back(std::move(pattern.numbers));
     }
   std::vector<std::string> lines;
-  for (const auto& [text, names, same] : found)
-    lines.push_back(fmt::format(
-        "{} ({}{})", text,
-        names.size() == cases.size() ? "every case" : fmt::format("{}", fmt::join(names, ", ")),
-        same ? "" : "; numbers of " + names.front()));
+  for (const SharedWarning& warning : found) lines.push_back(to_string(warning, cases.size()));
   return lines;
 }
 

@@ -14,12 +14,12 @@ namespace wingspread {
 [[nodiscard]] PeaksCount count_peaks_final(const Results& results);
 
 /// One line for each warning, in this order: all runs are the same; overtravel; latches whose damping decides the
-/// nominal peak; peaks cut by t_end; outputs that moved at a tighter tolerance; limits on the other side of zero from
+/// nominal peak; peaks cut by t_end; latches that may let go after it; outputs that moved at a tighter tolerance; limits on the other side of zero from
 /// every value.
 [[nodiscard]] std::vector<std::string> warnings(const Summary& summary);
 
-/// The warnings of all cases, each followed by the names of its cases. Warnings that differ only in numbers are merged,
-/// with the numbers of the first case.
+/// The warnings of all cases, each followed by the names of its cases. Warnings that differ only in numbers are merged:
+/// "in 7 to 60 of 60 runs … (every case: cold 60, hot 7)".
 [[nodiscard]] std::vector<std::string> warnings(std::span<const CaseSummary> cases);
 
 /// The table's section "WARNING"; empty if there are none.

@@ -48,6 +48,8 @@ inline std::string bits_of(const Outcome& outcome) {
   for (const auto* v : {&outcome.final.base_position, &outcome.final.base_velocity})
     for (const double x : *v) add(x);
   add(outcome.t_end), add(outcome.peaks_final ? 1 : 0);
+  add(outcome.moments_final ? 1 : 0), add(outcome.forces_final ? 1 : 0);
+  add(outcome.latches_final ? 1 : 0);
   add(outcome.energy.initial), add(outcome.energy.final);
   add(outcome.energy.drift_before_first_latch);
   add(static_cast<double>(outcome.work.steps)), add(static_cast<double>(outcome.work.rejected));

@@ -267,6 +267,21 @@ TEST_CASE("what stops being a number fails the run") {
       }
     }
   }
+  SECTION("accelerations that overflow at the start, of any hinge") {
+    for (const std::size_t hinge : {0, 1, 2})
+      for (const MethodInfo& method : methods()) {
+        Scene scene = seed_scene();
+        scene.hinges[hinge].initial_rate = 1e200; // its square is none
+        Integration how = within(1e-6, 30);
+        how.method = method.name;
+        const Outcome out = Deployment().run(scene, how, {});
+        CAPTURE(hinge, method.name, out.reason);
+        CHECK(out.status == Status::failed);
+        CHECK(out.reason.starts_with("the accelerations are not finite at the start"));
+        CHECK(out.t_end == 0);
+        CHECK(out.work.steps == 0);
+      }
+  }
   SECTION("angles past the last whole radian that a double can tell") {
     // the same scene: φ = 1.5 + 0.1 cosh 33 t is 1e20 rad at 1.5 s; |f| = m c |φ̇², φ̈|
     Scene scene = unit_oscillator(1.6);

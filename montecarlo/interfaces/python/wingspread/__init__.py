@@ -68,7 +68,7 @@ class Table(typing.Mapping[str, npt.NDArray[typing.Any]]):
     """The rows of a campaign: a mapping from the columns of runs.csv to numpy arrays.
 
     Numbers are read-only views of the table's memory; NaN marks a missing value. `status`,
-    `latch_order` and `reason` are arrays of str, `peaks_final` of True, False or None. pandas.DataFrame(dict(table))
+    `latch_order` and `reason` are arrays of str, `peaks_final` of True, False, the only family proven, or None. pandas.DataFrame(dict(table))
     is a data frame.
     """
 
@@ -86,7 +86,7 @@ class Table(typing.Mapping[str, npt.NDArray[typing.Any]]):
         if column not in ("status", "latch_order", "peaks_final"):
             return self._native.numbers(column)
         codes, texts = self.codes(column)
-        known: list[typing.Any] = [None, False, True] if column == "peaks_final" else texts
+        known: list[typing.Any] = [None, False, True, *texts[3:]] if column == "peaks_final" else texts
         return np.array(known, dtype=object)[codes]
 
     def __iter__(self) -> typing.Iterator[str]:

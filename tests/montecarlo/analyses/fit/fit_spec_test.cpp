@@ -128,6 +128,19 @@ TEST_CASE("each fault of the tests has its place") {
         "numbers as parameters");
 }
 
+TEST_CASE("no object of the tests has a key that is not read") {
+  const Files files;
+  Json json = tests_json();
+  json["tests"][0]["trace"]["time"] = {{"column", "t"}, {"unit", "s"}};
+  json["candidates"] = parse_json(
+      R"([ { "name": "next", "trace": { "times": { "to": 2, "step": 0.5 },
+        "columns": { "root.angle": { "std": 0.01, "offset_std": 0.01 } } },
+        "values": [ { "output": "root.latch_time", "std": 0.1 } ] } ])");
+  REQUIRE(files.problems(json).empty());
+  const auto message_for = [&](const Json& changed) { return files.problems(changed); };
+  CHECK(objects_with_unread_keys(json, message_for) == std::vector<std::string>{});
+}
+
 TEST_CASE("each fault of a trace has its line") {
   const auto with = [&](const std::string& text) { return Files(text).problems(tests_json()); };
   CHECK(with("t,th,w\n0,86,0\n0.2,85.5,-1\n0.1,84,-2\n") ==

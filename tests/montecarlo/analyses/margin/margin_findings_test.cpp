@@ -126,6 +126,11 @@ TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {
   CHECK(why_withheld(search).empty());
   search.withheld = Withheld::no_window;
   CHECK(why_withheld(search) == "no scale that was looked at meets all requirements");
+  CaseLook& cut = search.seen[16].front(); // as if t_end had cut all peaks
+  Verdict& verdict = cut.verdicts.front();
+  verdict.decision = Decision::undecided, verdict.not_listed = verdict.cut = verdict.open = 100;
+  CHECK(why_withheld(search) == "no scale that was looked at meets all requirements; at some only "
+                                "because t_end cut peaks: lengthen t_end");
   search.withheld = Withheld::no_lower_edge;
   CHECK(why_withheld(search) == "nothing fails down to 0.0625: no edge was found, and how far down "
                                 "the springs may go is not known");

@@ -1,8 +1,10 @@
+#include "montecarlo/analyses/margin/margin_findings.hpp"
 #include "montecarlo/analyses/margin/margin_study.hpp"
 #include "montecarlo/analyses/margin/scaled_springs.hpp"
 #include "montecarlo/engine/runs/static_margin_draws.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/summary/judge_campaign.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -282,4 +284,33 @@ TEST_CASE("where no edge is found as far as one may look, nothing is recommended
   CHECK_FALSE(search.confirmation);
   CHECK(search.withheld == Withheld::no_lower_edge);
   CHECK(search.seen.begin()->first == 0.5);
+}
+
+// With the requirements' peaks alone, and with all that a run records: forces of a latch without damping are never proven.
+TEST_CASE("margin and run judge the same draws alike, whatever else a run records", "[margin]") {
+  for (const double t_end : {2.3, 15.0}) {
+    const Campaign campaign = campaign_of(ringing_panel(100, t_end, 0));
+    const RunPlan plan(campaign);
+    const Results rows = rows_of(plan, {0, 100});
+    const bool is_cut = t_end < 3;
+    CAPTURE(t_end);
+    CHECK(count_cut(rows, "root.peak_force") == 100);
+    CHECK(count_cut(rows, "root.peak_moment") == (is_cut ? 100 : 0));
+    const Verdict by_run = judge_campaign(campaign, rows).front();
+    const MarginResult result = margin_of(campaign);
+    const Verdict& by_margin = result.searches.front().seen.at(1)[0].verdicts[0];
+    CHECK(by_run.decision == (is_cut ? Decision::undecided : Decision::pass));
+    CHECK(by_margin.decision == by_run.decision);
+    CHECK((by_margin.cut == by_run.cut && by_margin.open == by_run.open));
+    CHECK(by_margin.failures() == by_run.failures());
+    CHECK((!by_margin.disproved && !by_run.disproved));
+    const std::vector<CutPeaks> cut = cut_peaks(result, result.searches.front());
+    CHECK(cut.empty() == !is_cut);
+    if (is_cut) CHECK((cut[0].cut == 100 && cut[0].scale == 1));
+    const std::string warning = "at scale 1 t_end cut the peak in 100 of 100 runs";
+    const auto lines = margin_warnings(result);
+    CHECK(std::ranges::any_of(lines, [&](const std::string& line) {
+            return line.find(warning) != std::string::npos;
+          }) == is_cut);
+  }
 }

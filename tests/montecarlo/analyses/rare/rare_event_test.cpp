@@ -1,4 +1,4 @@
-#include "montecarlo/analyses/rare/rare_event.hpp"
+#include "montecarlo/analyses/rare/rare_report.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "tests/montecarlo/margin_support.hpp"
@@ -126,6 +126,37 @@ TEST_CASE("a wing that its spring barely breaks loose is near to staying stowed"
   CHECK(at(1.99) > 0);
   CHECK(at(1.99) < at(1.98));
   CHECK(at(2.01) == -1);
+}
+
+TEST_CASE("peaks that t_end cut count as the event, as they break a requirement, and are counted") {
+  const RareOptions options{
+      .event = {"root.peak_moment", 20, true}, .samples = 100, .repeats = 2, .confidence = 0.9};
+  const Campaign campaign = campaign_of(ringing_panel(100, 2.3, 0));
+  ThreadEvaluator evaluator({}, never);
+  const RareResult cut = estimate_rare_event(campaign, options, evaluator, untold);
+  CHECK(cut.estimate.probability == 1);
+  CHECK((cut.cut == cut.estimate.evaluations && cut.cut == 200));
+  CHECK(rare_json(cut, options, campaign, {})["peaks_cut"] == 200);
+  const std::string said = "t_end cut the peak in 200 of 200 runs: they count as the event";
+  CHECK_THAT(doubts_of(cut).at(0), Catch::StartsWith(said) && Catch::EndsWith("Lengthen t_end"));
+  CHECK_THAT(rare_text(cut, options, campaign), Catch::Contains(said));
+
+  const Campaign longer = campaign_of(ringing_panel(100, 15, 0));
+  RareOptions small = options;
+  small.smallest = 0.01;
+  const RareResult whole = estimate_rare_event(longer, small, evaluator, untold);
+  CHECK((whole.cut == 0 && !whole.estimate.reached)); // no draw comes to 20 N·m
+  CHECK(rare_text(whole, small, longer).find("t_end") == std::string::npos);
+}
+
+TEST_CASE("latches that may let go after t_end count as deployed, and are counted") {
+  Json json = ringing_panel(100, 2.3, 0.01);
+  json["scene"]["hinges"][0]["latch"]["holding_moment"] = 8; // it will bear 13 N·m
+  const RareOptions options{.samples = 100, .repeats = 2};
+  const RareResult found = estimate(json, options);
+  CHECK(found.statuses[static_cast<std::size_t>(Status::deployed)] == found.estimate.evaluations);
+  CHECK(found.open_latches == found.estimate.evaluations);
+  CHECK_THAT(doubts_of(found).back(), Catch::Contains("every latch with a holding_moment"));
 }
 
 TEST_CASE("a limit state on an output of the run's end has runs that go there") {

@@ -1,6 +1,7 @@
 #include "distributions/random_stream.hpp"
 #include "montecarlo/analyses/rare/subset_simulation.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
+#include "tests/montecarlo/analyses/rare/limit_states.hpp"
 #include "tests/support/random_cases.hpp"
 
 #include <boost/math/distributions/normal.hpp>
@@ -12,25 +13,9 @@
 #include <utility>
 
 using namespace wingspread;
+using namespace wingspread::oracle;
 
 namespace {
-
-using PointFunction = std::function<double(const NormalPoint&)>;
-
-LimitStateFunction limit_state(const PointFunction& g) {
-  return [g](std::span<const NormalPoint> points) {
-    std::vector<double> values;
-    for (const NormalPoint& point : points) values.push_back(g(point));
-    return values;
-  };
-}
-
-/// β − Σ z_i/√d: P = Φ(−β).
-PointFunction linear(double beta) {
-  return [beta](const NormalPoint& z) {
-    return beta - std::accumulate(z.begin(), z.end(), 0.0) / std::sqrt(double(z.size()));
-  };
-}
 
 /// The points of the first level have these, in their order; all others are far away, so that no move is taken.
 LimitStateFunction never_nearer(std::vector<double> first) {
@@ -38,18 +23,6 @@ LimitStateFunction never_nearer(std::vector<double> first) {
     if (!std::exchange(begins, false)) return std::vector<double>(points.size(), 1e9);
     return first;
   };
-}
-
-double normal_tail(double beta) { return std::erfc(beta / std::sqrt(2)) / 2; }
-
-RareEstimate repeated(const PointFunction& g, std::size_t d, long samples, long repeats,
-                      std::uint64_t seed) {
-  std::vector<SubsetEstimate> estimates;
-  for (long k = 0; k < repeats; ++k)
-    estimates.push_back(subset_simulation(
-        limit_state(g), d,
-        {.samples = samples, .seed = seed, .repetition = static_cast<std::uint64_t>(k)}));
-  return combined(estimates, 0.95);
 }
 
 } // namespace
@@ -295,35 +268,6 @@ TEST_CASE("the variation is the spread that repetitions have, no less and no mor
   CHECK(claimed > 0.8 * spread); // (3) knows nothing of seeds that resemble each other
   CHECK(claimed < 1.1 * spread);
   CHECK(std::sqrt(uncorrelated / repeats) < 0.7 * spread);
-}
-
-// By counting the number of level-sized steps it takes: with N = 500, +4.7 ± 1.2 % at 8e-4 was measured; here ± 0.8 %.
-TEST_CASE("an estimate is too large on average, by as much as it says", "[long]") {
-  constexpr int repeats = 2000;
-  const double exact = normal_tail(3.156); // 8e-4
-  double sum = 0, square = 0, bias = 0;
-  for (std::uint64_t k = 0; k < repeats; ++k) {
-    const SubsetEstimate found = subset_simulation(limit_state(linear(3.156)), 5,
-                                                   {.samples = 500, .seed = 12, .repetition = k});
-    sum += found.probability / exact;
-    square += std::pow(found.probability / exact, 2);
-    bias += combined({&found, 1}, 0.95).bias;
-  }
-  const double mean = sum / repeats;
-  const double error = std::sqrt((square / repeats - mean * mean) / repeats);
-  INFO("mean " << mean << " ± " << error << ", said " << bias / repeats);
-  CHECK(std::abs(mean - 1 - bias / repeats) < 4 * error);
-  CHECK(mean - 1 > 2 * error); // or there would be nothing to say
-}
-
-TEST_CASE("of plain sampling there is no bias, and of others it does not go away with repeats") {
-  const SubsetEstimate plain =
-      subset_simulation(limit_state(linear(0.5)), 3, {.samples = 1000, .seed = 1});
-  CHECK(combined({&plain, 1}, 0.95).bias == 0);
-  SubsetEstimate chains;
-  chains.probability = 1e-3, chains.variation = 0.2, chains.reached = true;
-  chains.levels.resize(3);
-  CHECK(combined(std::vector(4, chains), 0.95).bias == Approx(0.4 * 0.04).epsilon(1e-12));
 }
 
 TEST_CASE("bounds keep their confidence for events that are likely, certain, or an atom",

@@ -126,3 +126,20 @@ TEST_CASE("the short table names what moves an output, and stops") {
       "  root.latch_time               spring -0.85, damper 0.60\n"
       "  nothing visible moves root.overtravel\n");
 }
+
+TEST_CASE("effects on peaks that t_end cut are told to be those on the cut values") {
+  const auto ranks = [](double t_end) {
+    const Campaign campaign = campaign_of(ringing_panel(40, t_end, 0));
+    return rank_sensitivity(rows_of(RunPlan(campaign), {0, 40}), 0.9);
+  };
+  const RankSensitivity cut = ranks(2.3);
+  CHECK_THAT(warnings(cut).at(0), Catch::StartsWith("in 40 of 40 runs t_end cut the peaks of "
+                                                    "\"root.peak_moment\", \"root.peak_force\": "));
+  CHECK(sensitivity_json(cut, {})["outputs"]["root.peak_moment"]["cut"] == 40);
+  CHECK(sensitivity_json(cut, {})["outputs"]["root.latch_time"]["cut"] == 0);
+  CHECK_THAT(sensitivity_table(cut, "t"),
+             Catch::Contains("root.peak_moment, N·m · 40 runs · 40 cut by t_end\n"));
+  const RankSensitivity whole = ranks(15); // of forces there is no proof
+  CHECK_THAT(warnings(whole).at(0),
+             Catch::StartsWith("in 40 of 40 runs t_end cut the peaks of \"root.peak_force\": "));
+}

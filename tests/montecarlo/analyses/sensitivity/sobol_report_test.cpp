@@ -69,3 +69,14 @@ TEST_CASE("the short table has shares of the variance") {
                                     "variance, interactions included)\n"
                                     "  root.latch_time               c 70 %\n");
 }
+
+TEST_CASE("indices of peaks that t_end cut are told to be those of the cut values") {
+  const Campaign campaign = campaign_of(ringing_panel(1, 2.3, 0));
+  const RunPlan plan = saltelli_plan(campaign, 8);
+  const SobolSensitivity all = sobol_sensitivity(rows_of(plan, {0, 24}), plan.coordinates().names,
+                                                 8, "random", {.resamples = 20});
+  CHECK_THAT(warnings(all).at(0), Catch::StartsWith("in 24 of 24 runs t_end cut the peaks of "
+                                                    "\"root.peak_moment\", \"root.peak_force\": "));
+  CHECK(sensitivity_json(all, {})["outputs"]["root.peak_moment"]["cut"] == 24);
+  CHECK_THAT(sensitivity_table(all, "t"), Catch::Contains(" · 24 cut by t_end\n"));
+}

@@ -199,12 +199,17 @@ TEST_CASE("whether peaks are proven is a column of its own, where it is recorded
   results.append({0, Status::deployed, {1}, {2}, "root", "", PeaksFinal::yes});
   results.append({1, Status::timed_out, {1}, {none}, "", "why", PeaksFinal::no});
   results.append({2, Status::failed, {1}, {none}, "", "why", PeaksFinal::unknown});
+  results.append({3, Status::deployed, {1}, {2}, "root", "", PeaksFinal::moments});
+  results.append({4, Status::deployed, {1}, {2}, "root", "", PeaksFinal::forces});
   const std::string text = write(results, columns);
   CHECK(text == "run,status,k,t,peaks_final,latch_order,reason\n0,deployed,1,2,true,root,\n"
-                "1,timed_out,1,,false,,why\n2,failed,1,,,,why\n");
+                "1,timed_out,1,,false,,why\n2,failed,1,,,,why\n3,deployed,1,2,peak_moment,root,\n"
+                "4,deployed,1,2,peak_force,root,\n");
+  CHECK((count_cut(results, "root.peak_moment") == 2 &&
+         count_cut(results, "root.peak_force") == 2 && count_cut(results, "root.latch_time") == 0));
   const Results again = read(text, columns).results;
-  check_same(results, again, 3);
-  for (std::size_t i = 0; i < 3; ++i) CHECK(again.peaks_final[i] == results.peaks_final[i]);
+  check_same(results, again, 5);
+  for (std::size_t i = 0; i < 5; ++i) CHECK(again.peaks_final[i] == results.peaks_final[i]);
   CHECK(write(again, columns) == text);
   SpecError error({});
   try {
@@ -214,7 +219,8 @@ TEST_CASE("whether peaks are proven is a column of its own, where it is recorded
   }
   CHECK_THAT(
       error.what(),
-      Catch::Contains("column 'peaks_final': found 'yes', expected true, false, or nothing"));
+      Catch::Contains("column 'peaks_final': found 'yes', expected true, false, peak_moment, "
+                      "peak_force, or nothing"));
   CHECK_THROWS_AS(read("run,status,k,t,latch_order\n", columns), SpecError);
   CHECK_THROWS_AS(read(text, {{"k"}, {"t"}}), SpecError); // not its column
 }

@@ -109,7 +109,7 @@ TEST_CASE("a run that cannot go on fails, with its reason") {
   const Campaign campaign = campaign_of(json);
   const ResultRow row = Runner(RunPlan(campaign)).run(0);
   CHECK(row.status == Status::failed);
-  CHECK(row.reason.starts_with("the limit of 10 steps was reached, at t = "));
+  CHECK(row.reason.starts_with("the limit of 10 steps (max_steps) was reached, at t = "));
 }
 
 namespace {

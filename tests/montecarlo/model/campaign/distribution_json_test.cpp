@@ -107,6 +107,19 @@ TEST_CASE("Each fault of a distribution is told", "[distribution_json]") {
   CHECK(test::facts_of(read_law(json).problems) == test::facts_of(message));
 }
 
+TEST_CASE("A value out of its range is told beside one that cannot be read",
+          "[distribution_json]") {
+  CHECK(read_law(R"({"type": "normal", "mean": "x", "std": -1})").problems ==
+        "/mean: found string \"x\", expected a number\n/std: found -1, expected > 0");
+  CHECK(read_law(R"({"type": "discrete", "values": [1, "x"], "weights": [-1, 2]})").problems ==
+        "/values/1: found string \"x\", expected a number\n/weights/0: found -1, expected ≥ 0");
+  // an end that was not read is no bound of the other, and a value that was not read has no range
+  CHECK(read_law(R"({"type": "uniform", "lower": "x", "upper": -5})").problems ==
+        "/lower: found string \"x\", expected a number");
+  CHECK(read_law(R"({"type": "normal", "mean": 1, "std": "x"})").problems ==
+        "/std: found string \"x\", expected a number, > 0");
+}
+
 TEST_CASE("An empirical law takes a column of a CSV file", "[distribution_json]") {
   const char* csv =
       GENERATE("x,y\n1,0\n-2.5e-3,0\n3,0\n", "y,\"x\"\r\n0,1\r\n0,-0.0025\r\n\r\n0,3");

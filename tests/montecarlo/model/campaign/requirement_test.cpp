@@ -61,6 +61,26 @@ TEST_CASE("A requirement may have an identifier, a source and a rationale", "[re
         }) == "/1/id: found string \"SYS-4\" a second time, expected an identifier of its own");
 }
 
+TEST_CASE("A requirement that is stated twice is told with both places", "[requirement]") {
+  const auto problems = [](const Json& given) {
+    std::vector<Requirement> read;
+    return test::problems_of(
+        given, [&](const JsonCursor& at) { read_requirements(at, &columns, all_columns, read); });
+  };
+  Json given = two();
+  given.push_back(given[1]);
+  given[2].erase("name");
+  CHECK(problems(given) ==
+        "/2: found the requirement of /1 a second time, expected each requirement once");
+  Json other = given;
+  other[2]["confidence"] = 0.9;
+  CHECK(problems(other).empty());
+  other = given, other[2]["group"] = "loads";
+  CHECK(problems(other).empty());
+  other = given, other[2]["min"] = -1.6;
+  CHECK(problems(other).empty());
+}
+
 TEST_CASE("A limit may have its unit", "[requirement]") {
   const Json given = parse_json(R"([
     { "output": "root.peak_moment", "max": "4 kN*m", "probability": 0.99, "confidence": 0.9 },

@@ -78,6 +78,9 @@ TEST_CASE("Each fault of a width to stop at is told", "[stopping]") {
        {"/0/width", "\"1 deg\"",
         "/0/width: found string \"1 deg\", expected a number, s, > 0, or a string of a number and "
         "its unit: \"s\", \"ms\", \"min\" or \"h\""},
+       {"/1/width", "1",
+        "/1/width: found 1, expected a width > 0 and < 1 for a share of runs: 0.01 is one in a "
+        "hundred of all runs"},
        {"/0/width", "", "/0: found neither width nor relative_width, expected one of them"},
        {"/0/relative_width", "1", "/0: found both width and relative_width, expected one of them"},
        {"/1/widht", "1",
@@ -85,10 +88,10 @@ TEST_CASE("Each fault of a width to stop at is told", "[stopping]") {
         "\"relative_width\" or \"quantile\" (did you mean \"width\"?)"}}));
   CAPTURE(change.pointer, change.value);
   CHECK(facts_of(problems_of_rule(spoil(good, change))) == facts_of(change.message));
-  CHECK(
-      problems_of_rule(parse_json(R"([{ "output": "stalled", "relative_width": 0.5 }])")) ==
-      "/0: found a relative_width, expected a width, for a share of runs: 0.01 is one in a hundred "
-      "of all runs");
+  CHECK(problems_of_rule(parse_json(R"([{ "output": "stalled", "relative_width": 0.5 }])")) ==
+        "/0: found a relative_width, expected a width > 0 and < 1 for a share of runs: 0.01 is one "
+        "in a "
+        "hundred of all runs");
 }
 
 TEST_CASE("Each fault of a requirement to be decided is told", "[stopping]") {

@@ -55,7 +55,7 @@ TEST_CASE("What real hinges have is described", "[describe]") {
       "regularized at 0.002 rad/s, times 1.5; damper 3 N·m·(s/rad)^0.45, linear below 1e-05 "
       "rad/s, times 0.7, between 57.3 and 14.32 deg; stop 500 N·m/rad, 0.2 s/rad, gap 0.573 deg; "
       "latch "
-      "10000 N·m/rad, 100 N·m·s/rad, backlash 0.1146 deg\n"
+      "10000 N·m/rad, 100 N·m·s/rad, backlash 0.1146 deg in all (±0.0573)\n"
       "    mid: inner to outer, -171.9 to 0 deg; spring 1 to 0.5 N·m, plus 0.125 N·m; damper of "
       "eddy "
       "currents, 2 N·m at 4 rad/s; no latch\n"

@@ -1,3 +1,5 @@
+#include "montecarlo/report/data/envelopes_json.hpp"
+#include "montecarlo/report/data/motions_json.hpp"
 #include "montecarlo/report/data/page_source.hpp"
 #include "montecarlo/report/data/set_json.hpp"
 #include "montecarlo/results/streaming/streaming_folder.hpp"
@@ -30,6 +32,20 @@ TEST_CASE("a folder read for the page tells what its runs tell in memory", "[pag
   CHECK(of_case->label == "cold");
   CHECK(of_case->before_case.scene.name == "before its case");
   CHECK(read->before_case.scene.name == campaign.scene.name);
+}
+
+TEST_CASE("the page makes runs again where there are runs, and the program made them", "[page]") {
+  const Campaign campaign = campaign_of(quick_campaign(20));
+  for (const long runs : {0L, 20L})
+    for (const bool foreign : {false, true}) {
+      CAPTURE(runs, foreign);
+      const auto source = source_of(campaign, rows_of(RunPlan(campaign), {0, runs}));
+      source->stored.foreign = foreign;
+      const bool made_again = runs > 0 && !foreign;
+      CHECK(source->replayable() == made_again);
+      CHECK(motions_json(*source, {}, 1).empty() == !made_again);
+      CHECK(envelopes_json(*source, {}, 1).is_null() == !made_again);
+    }
 }
 
 TEST_CASE("the page's bounds hold together over all interim analyses, with rows and without",

@@ -148,6 +148,13 @@ TEST_CASE("more runs are added to a campaign as one more look, and give what one
   (void)run_into(whole, read_campaign_file(path / campaign_file));
   CHECK(contents(path) == contents(whole));
 
+  Campaign other = sized(16);
+  override_sampling(other, {}, 9);
+  CHECK(refusal(path, other, {.resume = true}) ==
+        (path / campaign_file).string() + // no word of extensions, which the user did not write
+            ": /sampling/seed: found 7 (when the folder was made), expected 9 (now), to continue "
+            "what is there");
+
   (void)run_into(path, sized(20), {.resume = true});
   const Json summary = parse_json_file(path / summary_file);
   CHECK(summary["extended"]["analysed_at"] == Json::array({8, 16}));

@@ -40,7 +40,7 @@ TEST_CASE("rows are kept and appended to their file, which has its header once")
   std::ofstream(file, std::ios::binary | std::ios::app) << "3,deplo"; // a crash
   std::ifstream in(file, std::ios::binary);
   RowWriter rows(file, names);
-  rows.go_on_behind(read_results(in, file.string(), names, UnterminatedRow::drop), 0);
+  rows.continue_after(read_results(in, file.string(), names, UnterminatedRow::drop), 0);
   rows.open(names);
   rows.add(batch_of(3, 1));
   CHECK(rows.results().runs[3] == 3);
@@ -59,7 +59,7 @@ TEST_CASE("rows with a gap are not gone on with, and the file is left as it is")
   std::ifstream in(file, std::ios::binary);
   ResultsFile read = read_results(in, file.string(), names, UnterminatedRow::drop);
   RowWriter rows(file, names);
-  const std::string message = message_of([&] { rows.go_on_behind(std::move(read), 0); });
+  const std::string message = message_of([&] { rows.continue_after(std::move(read), 0); });
   CHECK_THAT(message, Catch::Contains("found run 2") && Catch::Contains("run 1, the next one"));
   CHECK(read_text(file).value() == text);
 }

@@ -34,3 +34,13 @@ TEST_CASE("a stamp reads back from its JSON, and has its keys in one order") {
   CHECK(read_stamp(JsonCursor(document, "", problems)) == stamp);
   CHECK(problems.empty());
 }
+
+TEST_CASE("no object of a stamp has a key that is not read") {
+  Stamp stamp = stamp_of(campaign_of(quick_campaign(10)), Shard{2, 3});
+  stamp.preview = Preview{5, 10};
+  const auto message_for = [](const Json& json) {
+    return problems_of(Json{{stamp_key, json}}, [](const JsonCursor& at) { (void)read_stamp(at); });
+  };
+  CHECK(message_for(stamp_json(stamp)).empty());
+  CHECK(objects_with_unread_keys(stamp_json(stamp), message_for) == std::vector<std::string>{});
+}

@@ -63,6 +63,7 @@ TEST_CASE("each standard has its column, and one that is required twice the same
                                     {"min", -1},
                                     {"probability", 0.5},
                                     {"confidence", 0.9}});
+  json["requirements"].back()["confidence"] = 0.8; // the same margin, and another requirement
   json["margin"]["motorization"] = {{"aiaa", {{"phase", "test"}}}};
   const Campaign campaign = campaign_of(json);
   const Results results = rows(campaign);

@@ -8,6 +8,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace wingspread;
 
 namespace {
@@ -55,6 +57,34 @@ TEST_CASE("a latch whose damping times its own rate exceeds half the peak is war
              Catch::Contains(" of root (95 %), mid (51 %): ")); // one line for both
   wing.outcome.peak_moment[0].value = 199; // the jump, less the spring's moment
   CHECK_THAT(warning(latch_jumps(wing.scene, wing.outcome)), Catch::Contains(" root (100 %), "));
+}
+
+TEST_CASE("a force at the instant of a latch's jump on a flexible body is warned of") {
+  Latched wing;
+  const auto forces = [&] { return forces_of_jumps(wing.scene, wing.outcome); };
+  wing.outcome.peak_force = {{397, 3.0}, {40, 2.0}}; // each when its own latch engages
+  CHECK(forces().empty());                           // rigid bodies: the force is theirs
+  wing.scene.bodies[wing.scene.hinges[1].child].flexible = Flexible{4, 200.0};
+  CHECK(forces() == std::vector<std::string>{"mid"});
+  wing.outcome.peak_force[0].time = 2.0; // the root's, as mid engages
+  CHECK(forces() == std::vector<std::string>{"root", "mid"});
+  const std::string text =
+      "root.peak_force, mid.peak_force: in proportion to the number of \"joints\", without a "
+      "limit: "
+      "as a latch engages, its damping times rate acts at once on the end segment of a flexible "
+      "body, which is lighter the more joints there are; with \"dissipation\" in place of "
+      "\"damping\" in the scene the force converges";
+  CHECK(warning_of_forces(forces()) == text);
+  const auto lines = outcome_warnings(wing.scene, wing.outcome);
+  CHECK(std::ranges::find(lines, text) != lines.end());
+  Summary summary;
+  summary.jump_forces = forces();
+  CHECK(warnings(summary) == std::vector{"in the nominal run: " + text});
+  wing.outcome.peak_force[0].time = wing.outcome.peak_force[1].time = 2.5; // later: not the jump's
+  CHECK(forces().empty());
+  wing.outcome.peak_force[1].time = 2.0;
+  wing.scene.hinges[1].latch = Latch{2e3, 0, 0, 0.5};
+  CHECK(forces().empty());
 }
 
 TEST_CASE("no latch is warned of without a jump, or without known peaks") {

@@ -62,7 +62,7 @@ TEST_CASE("summary.json: its keys, in order") {
         std::vector<std::string>{"deployed", "stalled", "timed_out", "invalid", "failed"});
   CHECK(keys(json["outputs"]["root.latch_time"]) ==
         std::vector<std::string>{"unit", "count", "missing", "mean", "mean_error", "std", "min",
-                                 "max", "skewness", "kurtosis", "quantiles"});
+                                 "max", "skewness", "kurtosis", "quantiles", "missing_ranks"});
   CHECK(keys(json["correlations"]) == std::vector<std::string>{"k", "fixed"});
   CHECK(keys(json["correlations"]["k"]) ==
         std::vector<std::string>{"root.latch_time", "never", "deployed"});
@@ -266,12 +266,15 @@ TEST_CASE("summary.json: requirements with their evidence, and the runs to be se
 TEST_CASE("summary.json: tolerance limits, or why there is none") {
   Summary summary = some_summary(300);
   summary.outputs[0].tolerance_limits = {{{.95, .95, Side::both}, {1.5, 2.5}},
-                                         {{.95, .95, Side::upper}, {}},
+                                         {{.95, .95, Side::upper}, {}, 12},
                                          {{.999, .95, Side::lower}, {}}};
   const Json json = summary_json(summary, {})["outputs"]["root.latch_time"]["tolerance"];
   CHECK(json[0].dump() ==
         R"({"probability":0.95,"confidence":0.95,"side":"both","lower":1.5,"upper":2.5})");
-  CHECK(json[1]["note"] == "no number: too many runs did not deploy or are without a value");
+  CHECK(json[1]["note"] == "12 of 300 runs rank beyond every number; at most 8 may");
+  CHECK(json[1]["beyond_every_number"] == 12);
+  CHECK_THAT(summary_json(summary, {})["definitions"]["tolerance"].get<std::string>(),
+             Catch::Contains("a peak that t_end cut is beyond_every_number"));
   CHECK_FALSE(json[1].contains("lower"));
   CHECK(json[2]["note"] == "300 runs are too few: it takes 2995");
   CHECK(json[2]["lower"].is_null());

@@ -20,6 +20,14 @@ std::vector<std::string> lines(const std::string& text) {
   return result;
 }
 
+/// The text without the line breaks of a paragraph that starts in column 10.
+std::string unwrapped(std::string text) {
+  const std::string indent = "\n" + std::string(10, ' ');
+  for (auto at = text.find(indent); at != std::string::npos; at = text.find(indent))
+    text.replace(at, indent.size(), " ");
+  return text;
+}
+
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -68,7 +76,7 @@ TEST_CASE("the table shows outcomes, reasons, latch orders, outputs by hinge, an
                            "\nwing\n",
                            "over the runs in which the output happened, of 100.",
                            "NO QUANTILE over all runs",
-                           "Runs without a value rank above every value.\n",
+                           "without a value rank above every value.\n",
                            "deployment_time: 90 of 100 runs have a value; the others",
                            "99 % 12.000 s",
                            "FILES  out: runs.csv, summary.json, histograms.json, histograms.csv\n"})
@@ -216,6 +224,53 @@ TEST_CASE("the table shows what the campaign asks for, and which runs to look at
              Catch::Contains("  Joint confidence of 2 requirements: at least 80 %.\n"));
 }
 
+TEST_CASE("tolerance limits say by which rule runs rank, and why there is none") {
+  Summary summary = summarize(some_results(), {});
+  const auto table = [&] { return summary_table(summary, "t", "out"); };
+  summary.outputs[2].tolerance_limits = {{{.95, .9, Side::lower}, {2., {}}}};
+  CHECK_FALSE(contains(table(), "beyond every number"));
+  CHECK_THAT(table(), Catch::Contains("          2.0000\n")); // no mark for an upper limit
+  summary.outputs[2].tolerance_limits = {{{.95, .9, Side::lower}, {}, 10},
+                                         {{.95, .9, Side::upper}, {}, 10},
+                                         {{.9999, .9, Side::upper}, {}, 10}};
+  summary.outputs[0].tolerance_limits = {{{.95, .9, Side::upper}, {{}, 7.}, 1},
+                                         {{.9999, .9, Side::upper}, {}, 1}};
+  const std::string first = summary.outputs[0].name, third = summary.outputs[2].name;
+  CHECK_THAT(table(),
+             Catch::Contains("  –: 10 of 100 runs rank beyond every number; at most 1 may (" +
+                             third + ")\n"));
+  CHECK_THAT(table(), Catch::Contains("  –: 100 runs are too few: it takes 23025 (" + first + ", " +
+                                      third + ")\n"));
+  CHECK_THAT(table(), Catch::Contains("\n  Limits are over all runs, as requirements: a run ranks "
+                                      "beyond every number if it did not"));
+  for (const std::string& line : lines(table())) CHECK(count_characters(line) <= table_width);
+}
+
+TEST_CASE("without a standard error the integration's errors are compared with the values") {
+  Results results(ResultNames{{}, {"root.latch_time", "base.peak_angle"}});
+  for (long run = 0; run < 20; ++run) results.append({run, Status::deployed, {}, {4, 0}, "", ""});
+  Summary summary = summarize(results, {});
+  summary.accuracy =
+      Accuracy{.runs = 10,
+               .method = "auto",
+               .rtol = 1e-8,
+               .reference_method = "dopri5",
+               .reference_rtol = 1e-10,
+               .in_doubt = {},
+               .moved = {},
+               .outputs = {{"root.latch_time", 10, 8e-9, 4e-9}, {"base.peak_angle", 10, 0, 0}}};
+  const auto line = [&] { return unwrapped(summary_table(summary, "t", "out")); };
+  CHECK_THAT(line(), Catch::Contains("\nACCURACY  integration errors ≤ 2e-07 % of a value without "
+                                     "standard error (it does not vary) in ≥ 74.1 %"));
+  summary.accuracy->outputs[1].largest = 3e-12;
+  CHECK_THAT(line(), Catch::Contains("3e-12 rad of base.peak_angle, which is 0"));
+  summary.one_run = true;
+  CHECK_THAT(line(), Catch::Contains(" in all 20 runs\n"));
+  summary.runs = 1, summary.accuracy->runs = 1;
+  summary.outputs[0].mean_error = std::nan("");
+  CHECK_THAT(line(), Catch::Contains("(a single run)") && Catch::Contains(" in the only run\n"));
+}
+
 TEST_CASE("the table says what the integration contributes") {
   Summary summary = summarize(some_results(), {});
   CHECK_FALSE(contains(summary_table(summary, "t", "out", true), "ACCURACY"));
@@ -251,8 +306,8 @@ TEST_CASE("the table says what the integration contributes") {
   CHECK(contains(summary_table(summary, "t", "out", true), "more."));
   // Without --all it is a line.
   const auto line = [&] { return summary_table(summary, "t", "out"); };
-  CHECK_THAT(line(), Catch::Contains(
-                         "\nACCURACY  integration errors in an output that does not vary in ≥ "));
+  CHECK_THAT(line(),
+             Catch::Contains("\nACCURACY  integration errors ≤ 6e-06 % of a standard error, ≤ "));
   CHECK_THAT(line(), Catch::Contains("2 of 10 repeated end otherwise") &&
                          Catch::Contains("3 of 10 repeated"));
   summary.accuracy->in_doubt.clear();

@@ -158,6 +158,22 @@ TEST_CASE("tolerance limits of an output put runs that did not deploy beyond eve
   CHECK(limits(Side::lower).lower == 1);
 }
 
+TEST_CASE("a run whose peak t_end cut is beyond every number for a limit of the peak") {
+  Results results(ResultNames{{}, {"root.peak_moment", "root.latch_time"}, true});
+  for (long run = 0; run < 59; ++run)
+    results.append({run,
+                    Status::deployed,
+                    {},
+                    {1.0 + static_cast<double>(run), 5},
+                    "",
+                    "",
+                    run == 7 ? PeaksFinal::no : PeaksFinal::yes});
+  const RankedOutput peak(results, results.outputs[0]), time(results, results.outputs[1]);
+  CHECK((peak.beyond() == 1 && time.beyond() == 0));
+  CHECK_FALSE(output_limits(peak, {.95, .95, Side::upper}).upper);
+  CHECK(output_limits(time, {.95, .95, Side::upper}).upper == 5);
+}
+
 TEST_CASE("a wing as bad as a requirement just forbids passes as seldom as the confidence says") {
   constexpr int trials = 2000;
   constexpr long runs = 500;

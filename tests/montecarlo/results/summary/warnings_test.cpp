@@ -33,7 +33,7 @@ TEST_CASE("what is to be warned of stands in the table and in summary.json") {
   summary.requirements = {judge({"", "root.latch_rate", 1.5, {}, .5, .5}, results)};
   const std::vector<std::string> expected{
       "in 1 of 4 runs t_end cut the peaks: they may still rise, and break every requirement on a "
-      "peak",
+      "peak; statistics and correlations are of the cut values. Lengthen t_end",
       "root.latch_rate ≤ 1.5 rad/s, 50 % at 50 %: every value, -2 to -1.25, is on the other side "
       "of zero from the limit; \"abs\": true limits the magnitude"};
   CHECK(warnings(summary) == expected);
@@ -41,10 +41,7 @@ TEST_CASE("what is to be warned of stands in the table and in summary.json") {
   CHECK(json["warnings"] == Json(expected));
   CHECK(json["peaks_final"] == Json{{"true", 2}, {"false", 1}, {"missing", 1}});
   CHECK(json["definitions"].contains("peaks_final"));
-  const std::size_t end = expected[1].find(" from"); // of the table's line
-  CHECK_THAT(summary_table(summary, "four", ""),
-             Catch::Contains("\nWARNING\n  " + expected[0] + "\n  " + expected[1].substr(0, end) +
-                             "\n  " + expected[1].substr(end + 1) + "\n"));
+  CHECK_THAT(summary_table(summary, "four", ""), Catch::Contains(warning_lines(expected)));
 }
 
 TEST_CASE("where nothing is wrong nothing is warned of") {
@@ -85,13 +82,48 @@ TEST_CASE("a warning of several cases is told once, with its cases") {
                                        of_case("hot", {{"panel_3", 6, 10}})};
   const std::vector<std::string> found = warnings(cases);
   REQUIRE(found.size() == 2); // numbers may differ, hinges may not
-  CHECK_THAT(found[0], Catch::Contains("of panel_2 (60 %): ") &&
-                           Catch::EndsWith(" (cold, ambient; numbers of cold)"));
+  CHECK_THAT(found[0], Catch::Contains("of panel_2 (60 to 90 %): ") &&
+                           Catch::EndsWith(" (cold 60, ambient 90)"));
   CHECK_THAT(found[1], Catch::Contains("of panel_3 (60 %): ") && Catch::EndsWith(" (hot)"));
   CHECK_THAT(warnings(std::span(cases).first(1)).at(0), Catch::EndsWith(" (every case)"));
   for (const std::string& table :
        {cases_table(cases, "t", "f"), compact_cases_table(cases, "t", "f")})
     CHECK_THAT(table, Catch::Contains(warning_lines(found)));
+}
+
+TEST_CASE("a warning of several cases has the number of each") {
+  const auto of_case = [](const std::string& name, long cut) {
+    CaseSummary made{name, summarize(four_runs(), {})};
+    made.summary.peaks.emplace();
+    made.summary.peaks->add(PeaksFinal::no, cut);
+    return made;
+  };
+  const std::vector<CaseSummary> cases{of_case("cold", 4), of_case("hot", 1)};
+  CHECK_THAT(warnings(cases).at(0),
+             Catch::StartsWith("in 1 to 4 of 4 runs t_end cut the peaks: ") &&
+                 Catch::EndsWith(" (every case: cold 4, hot 1)"));
+  const std::vector<CaseSummary> alike{of_case("cold", 4), of_case("hot", 4)};
+  CHECK_THAT(warnings(alike).at(0), Catch::StartsWith("in 4 of 4 runs t_end cut the peaks: ") &&
+                                        Catch::EndsWith(" (every case)"));
+}
+
+TEST_CASE("peaks of one kind that t_end cut are named, and latches that may let go after it") {
+  const Results results =
+      four_runs({PeaksFinal::moments, PeaksFinal::moments, PeaksFinal::yes, PeaksFinal::yes});
+  Summary summary = summarize(results, {});
+  summary.peaks = count_peaks_final(results);
+  CHECK_THAT(warnings(summary).at(0),
+             Catch::StartsWith("in 2 of 4 runs t_end cut the peak forces: "));
+  CHECK(summary_json(summary, {})["peaks_final"] ==
+        Json{{"true", 2}, {"false", 2}, {"missing", 0}, {"moments_cut", 0}, {"forces_cut", 2}});
+  summary.peaks->add(PeaksFinal::no);
+  CHECK_THAT(warnings(summary).at(0),
+             Catch::StartsWith("in 3 of 4 runs t_end cut peaks (moments in 1, forces in 3): "));
+
+  Results open(ResultNames{{}, {"root.latch_rate"}});
+  open.append({0, Status::deployed, {}, {-1.}, "", std::string(latches_may_open)});
+  open.append({1, Status::deployed, {}, {-1.}, "", ""});
+  CHECK(warnings(summarize(open, {})) == std::vector{warn_of_open_latches(1, 2)});
 }
 
 TEST_CASE("nothing is warned of where there is nothing, or it was not recorded") {

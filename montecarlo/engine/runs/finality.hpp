@@ -1,0 +1,64 @@
+/// What t_end cuts, and how everything that reads results counts it. All commands take it from here.
+///
+/// A run ends where it is proven that nothing asked for can change any more, else at t_end.
+///
+/// | at t_end                                   | is                        | counts                                  |
+/// |--------------------------------------------|---------------------------|-----------------------------------------|
+/// | a peak moment or force, no larger one to   | final                     | as its value                            |
+/// |   come by proof                            |                           |                                         |
+/// | … without that proof                       | cut: it may still rise    | against every limit: worse than any     |
+/// |                                            |                           |   number for requirements, tolerance    |
+/// |                                            |                           |   limits, `margin` and `rare`           |
+/// |                                            |                           | as its value for statistics and         |
+/// |                                            |                           |   sensitivities, with a warning         |
+/// | a latch not engaged, no proof of a stall   | `timed_out`               | as not deployed                         |
+/// | a latch with a `holding_moment`, engaged,  | `deployed`                | as deployed, with a warning             |
+/// |   without proof that it stays so           |                           |                                         |
+/// | any other output                           | that of the run up to its | as its value                            |
+/// |                                            |   end, by its definition  |                                         |
+///
+/// A cut peak shows no requirement, and it disproves one only if its value is beyond the limit already (verdict.hpp).
+#pragma once
+
+#include "core/outcome.hpp"
+#include "montecarlo/model/campaign/outputs.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace wingspread {
+
+/// Of which peaks of a run it is proven that they are not exceeded after its end. `no`: of none, t_end came first.
+/// `unknown`: the run failed or was invalid.
+enum class PeaksFinal : signed char { unknown, no, yes, moments, forces };
+inline constexpr std::array all_peaks_final{PeaksFinal::unknown, PeaksFinal::no, PeaksFinal::yes,
+                                            PeaksFinal::moments, PeaksFinal::forces};
+/// "true", "false", "peak_moment" or "peak_force" for the only family that is proven, "" for unknown.
+[[nodiscard]] std::string_view to_string(PeaksFinal final);
+[[nodiscard]] std::optional<PeaksFinal> peaks_final_named(std::string_view text);
+
+[[nodiscard]] PeaksFinal peaks_final_of(const Outcome& outcome);
+
+/// Whether t_end cut a peak of this kind.
+[[nodiscard]] bool is_cut(PeakKind kind, PeaksFinal final);
+
+/// The reason of a deployed run, of which it is not proven that its latches stay engaged. Else such a run has none.
+inline constexpr std::string_view latches_may_open =
+    "t_end came before a proof that every latch stays engaged";
+
+/// "in 7 of 300 runs it is not proven …", the warning of such runs.
+[[nodiscard]] std::string warn_of_open_latches(long open, long runs);
+
+/// Numbers of runs whose peaks are proven, cut by t_end, or unknown (failed or invalid runs).
+struct PeaksCount {
+  long proven = 0, cut = 0, unknown = 0;
+  long moments_cut = 0, forces_cut = 0; ///< among those cut
+
+  void add(PeaksFinal final, long runs = 1);
+};
+/// "in 12 of 300 runs t_end cut the peaks", "… the peak forces".
+[[nodiscard]] std::string cut_peaks_text(const PeaksCount& count, long runs);
+
+} // namespace wingspread
