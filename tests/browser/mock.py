@@ -16,7 +16,6 @@ import assemble
 import mock_numbers as numbers
 import mock_wing
 
-POINTS = 150  # of a scatter at most: enough for a run of each order; the program gives hundreds, and each costs every test of the page its time
 STATUSES = ["deployed", "stalled", "timed_out", "invalid", "failed"]
 
 
@@ -134,7 +133,7 @@ def scatter(rows, index, draw, name, values, rho):
     density = [0] * 1024
     for _, x, y, _ in kept:
         density[32 * min(31, bisect.bisect_right(y_edges, y) - 1) + min(31, bisect.bisect_right(x_edges, x) - 1)] += 1
-    points = kept[:: len(kept) // POINTS + 1]
+    points = kept[:: max(1, len(kept) // 400 + 1)]
     return {"draw": draw, "output": name, "spearman": rho, "x_edges": x_edges, "y_edges": y_edges, "density": density,
             "points": dict(zip(("run", "x", "y", "order"), map(list, zip(*points))))}
 

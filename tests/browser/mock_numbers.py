@@ -62,7 +62,7 @@ def spearman(x, y):
 
 
 def histogram(values, index, orders):
-    cuts = edges(values, min(80, max(1, int(1.2 * len(values) ** (1 / 3)))))
+    cuts = edges(values, min(80, max(1, int(2 * len(values) ** (1 / 3)))))
     by_order = [[0] * (len(cuts) - 1) for _ in range(orders)]
     counts = [0] * (len(cuts) - 1)
     for value, order in zip(values, index):

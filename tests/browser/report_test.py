@@ -311,7 +311,7 @@ class Quick(StudyPageChecks, JudgementChecks, ShapeChecks, WordChecks, PartCheck
         self.assertTrue(inside)
         self.assertEqual(cut, 0)
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
-        self.assertGreater(len(self.printed()), 37_500)
+        self.assertTrue(37_500 < len(self.printed()) < 4_000_000)  # fills as SVG patterns took 20 MB: each is printed as an image
         self.assertGreaterEqual(self.run_script("return document.querySelectorAll('.picture svg').length"), before)
 
     def test_stills_in_place_of_motion_where_that_is_wanted(self):
