@@ -159,6 +159,8 @@ class FindingChecks:
         self.assertIn("ECSS-E-ST-33-01C (6 March 2009)", part)
         self.run_script("W.sets[0].requirements[0].static_margin = true; W.outcomes()")
         self.assertNotIn("They are no requirement", self.one(".static-shortfall").text)
+        among = lambda count: self.run_script("W.sets.length = arguments[0]; W.why(); return document.querySelector('#why').textContent.match(/Lowest in [^:]+: .+? The picture/g)", count)
+        self.assertEqual((among(2), among(1)), (["Lowest in cold: −0.62; then ambient −0.16. The picture"], None))
 
     def test_angles_follow_the_choice_everywhere(self):
         """Units of the accuracy table, the glossary and the modes; their numbers differ by the factor."""
