@@ -74,7 +74,7 @@
   }
 
   // Hatches boxes [left, top, width, height] of a colour, so that colours differ in black and white as well. One path of
-  // lines, not an SVG pattern: Chromium prints each pattern as an image, of 160 kB and a tenth of a second per bar.
+  // lines, not an SVG pattern: Chromium prints each pattern as an image, of 160 kB and a twentieth of a second per bar.
   M.hatch = function (svg, at, boxes) {
     const lines = at < 0 ? [] : HATCH[at % 7],
       dotted = at % 7 === DOTS;
