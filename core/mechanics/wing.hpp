@@ -32,9 +32,10 @@ template <class T> struct BodyTerms {
   Vec2<T> mass_moment;
   /// c_pi − c_pp: from the parent's hinge (the base's origin) to hinge i, parent's frame, m
   Vec2<T> arm;
-  Vec2<T> center;    ///< g, own frame, m
-  T central_inertia; ///< J_i, kg·m²
-  T minus_inverse;   ///< −1/inertia, 1/(kg·m²)
+  Vec2<T> center;              ///< g, own frame, m
+  T central_inertia;           ///< J_i, kg·m²
+  T minus_inverse;             ///< −1/inertia, 1/(kg·m²)
+  T arm_length, center_length; ///< of arm and center, m
 };
 
 /// When the hold of a hinge lets go.
@@ -114,6 +115,7 @@ void set_body(BodyTerms<T>& terms, double mass, double inertia, const Vec2<T>& c
   terms.arm.x = arm.x, terms.arm.y = arm.y;
   terms.center.x = center.x, terms.center.y = center.y;
   terms.central_inertia = T(inertia), terms.minus_inverse = T(-1) / about_hinge;
+  terms.arm_length = length(arm), terms.center_length = length(center);
 }
 
 template <class T> void set_base(BaseTerms<T>& terms, const Scene& scene) {

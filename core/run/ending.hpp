@@ -112,11 +112,12 @@ public:
 
   /// Steps that may be accepted before one at whose end a proof is attempted.
   [[nodiscard]] long steps_to_attempt() const {
-    return seeks_proof() ? schedule_.steps_to_attempt() : std::numeric_limits<long>::max();
+    return seeks_proof() && !is_stall_vain() ? schedule_.steps_to_attempt()
+                                             : std::numeric_limits<long>::max();
   }
   /// Counts steps that a lane has made. @pre no more than `steps_to_attempt`
   void count_lane_steps(long steps) {
-    if (seeks_proof()) schedule_.skip_steps(steps);
+    if (seeks_proof()) schedule_.skip_steps(steps, sought());
   }
 
 private:
@@ -204,13 +205,22 @@ private:
     return final_peaks_.lacks_modes() ? SoughtProof::peaks_by_energy : SoughtProof::peaks_by_modes;
   }
 
+  /// Whether no attempt before the next event can prove a stall: a hold may let go, or the energy tells nothing of this
+  /// wing.
+  [[nodiscard]] bool is_stall_vain() const {
+    if (stall_ || !latches_left()) return false;
+    if (events_.releases().may_come(is_stuck())) return true;
+    return !is_stuck() && events_.latches_left() != events_.releases().latches_held() &&
+           !energy_tells(run_.system);
+  }
+
   /// Proves that no open hinge will latch, and keeps the reason. @return whether that is proven
   bool prove_stall() {
     if (stall_) return true;
     const auto from = [](const T& t) {
       return ", from t = " + in_words(static_cast<double>(t)) + " s on";
     };
-    if (events_.releases().may_come(is_stuck())) return false;
+    if (is_stall_vain()) return false;
     if (is_stuck())
       stall_ = "every hinge sticks, and the load on them stays as it is" + from(*standstill_);
     else if (!latches_stay())
