@@ -66,7 +66,7 @@ template <class T> struct Wing {
   std::vector<PlateTerms<T>> plates;     ///< 0 … n; [0] unused: a free base has no plate
   std::vector<ReleaseTerms<T>> releases; ///< 0 … n; [0] unused
   std::vector<MotorTerms<T>> motors;     ///< 0 … n; [0] unused
-  bool can_open = false;                 ///< whether the latch of any hinge may let go again
+  bool can_let_go = false;               ///< whether the latch of any hinge may let go again
 
   [[nodiscard]] int size() const { return tree.bodies(); }
   /// Whether any hinge has laws of real_hinge.hpp, loops or motors.
@@ -253,7 +253,7 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
   const Base& base = scene.base;
   detail::set_base(wing.base, scene);
   detail::set_body(wing.bodies[0], base.mass, base.inertia, {T(0), T(0)}, {T(0), T(0)});
-  wing.has_regularized_friction = wing.can_stick = wing.can_open = false;
+  wing.has_regularized_friction = wing.can_stick = wing.can_let_go = false;
   for (int i = 1; i <= wing.size(); ++i) {
     const Hinge& hinge = scene.hinges[wing.hinge_of[i]];
     const Body& body = scene.bodies[hinge.child];
@@ -270,7 +270,7 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
     wing.has_regularized_friction =
         wing.has_regularized_friction || wing.hinges[i].most_regularized() > T(0);
     wing.can_stick = wing.can_stick || wing.hinges[i].can_stick();
-    wing.can_open = wing.can_open || (!wing.real.empty() && wing.real[i].capture.may_open());
+    wing.can_let_go = wing.can_let_go || (!wing.real.empty() && wing.real[i].capture.may_let_go());
   }
   for (int i = 1; i < static_cast<int>(wing.releases.size()); ++i)
     detail::set_release(wing, scene, i);

@@ -53,7 +53,7 @@ public:
       const HingeTerms<P>& hinge = wing.hinges[i];
       if (hinge.has_latch && !has_capture(wing, i))
         found = found || (waits(i) && may_engage(system, step, i));
-      if (wing.can_open) found = found || (!waits(i) && may_open(system, step, i));
+      if (wing.can_let_go) found = found || (!waits(i) && may_let_go(system, step, i));
       if (!wing.real.empty())
         found = found || (!system.is_locked(i) && may_pass_edge(system, step, i));
       if (wing.can_stick) found = found || (slides(i) && may_come_to_rest(system, step, i));
@@ -119,12 +119,12 @@ private:
     return any;
   }
 
-  /// The first test of first_opening.
+  /// The first test of first_letting_go.
   template <class AnySystem>
-  [[nodiscard]] static Mask may_open(const AnySystem& system, const Step<P>& step, int i) {
+  [[nodiscard]] static Mask may_let_go(const AnySystem& system, const Step<P>& step, int i) {
     const CaptureTerms<P>& latch = system.wing().real[i].capture;
     const Quintic<P> angle = angle_of(system, step, i);
-    return latch.may_open() &&
+    return latch.may_let_go() &&
            !(latch.most_excess(hull(angle), hull(step.rate(system.layout().angle(i),
                                                            system.layout().freedoms()))) < P(0.0));
   }

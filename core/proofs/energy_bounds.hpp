@@ -77,7 +77,7 @@ public:
   [[nodiscard]] bool keeps_latched(const AnySystem& system, const RemainingEnergy<T>& remaining,
                                    const T& energy, int i) const {
     const CaptureTerms<T>& latch = system.wing().real[i].capture;
-    if (!latch.may_open()) return true;
+    if (!latch.may_let_go()) return true;
     const T &rest = remaining.rest()[system.layout().angle(i)], way = remaining.furthest(i, energy);
     return latch.most_excess({rest - way, rest + way}, {T(-rate_(i)), T(rate_(i))}) < T(0);
   }

@@ -87,7 +87,7 @@ public:
   /// Whether the latch just engaged ends the run and no peak is asked for. If so, the new right-hand side need not
   /// be evaluated.
   [[nodiscard]] bool ends_at_latch() const {
-    if (wants_peaks() || may_open() || !diary_.any_latch()) return false;
+    if (wants_peaks() || may_let_go() || !diary_.any_latch()) return false;
     return run_.goal.first_latch_only || (!latches_left() && !goes_to_t_end());
   }
 
@@ -156,10 +156,10 @@ private:
   }
 
   /// Whether an engaged latch may let go, as far as its holding moment tells.
-  [[nodiscard]] bool may_open() const { return run_.system.wing().can_open; }
+  [[nodiscard]] bool may_let_go() const { return run_.system.wing().can_let_go; }
   /// Whether it is proven that no engaged latch lets go. @pre no open hinge will latch any more
   [[nodiscard]] bool latches_stay() {
-    return !may_open() || is_stuck() ||
+    return !may_let_go() || is_stuck() ||
            final_peaks_.latches_stay(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end),
                                      !latches_left());
   }
@@ -168,7 +168,7 @@ private:
   void watch_latches() {
     if (events_.latches_left() == latches_before_) return;
     latches_before_ = events_.latches_left();
-    if (!may_open()) return;
+    if (!may_let_go()) return;
     stall_.reset();
     final_peaks_.reset();
     if (latches_were_left_ != latches_left()) return; // is_attempt_due will note that
@@ -198,7 +198,7 @@ private:
   /// Whether a proof may end the run before its next event; in a run to t_end, whether it may say why the run stalls.
   [[nodiscard]] bool seeks_proof() const {
     if (goes_to_t_end()) return latches_left() && !stall_;
-    return latches_left() || (diary_.any_latch() && (wants_peaks() || may_open()));
+    return latches_left() || (diary_.any_latch() && (wants_peaks() || may_let_go()));
   }
   [[nodiscard]] SoughtProof sought() const {
     if (latches_left()) return stall_ ? SoughtProof::peaks_after_stall : SoughtProof::stall;
