@@ -173,7 +173,7 @@ private:
     return false;
   }
 
-  /// Whether the load of hinge i, which stands where its latch begins to bear on its stowed side, makes the latch let go.
+  /// Whether the latch of hinge i lets go under its load, where it begins to bear on its stowed side.
   [[nodiscard]] bool lets_go_at_edge(int i, const State<T>& x) const {
     const CaptureTerms<T>& latch = system_.wing().real[i].capture;
     const T &angle = x[at_.angle(i)], &rate = x[at_.rate(i)];
