@@ -13,7 +13,7 @@ using namespace wingspread::oracle;
 
 namespace {
 
-constexpr std::array laws{DamperLaw::viscous, DamperLaw::power, DamperLaw::eddy_current};
+constexpr std::array damper_laws{DamperLaw::viscous, DamperLaw::power, DamperLaw::eddy_current};
 
 Damper random_damper(DamperLaw law, Draws& draws) {
   Damper damper;
@@ -29,7 +29,7 @@ Damper random_damper(DamperLaw law, Draws& draws) {
 /// visit(terms, draws) for many random dampers of every law.
 template <class Visit> void for_random_dampers(Visit&& visit) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed)
-    for (const DamperLaw law : laws) {
+    for (const DamperLaw law : damper_laws) {
       CAPTURE(seed, static_cast<int>(law));
       Draws draws(seed);
       visit(damper_terms<double>(random_damper(law, draws)), draws);
