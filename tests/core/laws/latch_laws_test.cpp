@@ -64,10 +64,10 @@ TEST_CASE("a latch lets go where the moment that it exerts reaches its holding m
     const double rate = draws.uniform(-2, 2), exact = held.excess(angle, rate);
     CAPTURE(seed, angle, rate);
     CHECK(held.terms.excess(angle, rate) == Approx(exact).epsilon(1e-9).margin(1e-9));
-    CHECK(held.terms.opens(angle, rate) == (exact >= 0));
+    CHECK(held.terms.lets_go(angle, rate) == (exact >= 0));
     ++(exact >= 0 ? opens : holds);
     const double beyond = held.start() + held.sense * 1e-6; // no load: in the backlash or further
-    CHECK_FALSE(held.terms.opens(beyond, -held.sense * 1e3));
+    CHECK_FALSE(held.terms.lets_go(beyond, -held.sense * 1e3));
   }
   CHECK(std::min(opens, holds) >= 50);
 }

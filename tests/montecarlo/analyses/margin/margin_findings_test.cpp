@@ -129,7 +129,10 @@ TEST_CASE("a warning of open latches, or of a cut peak, names the scale with mos
   MarginResult result;
   result.cases = {{"nominal", {}}};
   MarginSearch& search = result.searches.emplace_back();
-  search.seen = {{0.5, look(0, 0)}, {0.8, look(0, 0)}, {1.5, look(0, 0)}, {4, look(0, 0)}};
+  search.seen = {{0.5, scale_with(0, 0)},
+                 {0.8, scale_with(0, 0)},
+                 {1.5, scale_with(0, 0)},
+                 {4, scale_with(0, 0)}};
   CHECK(margin_warnings(result).empty());
   for (const auto& [scale, open] : {std::pair{0.5, 2L}, {1.5, 7L}, {4.0, 3L}})
     search.seen[scale][0].open_latches = open;
