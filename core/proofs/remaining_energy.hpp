@@ -281,16 +281,18 @@ private:
   /// The length of the path along the bodies between the centres of two, m: no two points of it are further apart.
   template <class AnySystem>
   [[nodiscard]] static T path_between(const AnySystem& system, int k, int l) {
-    using std::sqrt;
     const Wing<T>& wing = system.wing();
     Vec2<T> on_k = wing.bodies[k].center, on_l = wing.bodies[l].center; // where the path enters
-    const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
     T sum(0);
     while (k != l) { // a body has a greater number than its parent
       int& outer = k > l ? k : l;
       Vec2<T>& place = k > l ? on_k : on_l;
-      sum = sum + length(place);
-      place = wing.bodies[outer].arm;
+      if (system.is_held(outer)) { // one body with its parent
+        place = wing.bodies[outer].arm + rotated(sine_cosine(wing.hinges[outer].stowed), place);
+      } else {
+        sum = sum + length(place);
+        place = wing.bodies[outer].arm;
+      }
       outer = system.topology().parent_of(outer);
     }
     return sum + length(on_k - on_l);
