@@ -3,12 +3,21 @@
 #include <catch2/catch.hpp>
 
 #include <filesystem>
-#include <fstream>
 
 using namespace wingspread;
 using namespace wingspread::test;
 
 namespace {
+
+/// A campaign that was run into the folder `path`.
+struct RunCampaign {
+  Folder folder{};
+  std::string path = folder.path() / "r";
+  explicit RunCampaign(const Json& json) { (void)run_into(path, campaign_of(json)); }
+  [[nodiscard]] Finished program(const std::vector<std::string>& arguments) const {
+    return run_program(folder, arguments);
+  }
+};
 
 /// The quick campaign with a law and rows from tables: dispersions may name files under several keys.
 Json campaign_of_tables() {
@@ -16,7 +25,7 @@ Json campaign_of_tables() {
   campaign["dispersions"] = Json::array(
       {{{"name", "measured"},
         {"distribution", {{"type", "empirical"}, {"file", "meas.csv"}, {"column", "x"}}},
-        {"target", "hinges.root.spring.scale"},
+        {"to", {"hinges.root.spring.scale"}},
         {"apply", "scale"}},
        {{"name", "rows"},
         {"rows",
@@ -36,7 +45,6 @@ TEST_CASE("--out names no file that the command reads, by any path and under any
   const std::string link = folder.path() / "link.csv";
   std::filesystem::create_symlink("posterior.csv", link);
   const std::string around = folder.path().string() + "/./posterior.csv";
-  const auto before = contents(folder.path());
   REQUIRE(run_program(folder, {"sample", campaign}).code == 0);
   for (const char* command : {"simulate", "sample"})
     for (const std::string& out : {meas, rows, link, around}) {
@@ -53,10 +61,10 @@ TEST_CASE("--out names no file that the command reads, by any path and under any
 }
 
 TEST_CASE("--out names no file of a results folder, whether the command reads the folder or not") {
-  const DoneCampaign done(quick_campaign(4));
+  const RunCampaign done(quick_campaign(4));
   const std::string scene = three_panel_file(), link = done.folder.path() / "link.csv";
   const std::string campaign = done.folder.write("other.json", quick_campaign(2).dump());
-  std::filesystem::create_symlink(std::filesystem::path(done.path) / "runs.csv", link);
+  std::filesystem::create_symlink(done.path + "/runs.csv", link);
   const auto before = contents(done.path);
   for (const std::string& out : {done.path + "/runs.csv", done.path + "/histograms.csv",
                                  done.path + "/broken_runs.csv", link})
@@ -79,15 +87,20 @@ TEST_CASE("--out names no file of a results folder, whether the command reads th
   CHECK(done.program({"simulate", scene, "--out", done.folder.path() / "runs.csv"}).code == 0);
 }
 
-TEST_CASE("--out in a folder that nobody may enter is refused by name") {
-  const DoneCampaign done(quick_campaign(2));
-  const std::string closed = done.folder.path() / "closed", out = closed + "/t.csv";
-  std::filesystem::create_directory(closed);
-  std::filesystem::permissions(closed, std::filesystem::perms::none);
+TEST_CASE("--out by a path that leads nowhere is refused by name") {
+  const RunCampaign done(quick_campaign(2));
+  const std::string loop = done.folder.path() / "loop", out = loop + "/t.csv";
+  std::filesystem::create_symlink("loop",
+                                  loop); // as a folder that nobody may enter, for the superuser too
   const auto refused = done.program({"replay", done.path, "--run", "0", "--out", out});
-  std::filesystem::permissions(closed, std::filesystem::perms::owner_all);
-  if (refused.code == 0) return; // the superuser may enter it
-  CHECK(refused.code == 4);
-  CHECK(refused.error ==
-        "error: " + out + ": found Permission denied, expected a file that can be written\n");
+  CHECK(refused.code == 2);
+  CHECK(refused.error == "error: " + out +
+                             ": found Too many levels of symbolic links, expected a file that can "
+                             "be written\n");
+  const auto read = done.program({"replay", loop + "/r", "--run", "0"});
+  CHECK(read.code == 2);
+  CHECK(read.error ==
+        "error: " + loop +
+            "/r: found Too many levels of symbolic links, expected a path that can be "
+            "opened\n");
 }

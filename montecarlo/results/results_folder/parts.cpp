@@ -1,6 +1,7 @@
 #include "montecarlo/results/results_folder/parts.hpp"
 
 #include "montecarlo/foundation/formats/json_parse.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/results/results_folder/differences.hpp"
 
 #include <fmt/format.h>

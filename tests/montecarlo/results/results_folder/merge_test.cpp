@@ -5,6 +5,7 @@
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 using namespace wingspread;
 using namespace wingspread::test;
