@@ -155,7 +155,10 @@ void name_held_hinges(const Scene& scene, Outcome& outcome) {
   outcome.reason.clear();
   for (const int hinge : outcome.never_released)
     outcome.reason +=
-        (outcome.reason.empty() ? "" : "; ") + scene.hinges[hinge].name + " was never released";
+        (outcome.reason.empty() ? "" : "; ") + scene.hinges[hinge].name + " was never released" +
+        (std::ranges::find(outcome.released_later, hinge) == outcome.released_later.end()
+             ? ""
+             : ": t_end came before its release");
 }
 
 } // namespace

@@ -66,6 +66,7 @@ template <class T>
     const T at_stake = T(0.1) * hinge.most_regularized() * step.h; // N·m·s
     const auto matters =
         at_stake > wing.bodies[i].central_inertia * fused(rtol, larger(size0, size1), atol);
+    if (!any(matters)) continue;
     const T from0 = detail::from_layer(v0, slip), from1 = detail::from_layer(v1, slip);
     const auto crosses = v0 * v1 < T(0);
     const T least = select(crosses, slip, smaller(from0, from1));

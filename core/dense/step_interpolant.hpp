@@ -51,8 +51,7 @@ public:
     for (int j = 0; j <= points; j += stride_) {
       const T way = s - T(place(j));
       if (way == T(0)) return values_[j];
-      T weight = T((j / stride_) % 2 == 0 ? 1 : -1) / way;
-      if (j == 0 || j == points) weight = T(0.5) * weight;
+      const T weight = weight_of(j, way, stride_);
       above = above + weight * values_[j], below = below + weight;
     }
     return above / below;
@@ -61,12 +60,12 @@ public:
   /// Its largest magnitude. @pre resolve has returned true
   [[nodiscard]] Sampled<T> largest_magnitude() const {
     using std::abs;
-    constexpr int grid = 4 * points; // finer than any swing of the polynomial
     const auto size = [this](const T& s) { return T(abs((*this)(s))); };
+    const Weights& weights = weights_on_grid(stride_);
     Sampled<T> best{T(0), size(T(0))};
     for (int k = 1; k <= grid; ++k) {
-      const T s = T(k) / T(grid), value = size(s);
-      if (value > best.value) best = {s, value};
+      const T value = abs(weights[k].of(values_, stride_));
+      if (value > best.value) best = {T(k) / T(grid), value};
     }
     const T low = larger(T(0), T(best.s - T(1) / T(grid)));
     const T high = smaller(T(1), T(best.s + T(1) / T(grid)));
@@ -78,6 +77,55 @@ public:
 
 private:
   static constexpr int points = 16;
+  static constexpr int grid = 4 * points; ///< finer than any swing of the polynomial
+
+  /// The barycentric weights at one place: constants, so that a value on the grid takes one division.
+  struct AtPlace {
+    std::array<T, points + 1> weights{};
+    T sum{};
+    int sample = -1; ///< the sample at this place, if there is one
+
+    [[nodiscard]] T of(const std::array<T, points + 1>& values, int stride) const {
+      if (sample >= 0) return values[sample];
+      T above(0);
+      for (int j = 0; j <= points; j += stride) above = above + weights[j] * values[j];
+      return above / sum;
+    }
+  };
+  using Weights = std::array<AtPlace, grid + 1>;
+
+  /// The barycentric weight of sample j, at this distance from it.
+  [[nodiscard]] static T weight_of(int j, const T& way, int stride) {
+    const T whole = T((j / stride) % 2 == 0 ? 1 : -1) / way;
+    return j == 0 || j == points ? T(0.5) * whole : whole;
+  }
+
+  [[nodiscard]] static AtPlace at_place(const T& s, int stride) {
+    AtPlace at;
+    at.sum = T(0);
+    for (int j = 0; j <= points; j += stride) {
+      const T way = s - T(place(j));
+      if (way == T(0)) {
+        at.sample = j;
+        return at;
+      }
+      at.weights[j] = weight_of(j, way, stride);
+      at.sum = at.sum + at.weights[j];
+    }
+    return at;
+  }
+
+  /// @param stride 1, 2 or 4
+  [[nodiscard]] static const Weights& weights_on_grid(int stride) {
+    static const std::array<Weights, 3> all = [] {
+      std::array<Weights, 3> made;
+      for (int k = 0; k <= grid; ++k)
+        for (const int each : {0, 1, 2}) made[each][k] = at_place(T(k) / T(grid), 1 << each);
+      return made;
+    }();
+    return all[stride / 2];
+  }
+
   /// Relative miss of the points that are added. Heuristic: with geometric convergence, a polynomial of degree n
   /// that misses by 1e-6 leaves the one of degree 2n an error of 1e-11, as small as the integration's own.
   static constexpr double enough = 1e-6;

@@ -16,9 +16,9 @@ namespace wingspread {
 
 /// `rest`: a sliding hinge stops. `graze`: the load of a stuck hinge comes so near its limit that only a step of the
 /// method can decide. `edge`: a real hinge reaches an angle at which its law changes. `kink`: a law bends
-/// (kinks.hpp), and the equations stay as they are. `open`: an engaged latch lets go. `seen`: another hinge reaches the
+/// (kinks.hpp), and the equations stay as they are. `let_go`: an engaged latch does. `seen`: another hinge reaches the
 /// angle for which a hold waits.
-enum class Event { latch, rest, release, graze, edge, kink, open, seen };
+enum class Event { latch, rest, release, graze, edge, kink, let_go, seen };
 
 /// An event inside a step.
 template <class T> struct Due {
@@ -82,7 +82,7 @@ public:
       if (!may_happen(i)) continue;
       if (latches_.may_engage(i)) offer(Event::latch, i, latches_.first_engagement(step, i), T(0));
       if (sliding_sense(system_, i) != 0) offer(Event::rest, i, first_rest(system_, step, i), T(0));
-      if (latches_.may_open(i)) offer(Event::open, i, first_opening(system_, step, i), T(0));
+      if (latches_.may_let_go(i)) offer(Event::let_go, i, first_letting_go(system_, step, i), T(0));
       if (releases_.held() > 0) offer(Event::seen, i, releases_.first_passage(step, i), T(0));
     }
     if (search.releases && system_.work().stuck > 0) {
@@ -125,7 +125,7 @@ public:
       return {way * (step.x1[at.angle(i)] - angle), way * step.x1[at.rate(i)],
               way * step.dxdt1[at.rate(i)]};
     }
-    case Event::open: {
+    case Event::let_go: {
       const Layout& at = system_.layout();
       const CaptureTerms<T>& latch = system_.wing().real[i].capture;
       const T &angle = step.x1[at.angle(i)], &rate = step.x1[at.rate(i)];
@@ -166,11 +166,11 @@ public:
         due->event == Event::edge) // exactly at the edge, where settle_edges decides its side
       step.x[system_.layout().angle(due->hinge)] =
           edge_angle(system_.wing(), due->hinge, due->edge);
-    const bool opened =
-        system_.wing().can_open && latches_.open_those_there(hinge_of(Event::open), step, record);
+    const bool let_go = system_.wing().can_let_go &&
+                        latches_.let_go_those_there(hinge_of(Event::let_go), step, record);
     const bool released = releases_.let_go_those_due(hinge_of(Event::seen), step, record);
     const bool changes = due && due->event != Event::graze && due->event != Event::kink;
-    return changes || engaged || rested || opened || released;
+    return changes || engaged || rested || let_go || released;
   }
 
 private:

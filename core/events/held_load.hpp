@@ -195,10 +195,10 @@ private:
     tree.outward([&](int i) {
       const Bounds& parent = bodies_[tree.parent_of(i)];
       Bounds& own = bodies_[i];
-      const T arm = length(wing.bodies[i].arm);
+      const T arm = wing.bodies[i].arm_length;
       own.acceleration = added(parent.acceleration, arm, parent.along);
       all = added(all, wing.bodies[i].mass,
-                  added(own.acceleration, length(wing.bodies[i].center), own.along));
+                  added(own.acceleration, wing.bodies[i].center_length, own.along));
       mass = mass + wing.bodies[i].mass;
       if (in_air) own.velocity = added(parent.velocity, arm, parent.swing());
     });
@@ -208,7 +208,7 @@ private:
     tree.outward([&](int i) {
       Bounds& own = bodies_[i];
       const BodyTerms<T>& body = wing.bodies[i];
-      const T center = length(body.center);
+      const T center = body.center_length;
       const Derivatives a = added(added(own.acceleration, T(1), felt), center, own.along);
       own.force = added({}, body.mass, a);
       own.moment = {T(0), T(0)};
@@ -223,7 +223,7 @@ private:
       parent.force = added(parent.force, T(1), own.force);
       parent.moment.size = parent.moment.size + own.moment.size;
       parent.moment.bend = parent.moment.bend + own.moment.bend;
-      add_moment(parent, length(wing.bodies[i].arm), own.force);
+      add_moment(parent, wing.bodies[i].arm_length, own.force);
     });
   }
 

@@ -47,7 +47,8 @@ template <class T> [[nodiscard]] auto engages_at(const T& t, const T& gap, const
 /// The first s in [0, 1] at which the engaged latch of hinge i lets go in the step; none if it does not. Halves pieces
 /// whose bound on the latch's load does not exclude it.
 template <class T, class AnySystem>
-[[nodiscard]] std::optional<T> first_opening(const AnySystem& system, const Step<T>& step, int i) {
+[[nodiscard]] std::optional<T> first_letting_go(const AnySystem& system, const Step<T>& step,
+                                                int i) {
   struct Piece {
     Quintic<T> angle, rate;
     T lower, width;
@@ -62,9 +63,9 @@ template <class T, class AnySystem>
   while (count > 0) {
     const Piece piece = open[--count];
     if (latch.most_excess(hull(piece.angle), hull(piece.rate)) < T(0)) continue;
-    if (latch.opens(piece.angle[0], piece.rate[0])) return piece.lower;
+    if (latch.lets_go(piece.angle[0], piece.rate[0])) return piece.lower;
     if (piece.width <= T(1.0 / (1LL << deepest))) {
-      if (latch.opens(piece.angle[5], piece.rate[5])) return piece.lower + piece.width;
+      if (latch.lets_go(piece.angle[5], piece.rate[5])) return piece.lower + piece.width;
       continue;
     }
     Piece left{{}, {}, piece.lower, T(0.5) * piece.width};
@@ -92,9 +93,9 @@ public:
   /// does not move.
   [[nodiscard]] bool may_engage(int i) const { return is_open(i) && !may_miss(i); }
   /// Whether hinge i has an engaged latch that may let go now.
-  [[nodiscard]] bool may_open(int i) const {
-    return system_.wing().can_open && system_.work().engaged[i] && !system_.sticks(i) &&
-           system_.wing().real[i].capture.may_open();
+  [[nodiscard]] bool may_let_go(int i) const {
+    return system_.wing().can_let_go && system_.work().engaged[i] && !system_.sticks(i) &&
+           system_.wing().real[i].capture.may_let_go();
   }
 
   /// Signed distance past the latched angle, rad: the latch engages where it reaches 0 from below.
@@ -137,10 +138,10 @@ public:
 
   /// Lets go, at the start of a step, the latch of hinge `due` (0: none) and every latch that is loaded beyond its
   /// holding moment where it begins to bear on its stowed side. @return whether any let go
-  bool open_those_there(int due, Step<T>& step, LatchRecord& events) {
+  bool let_go_those_there(int due, Step<T>& step, LatchRecord& events) {
     bool any = false;
     for (int i = 1; i <= at_.bodies; ++i) {
-      if (!may_open(i) || (i != due && !opens_at_edge(i, step.x))) continue;
+      if (!may_let_go(i) || (i != due && !lets_go_at_edge(i, step.x))) continue;
       system_.disengage(i, step.x);
       ++left_;
       events.let_go.push_back(hinge_event(system_.wing(), at_, step.x, step.t, i));
@@ -172,8 +173,8 @@ private:
     return false;
   }
 
-  /// Whether the load of hinge i, which stands where its latch begins to bear on its stowed side, opens the latch.
-  [[nodiscard]] bool opens_at_edge(int i, const State<T>& x) const {
+  /// Whether the latch of hinge i lets go under its load, where it begins to bear on its stowed side.
+  [[nodiscard]] bool lets_go_at_edge(int i, const State<T>& x) const {
     const CaptureTerms<T>& latch = system_.wing().real[i].capture;
     const T &angle = x[at_.angle(i)], &rate = x[at_.rate(i)];
     return !(latch.deflection(angle) > T(0)) && latch.sense * rate < T(0) &&

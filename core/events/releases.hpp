@@ -89,11 +89,11 @@ public:
     return any;
   }
 
-  /// Whether a hold may still let go before t_end, where no open hinge will latch any more.
+  /// Whether a hold may still let go, before t_end or after, where no open hinge will latch any more.
   /// @param rests whether no hinge will move any more
-  [[nodiscard]] bool may_come(const T& t_end, bool rests) const {
+  [[nodiscard]] bool may_come(bool rests) const {
     for (int i = 1; held_ > 0 && i < size(); ++i)
-      if (is_held(i) && (due_[i] < t_end || (watches(i) && !rests && moves(i)))) return true;
+      if (is_held(i) && (due_[i] < T(never) || (watches(i) && !rests && moves(i)))) return true;
     return false;
   }
 
@@ -119,6 +119,15 @@ public:
     return blamed;
   }
 
+  /// The held hinges, in the scene's numbering, whose hold may let go after t_end.
+  /// @param no_latch whether no open hinge will latch any more @param rests as of may_come
+  [[nodiscard]] std::vector<int> released_later(bool no_latch, bool rests) const {
+    std::vector<int> later;
+    for (int i = 1; held_ > 0 && i < size(); ++i)
+      if (is_held(i) && !lasts(i, no_latch, rests)) later.push_back(system_.wing().hinge_of[i]);
+    return later;
+  }
+
   /// Whether a hold holds hinge i, rigidly or elastically.
   [[nodiscard]] bool is_held(int i) const { return system_.is_held(i) || system_.is_restrained(i); }
 
@@ -132,6 +141,18 @@ private:
     if (!hold.present || hold.fails != T(0)) return false;
     return hold.event == Release::Event::time ||
            (hold.event == Release::Event::released && !(due_[hold.after] > T(0)));
+  }
+  /// Whether the hold of hinge i, which is held, never lets go. A hold that waits for a held hinge lasts as long as that.
+  [[nodiscard]] bool lasts(int i, bool no_latch, bool rests) const {
+    for (int passed = 0; passed < size(); ++passed) {
+      const ReleaseTerms<T>& hold = terms(i);
+      if (hold.fails != T(0)) return true;
+      if (due_[i] < T(never)) return false;
+      if (hold.after == 0) return true;
+      if (!is_held(hold.after)) return hold.event == Release::Event::passed ? rests : no_latch;
+      i = hold.after;
+    }
+    return true; // holds that wait for each other
   }
   /// Whether the hinge for whose angle the hold of hinge i waits is free.
   [[nodiscard]] bool moves(int i) const { return !is_held(terms(i).after); }

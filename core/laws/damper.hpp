@@ -111,10 +111,9 @@ template <class T>
   ValueRange<T> range{smaller(first, last), larger(first, last)};
   if (damper.law == DamperLaw::viscous) return range;
   // (2): constant below w, monotone in |v| beyond, with a jump at w
-  const auto turns = v.low < T(0) && v.high > T(0);
   const T least = smallest_magnitude_of(v), most = largest_magnitude_of(v);
   const auto jumps = least <= damper.rate && damper.rate <= most;
-  range.include(select(turns || jumps, damper.near_zero, first));
+  range.include(select(jumps, damper.near_zero, first));
   range.include(select(jumps, T(damper.exponent * damper.near_zero), first));
   return range;
 }

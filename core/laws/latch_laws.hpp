@@ -29,7 +29,7 @@
 ///
 ///     L = −k (e + β/2) − d ė + k c (e + β/2) ė                                                  (2)
 ///
-/// lets go where L reaches M_h. A pass is an event (Edge::pass), and letting go is one (Event::open).
+/// lets go where L reaches M_h. A pass is an event (Edge::pass), and letting go is one (Event::let_go).
 #pragma once
 
 #include "core/laws/hinge_law.hpp"
@@ -93,7 +93,7 @@ template <class T> struct CaptureTerms {
   T dissipation; ///< k c
 
   /// Whether the latch may let go at all.
-  [[nodiscard]] auto may_open() const { return holding < T(1e300); }
+  [[nodiscard]] auto may_let_go() const { return holding < T(1e300); }
 
   /// e + β/2, < 0 where the latch bears on its stowed side.
   [[nodiscard]] T deflection(const T& angle) const { return sense * (angle - start); }
@@ -110,7 +110,7 @@ template <class T> struct CaptureTerms {
   }
 
   /// Whether the latch lets go at this angle and rate.
-  [[nodiscard]] bool opens(const T& angle, const T& rate) const {
+  [[nodiscard]] bool lets_go(const T& angle, const T& rate) const {
     return deflection(angle) < T(0) && excess(angle, rate) >= T(0);
   }
 

@@ -42,6 +42,7 @@ template <class T> struct HingeStop {
   }
 
   void add_moment(T& m, const T& angle, const T& rate) const {
+    if (!any(in_contact > T(0))) return;
     m = fused(in_contact, moment(angle, rate), m);
   }
   void add_resistance(HingeResistance<T>& r, const T& angle, const T& rate) const {
@@ -52,6 +53,7 @@ template <class T> struct HingeStop {
   }
   /// (1) is a product of a line in φ and one in φ̇, cut at 0: its extremes lie at the corners, or are 0.
   void add_range(ValueRange<T>& m, const ValueRange<T>& angle, const ValueRange<T>& rate) const {
+    if (!any(in_contact > T(0))) return;
     ValueRange<T> corners{T(0), T(0)};
     for (const T& a : {angle.low, angle.high})
       for (const T& v : {rate.low, rate.high}) corners.include(moment(a, v));

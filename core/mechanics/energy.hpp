@@ -1,10 +1,9 @@
-/// Energy and momentum of a wing: audits of a run, and the projection that keeps a free base's momenta.
+/// Energy and momentum of a wing: audits of a run. The sums over bodies are those of kinematics.hpp.
 ///
 /// | symbol  | meaning                                              | unit      |
 /// |---------|------------------------------------------------------|-----------|
 /// | r, v    | position and velocity of a centre of mass            | m, m/s    |
 /// | T, P    | kinetic energy, potential                            | J         |
-/// | p, L    | momentum Σ m v; angular momentum Σ (m r × v + J ω)    | kg·m/s, kg·m²/s |
 ///
 ///     T = ½ Σ (m v² + J ω²)                                                                    (1)
 ///     P = Σ hinges + Σ loops − Σ m g·r                                                         (2)
@@ -14,61 +13,12 @@
 
 namespace wingspread {
 
-/// Mass properties and motion of all bodies in inertial axes, relative to the base's origin. The base's own position
-/// and velocity are left out, so that a distant or fast spacecraft loses no digits.
-template <class T> struct TotalMotion {
-  T kinetic = T(0);                 ///< (1), J
-  T mass = T(0);                    ///< Σ m, kg
-  Vec2<T> first_moment{T(0), T(0)}; ///< Σ m r, kg·m
-  T second_moment = T(0);           ///< Σ (m r² + J), kg·m²
-  Vec2<T> linear{T(0), T(0)};       ///< Σ m v, kg·m/s
-  T angular = T(0);                 ///< Σ (m r × v + J ω), kg·m²/s
-
-  void add(const T& m, const T& inertia, const Vec2<T>& r, const Vec2<T>& v, const T& rate) {
-    kinetic = kinetic + T(0.5) * fused(m, dot(v, v), inertia * rate * rate);
-    mass = mass + m;
-    first_moment = fused(m, r, first_moment);
-    second_moment = second_moment + fused(m, dot(r, r), inertia);
-    linear = fused(m, v, linear);
-    angular = angular + fused(m, dot(turned(r), v), inertia * rate);
-  }
-
-  [[nodiscard]] Vec2<T> center() const { return scaled(T(1) / mass, first_moment); }
-  /// About the common centre of mass.
-  [[nodiscard]] T spin() const { return angular - dot(turned(center()), linear); }
-  [[nodiscard]] T central_inertia() const { return second_moment - dot(center(), first_moment); }
-  [[nodiscard]] T central_kinetic() const { return kinetic - T(0.5) * dot(linear, linear) / mass; }
-};
-
-/// Adds all bodies outward of `parent` to the sum. @param point, velocity of the parent's hinge point
-template <class T, class Topology>
-void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<BodyFrame<T>>& frames,
-                 int parent, const Vec2<T>& point, const Vec2<T>& velocity, TotalMotion<T>& sum) {
-  tree.for_each_child(parent, [&](int i) {
-    const BodyFrame<T>& own = frames[i];
-    const Vec2<T> hinge = point + own.arm;
-    const Vec2<T> hinge_velocity = fused(frames[parent].rate, turned(own.arm), velocity);
-    const Vec2<T> g = rotated(own.rotation, wing.bodies[i].center);
-    sum.add(wing.bodies[i].mass, wing.bodies[i].central_inertia, hinge + g,
-            fused(own.rate, turned(g), hinge_velocity), own.rate);
-    add_outward(wing, tree, frames, i, hinge, hinge_velocity, sum);
-  });
-}
-
 /// Motion of all bodies at (x, t) relative to the base's origin. Places the system. Cost O(n).
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] TotalMotion<T> total_motion(System<T, Topology, M>& system, const State<T>& x,
                                           const T& t) {
   system.place_all(x, t);
-  const auto& frames = system.work().frames;
-  const Vec2<T> origin{T(0), T(0)};
-  TotalMotion<T> sum;
-  if constexpr (M == BaseMotion::free) {
-    const BodyTerms<T>& base = system.wing().bodies[0];
-    sum.add(base.mass, base.central_inertia, origin, origin, frames[0].rate);
-  }
-  add_outward(system.wing(), system.topology(), frames, 0, origin, origin, sum);
-  return sum;
+  return total_motion_of<M>(system.wing(), system.topology(), system.work().frames);
 }
 
 /// (1) in inertial axes, J.
@@ -136,38 +86,12 @@ template <class T, class Topology, BaseMotion M>
   return sum;
 }
 
-/// Invariants of a free system.
-template <class T> struct Conserved {
-  Vec2<T> start;    ///< the common centre of mass at the start, m
-  Vec2<T> velocity; ///< its velocity at the start, m/s
-  T spin;           ///< angular momentum about it, kg·m²/s
-};
-
 template <class T, class Topology>
 [[nodiscard]] Conserved<T> conserved(System<T, Topology, BaseMotion::free>& system,
                                      const State<T>& x, const T& t) {
   const TotalMotion<T> now = total_motion(system, x, t);
   return {Vec2<T>{x[0], x[1]} + now.center(),
           system.base_velocity(x, t) + scaled(T(1) / now.mass, now.linear), now.spin()};
-}
-
-/// Restores a free system's invariants at time t: moves the whole system as one rigid body, so that its centre of mass
-/// falls freely and the angular momentum about it is conserved. Relative angles and rates stay. The change is as small
-/// as the step's own error, so the method keeps its order [projection onto invariants: Hairer, Lubich & Wanner,
-/// Geometric Numerical Integration, IV.4].
-template <class T, class Topology>
-void keep_momentum(System<T, Topology, BaseMotion::free>& system, const Conserved<T>& kept,
-                   State<T>& x, const T& t) {
-  const TotalMotion<T> now = total_motion(system, x, t);
-  const Vec2<T> center = now.center();
-  const T rate = (kept.spin - now.spin()) / now.central_inertia();
-  const Vec2<T> linear = scaled(T(1) / now.mass, now.linear);
-  const Vec2<T> fall = scaled(t, system.wing().base.gravity);
-  const Vec2<T> position = fused(t, fused(T(0.5), fall, kept.velocity), kept.start) - center;
-  const Vec2<T> velocity = (kept.velocity + fall - linear) - scaled(rate, turned(center));
-  const int v = system.layout().freedoms();
-  x[0] = position.x, x[1] = position.y;
-  x[v] = velocity.x, x[v + 1] = velocity.y, x[v + 2] = x[v + 2] + rate;
 }
 
 } // namespace wingspread

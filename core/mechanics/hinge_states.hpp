@@ -88,7 +88,8 @@ public:
   }
   /// Sets the commanded rates of all motors to those at t.
   void set_commands(const T& t) {
-    for (int i = 1; i < motors_end(); ++i) work_.motors[i].now = commanded_rate(work_.motors[i], t);
+    for (int i = 1; i < motors_end(); ++i)
+      if (wing_.motors[i].present) work_.motors[i].now = commanded_rate(work_.motors[i], t);
   }
   /// Whether the commands of all motors are constant from now on. The motor of a held hinge counts as constant.
   [[nodiscard]] bool motors_are_steady() const {
@@ -215,7 +216,9 @@ protected:
   [[gnu::noinline]] void add_real_moments(const State<T>& x) {
     for (int i = 1; i < static_cast<int>(wing_.real.size()); ++i)
       work_.nonlinear[i] = work_.nonlinear[i] + of_real_hinge(x, i);
-    for (int i = 1; i < motors_end(); ++i) work_.nonlinear[i] = work_.nonlinear[i] + of_motor(x, i);
+    for (int i = 1; i < motors_end(); ++i)
+      if (any(work_.motors[i].runs > T(0)))
+        work_.nonlinear[i] = work_.nonlinear[i] + of_motor(x, i);
     for (const LoopTerms<T>& loop : wing_.loops) {
       const LoopState<T> state = state_of(loop, x);
       const T torque = loop_torque(loop, state);
@@ -254,8 +257,8 @@ protected:
   /// Moment of regularized friction and a smoothed latch, N·m.
   [[nodiscard]] T smooth_moment(const State<T>& x, int i) const {
     const T& rate = x[layout_.rate(i)];
-    T m =
-        wing_.has_regularized_friction ? regularized_friction_moment(wing_.hinges[i], rate) : T(0);
+    const HingeTerms<T>& hinge = wing_.hinges[i];
+    T m = any(hinge.regularized_friction > T(0)) ? regularized_friction_moment(hinge, rate) : T(0);
     if (layout_.smoothed && wing_.hinges[i].has_latch)
       m = m + smoothed_latch_moment(wing_.hinges[i], x[layout_.angle(i)], rate, x[layout_.latch(i)],
                                     epsilon_);

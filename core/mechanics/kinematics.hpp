@@ -1,4 +1,5 @@
-/// Kinematics: frames of all bodies from the state [Yudintsev, eq. 2]. No forces.
+/// Kinematics: frames of all bodies from the state [Yudintsev, eq. 2]. No forces. Also the sums of all bodies' masses and
+/// motions, and the projection that keeps the momenta of a system on a free base.
 ///
 /// | symbol | meaning                                        | shape | unit        |
 /// |--------|------------------------------------------------|-------|-------------|
@@ -6,10 +7,15 @@
 /// | θ, ω   | absolute angle and rate: θ_p + φ, ω_p + φ̇      |       | rad, rad/s  |
 /// | l      | from the parent's hinge to the body's own      | 2     | m           |
 /// | m g    | mass times the way to the centre of mass       | 2     | kg·m        |
+/// | r, v   | position and velocity of a centre of mass      | 2     | m, m/s      |
+/// | p, L   | momentum Σ m v; angular Σ (m r × v + J ω)       |       | kg·m/s, kg·m²/s |
+/// | T      | kinetic energy ½ Σ (m v² + J ω²)               |       | J           |
 #pragma once
 
 #include "core/mechanics/layout.hpp"
 #include "core/mechanics/recursion.hpp"
+
+#include <vector>
 
 namespace wingspread {
 
@@ -55,6 +61,100 @@ template <BaseMotion M, class T, class Topology, class Frames>
     turn<M>(tree, frames, i, angles[i - 1], rates[i - 1]);
   });
   tree.outward([&](int i) __attribute__((always_inline)) { place<M>(wing, tree, frames, i); });
+}
+
+/// Sets the rates of a placed system on a free base anew, where only they have changed: as place_base and place_bodies.
+template <class T, class Topology, class Frames>
+[[gnu::always_inline]] inline void set_rates(const Layout& at, const Topology& tree, Frames& frames,
+                                             const State<T>& x) {
+  frames[0].rate = x[at.freedoms() + 2];
+  frames[0].minus_rate_squared = -(frames[0].rate * frames[0].rate);
+  tree.outward([&](int i) __attribute__((always_inline)) {
+    BodyFrame<T>& own = frames[i];
+    own.rate = frames[tree.parent_of(i)].rate + x[at.rate(i)];
+    own.minus_rate_squared = -(own.rate * own.rate);
+  });
+}
+
+/// Mass properties and motion of all bodies in inertial axes, relative to the base's origin. The base's own position
+/// and velocity are left out, so that a distant or fast spacecraft loses no digits.
+template <class T> struct TotalMotion {
+  T kinetic = T(0);                 ///< T, J
+  T mass = T(0);                    ///< Σ m, kg
+  Vec2<T> first_moment{T(0), T(0)}; ///< Σ m r, kg·m
+  T second_moment = T(0);           ///< Σ (m r² + J), kg·m²
+  Vec2<T> linear{T(0), T(0)};       ///< Σ m v, kg·m/s
+  T angular = T(0);                 ///< Σ (m r × v + J ω), kg·m²/s
+
+  void add(const T& m, const T& inertia, const Vec2<T>& r, const Vec2<T>& v, const T& rate) {
+    kinetic = kinetic + T(0.5) * fused(m, dot(v, v), inertia * rate * rate);
+    mass = mass + m;
+    first_moment = fused(m, r, first_moment);
+    second_moment = second_moment + fused(m, dot(r, r), inertia);
+    linear = fused(m, v, linear);
+    angular = angular + fused(m, dot(turned(r), v), inertia * rate);
+  }
+
+  [[nodiscard]] Vec2<T> center() const { return scaled(T(1) / mass, first_moment); }
+  /// About the common centre of mass.
+  [[nodiscard]] T spin() const { return angular - dot(turned(center()), linear); }
+  [[nodiscard]] T central_inertia() const { return second_moment - dot(center(), first_moment); }
+  [[nodiscard]] T central_kinetic() const { return kinetic - T(0.5) * dot(linear, linear) / mass; }
+};
+
+/// Adds all bodies outward of `parent` to the sum. @param point, velocity of the parent's hinge point
+template <class T, class Topology>
+void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<BodyFrame<T>>& frames,
+                 int parent, const Vec2<T>& point, const Vec2<T>& velocity, TotalMotion<T>& sum) {
+  tree.for_each_child(parent, [&](int i) {
+    const BodyFrame<T>& own = frames[i];
+    const Vec2<T> hinge = point + own.arm;
+    const Vec2<T> hinge_velocity = fused(frames[parent].rate, turned(own.arm), velocity);
+    const Vec2<T> g = rotated(own.rotation, wing.bodies[i].center);
+    sum.add(wing.bodies[i].mass, wing.bodies[i].central_inertia, hinge + g,
+            fused(own.rate, turned(g), hinge_velocity), own.rate);
+    add_outward(wing, tree, frames, i, hinge, hinge_velocity, sum);
+  });
+}
+
+/// The same of placed bodies, and of the base if it is free. Cost O(n).
+template <BaseMotion M, class T, class Topology>
+[[nodiscard]] TotalMotion<T> total_motion_of(const Wing<T>& wing, const Topology& tree,
+                                             const std::vector<BodyFrame<T>>& frames) {
+  const Vec2<T> origin{T(0), T(0)};
+  TotalMotion<T> sum;
+  if constexpr (M == BaseMotion::free) {
+    const BodyTerms<T>& base = wing.bodies[0];
+    sum.add(base.mass, base.central_inertia, origin, origin, frames[0].rate);
+  }
+  add_outward(wing, tree, frames, 0, origin, origin, sum);
+  return sum;
+}
+
+/// Invariants of a free system.
+template <class T> struct Conserved {
+  Vec2<T> start;    ///< the common centre of mass at the start, m
+  Vec2<T> velocity; ///< its velocity at the start, m/s
+  T spin;           ///< angular momentum about it, kg·m²/s
+};
+
+/// Restores a free system's invariants at time t: moves the whole system as one rigid body, so that its centre of mass
+/// falls freely and the angular momentum about it is conserved. Relative angles and rates stay. The change is as small
+/// as the step's own error, so the method keeps its order [projection onto invariants: Hairer, Lubich & Wanner,
+/// Geometric Numerical Integration, IV.4].
+/// @param now total motion at x @param gravity m/s²
+template <class T>
+void keep_momenta(const Conserved<T>& kept, const TotalMotion<T>& now, const Vec2<T>& gravity,
+                  const T& t, const Layout& at, State<T>& x) {
+  const Vec2<T> center = now.center();
+  const T rate = (kept.spin - now.spin()) / now.central_inertia();
+  const Vec2<T> linear = scaled(T(1) / now.mass, now.linear);
+  const Vec2<T> fall = scaled(t, gravity);
+  const Vec2<T> position = fused(t, fused(T(0.5), fall, kept.velocity), kept.start) - center;
+  const Vec2<T> velocity = (kept.velocity + fall - linear) - scaled(rate, turned(center));
+  const int v = at.freedoms();
+  x[0] = position.x, x[1] = position.y;
+  x[v] = velocity.x, x[v + 1] = velocity.y, x[v + 2] = x[v + 2] + rate;
 }
 
 } // namespace wingspread

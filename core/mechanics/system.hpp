@@ -93,6 +93,20 @@ public:
   /// Sets dxdt. With want_forces(true), the workspace has the hinge forces at x afterwards.
   void operator()(const State<T>& x, State<T>& dxdt, const T& t) { evaluate<true>(x, dxdt, t); }
 
+  /// Sets dxdt at the end x of a step, as operator() does. If the workspace says so, first gives x the conserved momenta.
+  void end_step(State<T>& x, State<T>& dxdt, const T& t) {
+    if constexpr (M == BaseMotion::free)
+      if (work_.keeps_momenta) {
+        place_all(x, t);
+        keep_momenta(work_.conserved, total_motion_of<M>(wing_, topology(), work_.frames),
+                     wing_.base.gravity, t, layout_, x);
+        set_rates(layout_, topology(), work_.frames, x);
+        ++work_.evaluations;
+        return evaluate_placed(x, dxdt, t);
+      }
+    (*this)(x, dxdt, t);
+  }
+
   /// Sets dxdt without forces and without the moments that hold stuck hinges: for stages inside a step.
   void stage(const State<T>& x, State<T>& dxdt, const T& t) { evaluate<false>(x, dxdt, t); }
 
@@ -116,6 +130,12 @@ private:
     }
   }
 
+  /// Not inlined: the frames are in memory anyway. @pre the system is placed, with its motors' commands; there is no air
+  [[gnu::noinline]] void evaluate_placed(const State<T>& x, State<T>& dxdt, const T& t) {
+    work_.stuck > 0 ? evaluate<true, false, true, true>(work_.frames, x, dxdt, t)
+                    : evaluate<true, false, false, true>(work_.frames, x, dxdt, t);
+  }
+
   /// Not inlined: see evaluate_in_air. Leaves the moments that hold locked hinges if `held`.
   template <bool held>
   [[gnu::noinline]] void evaluate_with_locks(const State<T>& x, State<T>& dxdt, const T& t) {
@@ -126,6 +146,18 @@ private:
   /// Not inlined: taking the frames' address would move them out of registers in the other evaluations.
   [[gnu::noinline]] void evaluate_in_air(const State<T>& x, State<T>& dxdt, const T& t) {
     evaluate<true, true>(work_.frames, x, dxdt, t);
+  }
+
+  /// Whether hinge i or a child's is locked; for a pack: in any lane.
+  [[nodiscard]] bool locks_cross(int i) const {
+    bool found = any(is_locked(i));
+    topology().for_each_child(i, [&](int j) { found = found || any(is_locked(j)); });
+    return found;
+  }
+  /// As gather_with_locks where !locks_cross(i), at the cost of gather.
+  template <class Frames> void gather_free(Frames& frames, int i) {
+    gather(wing_, topology(), frames, i);
+    work_.crossings[i] = {{T(0), T(0)}, T(0), frames[i].moment};
   }
 
   static constexpr int first_coordinate = base_freedoms<M>; ///< φ_1 in q
@@ -165,15 +197,19 @@ private:
     });
   }
 
-  template <bool forces, bool air, bool locks = false, class Frames>
+  template <bool forces, bool air, bool locks = false, bool placed = false, class Frames>
   [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt,
                                        const T& t) {
-    place_base<M>(wing_, layout_, work_.driven, frames[0], x, t);
-    place_bodies<M>(wing_, topology(), frames, x);
+    if constexpr (!placed) {
+      place_base<M>(wing_, layout_, work_.driven, frames[0], x, t);
+      place_bodies<M>(wing_, topology(), frames, x);
+    }
     apply_moments<air>(frames, x, t);
     topology().inward([&](int i) __attribute__((always_inline)) {
       if constexpr (locks)
-        gather_with_locks(wing_, topology(), frames, work_.crossings, i, is_locked(i));
+        locks_cross(i)
+            ? gather_with_locks(wing_, topology(), frames, work_.crossings, i, is_locked(i))
+            : gather_free(frames, i);
       else
         gather(wing_, topology(), frames, i);
     });

@@ -32,9 +32,10 @@ template <class T> struct BodyTerms {
   Vec2<T> mass_moment;
   /// c_pi − c_pp: from the parent's hinge (the base's origin) to hinge i, parent's frame, m
   Vec2<T> arm;
-  Vec2<T> center;    ///< g, own frame, m
-  T central_inertia; ///< J_i, kg·m²
-  T minus_inverse;   ///< −1/inertia, 1/(kg·m²)
+  Vec2<T> center;              ///< g, own frame, m
+  T central_inertia;           ///< J_i, kg·m²
+  T minus_inverse;             ///< −1/inertia, 1/(kg·m²)
+  T arm_length, center_length; ///< of arm and center, m
 };
 
 /// When the hold of a hinge lets go.
@@ -65,7 +66,7 @@ template <class T> struct Wing {
   std::vector<PlateTerms<T>> plates;     ///< 0 … n; [0] unused: a free base has no plate
   std::vector<ReleaseTerms<T>> releases; ///< 0 … n; [0] unused
   std::vector<MotorTerms<T>> motors;     ///< 0 … n; [0] unused
-  bool can_open = false;                 ///< whether the latch of any hinge may let go again
+  bool can_let_go = false;               ///< whether the latch of any hinge may let go again
 
   [[nodiscard]] int size() const { return tree.bodies(); }
   /// Whether any hinge has laws of real_hinge.hpp, loops or motors.
@@ -114,6 +115,7 @@ void set_body(BodyTerms<T>& terms, double mass, double inertia, const Vec2<T>& c
   terms.arm.x = arm.x, terms.arm.y = arm.y;
   terms.center.x = center.x, terms.center.y = center.y;
   terms.central_inertia = T(inertia), terms.minus_inverse = T(-1) / about_hinge;
+  terms.arm_length = length(arm), terms.center_length = length(center);
 }
 
 template <class T> void set_base(BaseTerms<T>& terms, const Scene& scene) {
@@ -251,7 +253,7 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
   const Base& base = scene.base;
   detail::set_base(wing.base, scene);
   detail::set_body(wing.bodies[0], base.mass, base.inertia, {T(0), T(0)}, {T(0), T(0)});
-  wing.has_regularized_friction = wing.can_stick = wing.can_open = false;
+  wing.has_regularized_friction = wing.can_stick = wing.can_let_go = false;
   for (int i = 1; i <= wing.size(); ++i) {
     const Hinge& hinge = scene.hinges[wing.hinge_of[i]];
     const Body& body = scene.bodies[hinge.child];
@@ -268,7 +270,7 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
     wing.has_regularized_friction =
         wing.has_regularized_friction || wing.hinges[i].most_regularized() > T(0);
     wing.can_stick = wing.can_stick || wing.hinges[i].can_stick();
-    wing.can_open = wing.can_open || (!wing.real.empty() && wing.real[i].capture.may_open());
+    wing.can_let_go = wing.can_let_go || (!wing.real.empty() && wing.real[i].capture.may_let_go());
   }
   for (int i = 1; i < static_cast<int>(wing.releases.size()); ++i)
     detail::set_release(wing, scene, i);

@@ -4,6 +4,7 @@
 #include "core/laws/linear_law.hpp"
 #include "core/laws/motor.hpp"
 #include "core/laws/smoothed_latch.hpp"
+#include "core/mechanics/kinematics.hpp"
 #include "core/mechanics/locked.hpp"
 
 #include <array>
@@ -60,6 +61,8 @@ template <class T> struct Workspace {
   std::vector<T> holding; ///< 1 … n: axis moments, N·m, at the last evaluation with a locked hinge
   int stuck = 0;          ///< number of locked hinges, of all lanes together
   std::vector<Crossing<T>> crossings; ///< 0 … n: of the last evaluation while hinges are locked
+  Conserved<T> conserved{};           ///< of a free base whose momenta every step keeps
+  bool keeps_momenta = false;         ///< every step does, on a free base without air
   T least_motion = T(0); ///< atol of the run, rad and rad/s: smaller motion is not resolved
   long evaluations = 0;
 
@@ -88,7 +91,7 @@ template <class T> struct Workspace {
     motors.assign(motors.size(), idle_motor<T>());
     pieces.assign(pieces.size(), no_table_piece<T>());
     if constexpr (!is_one_number<T>) locks.assign(n + 1, T(0));
-    stuck = 0, evaluations = 0;
+    stuck = 0, evaluations = 0, keeps_momenta = false;
   }
 };
 

@@ -35,7 +35,7 @@ public:
     x1.resize(from.x.size()), error_.resize(from.x.size()); // kept sizes: no allocation
     h_ = h;
     stepper_.do_step_impl(std::ref(system), from.x, from.t, x1, h_, error_);
-    system(x1, dxdt1, from.t + h);
+    evaluate_end(system, x1, dxdt1, T(from.t + h));
     x_ = x1, dxdt_ = dxdt1;
     const double error = in_tolerances(from.x, x1, dxdt1, error_, tolerance_);
     if (!std::isfinite(error)) return {error, 0.1};

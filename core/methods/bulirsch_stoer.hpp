@@ -29,7 +29,7 @@ public:
     T t = from.t, next = h;
     const bool good = stepper_->try_step(std::ref(system), from.x, from.dxdt, t, x1, next) ==
                       boost::numeric::odeint::success;
-    system(x1, dxdt1, from.t + h);
+    evaluate_end(system, x1, dxdt1, T(from.t + h));
     if (!all_finite(x1) || !all_finite(dxdt1)) { // odeint would accept them
       stepper_->reset();
       return {std::numeric_limits<double>::quiet_NaN(), 0.1};

@@ -101,6 +101,7 @@ inline constexpr Row error_3 = [] {
 template <class T> class DormandPrince853 {
 public:
   static constexpr int order = 8, error_order = 7, evaluations = 12;
+  static constexpr bool ends_with_stage = false; ///< its last stage is not at the step's end
   static constexpr double stable_real = 6.394, stable_imaginary = 5.960;
 
   /// @param error h ε5, the estimate of order 5
@@ -119,7 +120,7 @@ public:
       error[c] = h * weighted(dop853::error_5, c);
       error_3_[c] = h * weighted(dop853::error_3, c);
     }
-    system(x1, dxdt1, from.t + h);
+    evaluate_end(system, x1, dxdt1, T(from.t + h));
   }
 
   /// Scaled error of the last trial step: ε5²/√(ε5² + 0.01 ε3²) of the largest scaled ε5 and ε3 [Hairer,

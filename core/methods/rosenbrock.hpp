@@ -164,7 +164,7 @@ template <class T> struct RosenbrockW {
     combine(from.x, tableau.m, RosenbrockTableau::stages, x1);
     zero_.assign(from.x.size(), T(0));
     combine(zero_, tableau.error, RosenbrockTableau::stages, error);
-    system(x1, dxdt1, from.t + h);
+    evaluate_end(system, x1, dxdt1, T(from.t + h));
   }
 
 private:

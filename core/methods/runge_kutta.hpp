@@ -17,12 +17,15 @@ namespace wingspread {
 /// `stable_real`, `stable_imaginary`: largest stable |hλ| on the half-axes (tests measure them).
 template <class T> struct DormandPrince5 {
   static constexpr int order = 5, error_order = 4, evaluations = 6;
+  static constexpr bool ends_with_stage = true; ///< its last stage is at the step's end
   static constexpr double stable_real = 3.307, stable_imaginary = 0.997;
 
   template <class System>
   void estimate(System& system, const Start<T>& from, const T& h, State<T>& x1, State<T>& dxdt1,
                 State<T>& error) {
     stepper.do_step(std::ref(system), from.x, from.dxdt, from.t, x1, dxdt1, h, error);
+    if constexpr (requires { system.work().keeps_momenta; }) // its last stage is at the end
+      if (system.work().keeps_momenta) evaluate_end(system, x1, dxdt1, T(from.t + h));
   }
 
   boost::numeric::odeint::runge_kutta_dopri5<State<T>, T, State<T>, T, StateAlgebra> stepper;
@@ -35,7 +38,7 @@ template <class T, class Stepper> struct WithoutLastStage {
   void estimate(System& system, const Start<T>& from, const T& h, State<T>& x1, State<T>& dxdt1,
                 State<T>& error) {
     stepper.do_step(std::ref(system), from.x, from.dxdt, from.t, x1, h, error);
-    system(x1, dxdt1, from.t + h);
+    evaluate_end(system, x1, dxdt1, T(from.t + h));
   }
   Stepper stepper;
 };
@@ -79,7 +82,7 @@ public:
     system(middle_, dxdt1, from.t + half);
     stepper_.do_step(std::ref(system), middle_, dxdt1, T(from.t + half), x1, half);
     stepper_.do_step(std::ref(system), from.x, from.dxdt, from.t, error_, h);
-    system(x1, dxdt1, from.t + h);
+    evaluate_end(system, x1, dxdt1, T(from.t + h));
     for (std::size_t k = 0; k < x1.size(); ++k) error_[k] = (x1[k] - error_[k]) / T(15);
     return {in_tolerances(from.x, x1, dxdt1, error_, tolerance_), 1};
   }

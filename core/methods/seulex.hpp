@@ -53,7 +53,7 @@ public:
     }
     j = std::min(j, std::min(target_ + 2, most) - 1);
     for (std::size_t c = 0; c < x1.size(); ++c) x1[c] = from.x[c] + table_[0][c];
-    system(x1, dxdt1, from.t + h);
+    evaluate_end(system, x1, dxdt1, T(from.t + h));
     if (!is_finite(StateAlgebra::norm_inf(x1)) || !is_finite(StateAlgebra::norm_inf(dxdt1)))
       return {std::numeric_limits<double>::quiet_NaN(), 0.1};
     choose(j, verdict);

@@ -42,6 +42,7 @@ template <class T> [[nodiscard]] bool has_series(const Wing<T>& wing) {
 template <class T> class TaylorSeries {
 public:
   static constexpr int order = 16, error_order = 15;
+  static constexpr bool ends_with_stage = false;
   static constexpr int evaluations = order + 1; ///< each order counts as one evaluation
   static constexpr double longest_growth = 4;   ///< from step to step
   static constexpr double stable_real = 6.080, stable_imaginary = 3.325;
@@ -66,7 +67,7 @@ public:
       sum(system, from.x, h, x1, error);
       system.writable_workspace().evaluations += order;
     }
-    system(x1, dxdt1, from.t + h);
+    evaluate_end(system, x1, dxdt1, T(from.t + h));
   }
 
   /// The state at h inside a step. @pre h is not beyond the accepted step from `from`

@@ -53,7 +53,7 @@ public:
       const HingeTerms<P>& hinge = wing.hinges[i];
       if (hinge.has_latch && !has_capture(wing, i))
         found = found || (waits(i) && may_engage(system, step, i));
-      if (wing.can_open) found = found || (!waits(i) && may_open(system, step, i));
+      if (wing.can_let_go) found = found || (!waits(i) && may_let_go(system, step, i));
       if (!wing.real.empty())
         found = found || (!system.is_locked(i) && may_pass_edge(system, step, i));
       if (wing.can_stick) found = found || (slides(i) && may_come_to_rest(system, step, i));
@@ -119,12 +119,12 @@ private:
     return any;
   }
 
-  /// The first test of first_opening.
+  /// The first test of first_letting_go.
   template <class AnySystem>
-  [[nodiscard]] static Mask may_open(const AnySystem& system, const Step<P>& step, int i) {
+  [[nodiscard]] static Mask may_let_go(const AnySystem& system, const Step<P>& step, int i) {
     const CaptureTerms<P>& latch = system.wing().real[i].capture;
     const Quintic<P> angle = angle_of(system, step, i);
-    return latch.may_open() &&
+    return latch.may_let_go() &&
            !(latch.most_excess(hull(angle), hull(step.rate(system.layout().angle(i),
                                                            system.layout().freedoms()))) < P(0.0));
   }
@@ -199,7 +199,7 @@ template <int W> class LaneHolds {
 public:
   void resize(const Layout& at) {
     const P none(0.0);
-    for (std::vector<P>* v : {&before_, &at_end_, &by_method_, &excess_before_, &excess_at_end_})
+    for (std::vector<P>* v : {&before_, &at_end_, &excess_before_, &excess_at_end_})
       v->assign(at.bodies + 1, none);
     holds_ = none;
   }
@@ -217,11 +217,10 @@ public:
     holds_.v[lane] = stuck_[lane] > 0 ? 1 : 0;
   }
 
-  /// @param by_method whether the run is given what held at the end before its momenta were restored
   /// @param moved whether the lane's state is no longer that of the task
-  void unload(int lane, LaneResult& result, bool by_method, bool moved) const {
+  void unload(int lane, LaneResult& result, bool moved) const {
     if (stuck_[lane] == 0) return;
-    get_lane(lane, by_method ? by_method_ : at_end_, result.held_at_end);
+    get_lane(lane, at_end_, result.held_at_end);
     if (!moved) return;
     get_lane(lane, before_, result.held_before);
     get_lane(lane, excess_before_, result.excess_before);
@@ -243,7 +242,6 @@ public:
   template <class AnySystem>
   [[nodiscard]] Mask may_release(const AnySystem& system, const Step<P>& step) {
     keep_at_end(system, step);
-    by_method_ = at_end_;
     Mask found{};
     if (!system.wing().can_stick) return found; // holds alone
     bound_.over_step(system, step);
@@ -273,7 +271,6 @@ private:
   // of stuck hinges, 1 … n, N·m: moments, and the excess of friction over its limit
   std::vector<P> before_, excess_before_; ///< at the step's start
   std::vector<P> at_end_, excess_at_end_;
-  std::vector<P> by_method_; ///< at the end, before momenta are restored
   HeldLoadBound<P> bound_;
   std::array<int, W> stuck_{}; ///< hinges that stick in each lane
   P holds_;                    ///< 1 where any does, else 0

@@ -258,8 +258,8 @@ private:
       for (std::size_t k = 0; k < places.size(); ++k)
         samples[k + 1] = {P(places[k]), load.inside[k]};
       asks = asks || (load.wants && may_crest_between(samples, load.rise, load.peak, load.close));
-      sampled_ = sampled_ + select(load.wants, P(static_cast<double>(places.size())), P(0.0));
     }
+    sampled_ = sampled_ + select(wants, P(static_cast<double>(places.size())), P(0.0));
     return asks;
   }
 

@@ -67,6 +67,10 @@ public:
     set_lane(lane, step_.x, task.step.x), set_lane(lane, step_.dxdt, task.step.dxdt);
     set_lane(lane, history_, task.history);
     set_lane(lane, work_.laws, task.work.laws);
+    if constexpr (M == BaseMotion::free) {
+      set_lane(lane, work_.conserved, task.work.conserved);
+      work_.keeps_momenta = task.work.keeps_momenta;
+    }
     work_.least_motion.v[lane] = task.work.least_motion;
     if (!wing_.real.empty()) set_lane(lane, work_.modes, task.work.modes);
     if (!wing_.motors.empty()) set_lane(lane, work_.motors, task.work.motors);
@@ -84,7 +88,7 @@ public:
     last_round_.v[lane] = now + static_cast<double>(task.most_trial_steps);
     last_step_.v[lane] = task.history.steps + static_cast<double>(task.most_steps);
     evaluations_before_.v[lane] =
-        static_cast<double>(task.evaluations) - now * Formula::evaluations;
+        static_cast<double>(task.evaluations) - now * evaluations_of_trial();
     busy_.v[lane] = 1;
     holds_.load(lane, &task, work_);
   }
@@ -106,17 +110,15 @@ public:
     }
     get_lane(lane, step_.x1, result.x1), get_lane(lane, step_.dxdt1, result.dxdt1);
     peaks_.unload(lane, result, moved);
-    holds_.unload(lane, result, M == BaseMotion::free, moved);
-    result.evaluations = (result.trial_steps + 1) * Formula::evaluations + peaks_.evaluations(lane);
+    holds_.unload(lane, result, moved);
+    result.evaluations =
+        (result.trial_steps + 1) * evaluations_of_trial() + peaks_.evaluations(lane);
     events_.unload(lane, result);
     result.none = {asks_after_[3].bits[lane] == 0, kinks_.bits[lane] == 0,
                    releases_.bits[lane] == 0};
     result.peaks_searched = result.moments_may_rise && accepted_.bits[lane] != 0;
     if (result.peaks_searched) peaks_.unload_search(lane, result);
-    if constexpr (M == BaseMotion::free) {
-      free_.unload(lane, result, shape_.forces);
-      result.evaluations += static_cast<long>(free_.evaluations().v[lane]);
-    }
+    if constexpr (M == BaseMotion::free) free_.unload(lane, result);
     result.h = step_.h.v[lane];
     result.error = scaled_error_.v[lane];
     result.judged = {judged_.v[lane], factor_.v[lane]};
@@ -153,6 +155,12 @@ private:
       if (there != 0) set |= LaneSet{1} << lane;
     }
     return set;
+  }
+
+  /// As a run alone counts them: a formula whose last stage is at the step's end makes another one there if the step
+  /// keeps momenta.
+  [[nodiscard]] int evaluations_of_trial() const {
+    return Formula::evaluations + (Formula::ends_with_stage && work_.keeps_momenta ? 1 : 0);
   }
 
   struct Judgement {
@@ -222,14 +230,6 @@ private:
     releases_ = Mask{};
     if (work_.stuck > 0) releases_ = accepted && holds_.may_release(system_, step_);
     asks_after_[2] = asks = asks || releases_;
-    if constexpr (M == BaseMotion::free) {
-      free_.restore_momenta(system_, step_);
-      if (work_.stuck > 0) holds_.keep_at_end(system_, step_);
-    }
-    if (M == BaseMotion::free &&
-        !wing_.motors.empty()) // after the momenta too, which change the rates
-      kinks_ = kinks_ || (accepted && motors_may_pass_limit());
-    asks = asks || kinks_;
     peaks_.keep_forces_at_end(system_);
     asks = asks || (accepted && may_turn_or_end_at_event());
     asks_after_[3] = asks;
@@ -262,11 +262,8 @@ private:
   /// Counts the step as the run alone would.
   void update_history(const Mask& accepted, const Mask& these) {
     history_.steps = select(accepted, P(history_.steps + P(1.0)), history_.steps);
-    P evaluations(static_cast<double>(round_ * Formula::evaluations));
-    if constexpr (M == BaseMotion::free) {
-      free_.accept(accepted, wing_.plates.empty());
-      evaluations = evaluations + free_.evaluations();
-    }
+    const P evaluations(static_cast<double>(round_ * evaluations_of_trial()));
+    if constexpr (M == BaseMotion::free) free_.accept(accepted);
     history_.held_back.accepted(accepted, step_.h,
                                 {step_.t, evaluations_before_ + evaluations, history_.steps});
     StepMemory<P> after = history_.memory, cut = history_.memory;
@@ -281,8 +278,10 @@ private:
   [[nodiscard]] Mask motors_may_pass_limit() {
     Mask found{};
     for (int i = 1; i <= at_.bodies; ++i) {
-      const MotorOverStep<P> motor(system_, step_, i);
       const Mask runs = work_.motors[i].runs > P(0.0);
+      if (shape_.motor_energy) motor_work_[i] = P(0.0);
+      if (!any(runs)) continue;
+      const MotorOverStep<P> motor(system_, step_, i);
       found = found || (runs && motor.may_pass_limit());
       if (shape_.motor_energy)
         motor_work_[i] = select(runs && events_.waits(i), motor.work(), P(0.0));
@@ -295,7 +294,6 @@ private:
   /// @return lanes in which the base may turn further inside the step than at its ends, or a hinge may
   ///         turn back beyond its stowed angle, leaves the angles that are known, or an event lies within an instant of
   ///         the step's end
-  /// @pre a free base's momenta are restored: the accelerations at the end depend on them
   [[nodiscard]] Mask may_turn_or_end_at_event() {
     Mask found{};
     if constexpr (M == BaseMotion::free) found = free_.may_swing_further(at_, step_);

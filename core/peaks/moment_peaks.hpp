@@ -30,8 +30,7 @@ public:
     own_.angle = angle_of(i);
     own_.rate = depends_on_rate() ? rate_of(own_.angle, i) : Quintic<T>{};
     linear_ = linear_moment(system.work().laws[i], own_.angle, own_.rate);
-    if (!system.wing().motors.empty())
-      excess_ = motor_excess(system.work().motors[i], step.t, step.h, own_.rate);
+    if (has_motor()) excess_ = motor_excess(system.work().motors[i], step.t, step.h, own_.rate);
   }
 
   /// Upper bound of |moment| in the step, by the laws' ranges.
@@ -49,7 +48,7 @@ public:
     if (!wing.real.empty())
       range =
           real_range(wing.real[i_], system_.work().modes[i_], hull(own_.angle), hull(own_.rate));
-    if (!wing.motors.empty())
+    if (has_motor())
       range = range + motor_range(wing.motors[i_], system_.work().motors[i_], excess_);
     for (const LoopTerms<T>& loop : wing.loops)
       if (joins(loop, i_)) range = range + range_of(loop);
@@ -68,7 +67,7 @@ public:
     if (!wing.real.empty())
       change.add(real_change(wing.real[i_], system_.work().modes[i_], hull(own_.angle),
                              hull(own_.rate), acceleration()));
-    if (!wing.motors.empty())
+    if (has_motor())
       change.add(motor_change(wing.motors[i_], system_.work().motors[i_], excess_, step_.h));
     for (const LoopTerms<T>& loop : wing.loops)
       if (any(change.known) && joins(loop, i_))
@@ -95,7 +94,7 @@ public:
     if (!system_.wing().is_real()) return m;
     if (!system_.wing().real.empty())
       m = m + system_.moment_of_laws(i_, value(own_.angle, s), value(own_.rate, s));
-    if (!system_.wing().motors.empty())
+    if (has_motor())
       m = m + motor_moment(system_.wing().motors[i_], system_.work().motors[i_], value(excess_, s));
     for (const LoopTerms<T>& loop : system_.wing().loops)
       if (joins(loop, i_)) m = m + moment_of(loop, s);
@@ -105,6 +104,10 @@ public:
 private:
   [[nodiscard]] Quintic<T> angle_of(int i) const {
     return step_.coordinate(system_.layout().angle(i), system_.layout().freedoms());
+  }
+
+  [[nodiscard]] bool has_motor() const {
+    return !system_.wing().motors.empty() && system_.wing().motors[i_].present;
   }
 
   /// Whether any term of the moment depends on the hinge's rate.
@@ -159,7 +162,7 @@ private:
   mutable std::array<int, 2> joined_{}; ///< hinges of `paths_`; 0: none
   mutable std::array<Path, 2> paths_;
   Quintic<T> linear_;
-  Quintic<T> excess_; ///< of a motor's command over the rate; only where the wing has motors
+  Quintic<T> excess_; ///< of a motor's command over the rate; only where the hinge has a motor
 };
 
 /// |moment| at eighths of a step, N·m.

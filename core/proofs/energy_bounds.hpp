@@ -3,6 +3,7 @@
 /// | symbol    | meaning                                                     | unit           | source               |
 /// |-----------|-------------------------------------------------------------|----------------|----------------------|
 /// | E, T      | energy that is never exceeded; kinetic energy ≤ E           | J              | remaining_energy.hpp |
+/// | E', r     | the part that may move hinges; rigid turning of a free base | J, rad/s       | remaining_energy.hpp (4) |
 /// | κ, δ, g   | stiffness, damping, what the load exerts on a hinge         | N·m/rad, …     | remaining_energy.hpp |
 /// | τ_s       | the largest friction                                        | N·m            | scene                |
 /// | J, m      | central inertia, mass of a body                             | kg·m², kg      | scene                |
@@ -11,7 +12,7 @@
 /// | L         | largest net moment of its hinges on a body                  | N·m            | (3)                  |
 /// | γ         | centripetal acceleration of a mass                          | m/s²           |                      |
 ///
-/// From T ≥ ½ Σ J ω² alone, by Cauchy and Schwarz,
+/// From T ≥ ½ Σ J ω² alone, by Cauchy and Schwarz, where on a free base that turns E' stands for E, and ω − r for ω,
 ///
 ///     φ̇_i² ≤ 2 T σ_i,    σ_i = 1/J_i + 1/J_p  (1/J_p = 0 on a fixed base)                      (2)
 ///     |M_i| ≤ g_i + √(2E) √(κ_i + δ_i² σ_i) + τ_s                                              (3)
@@ -29,7 +30,7 @@
 /// A body that only held hinges tie to a base that is fixed or driven does not move as seen from the base: ω = 0, and its
 /// hinges' moments accelerate nothing.
 ///
-/// ω² ≤ 2E/J bounds γ along each path, and (3) bounds L. On a base that is driven, positions and
+/// |ω| ≤ √(2E/J), and |r| more on a free base, bounds γ along each path, and (3) bounds L. On a base that is driven, positions and
 /// velocities are as seen from the base, and γ − f replaces γ, f the apparent force of
 /// apparent_load.hpp.
 #pragma once
@@ -56,12 +57,13 @@ public:
   }
 
   /// Finds (3) and (4) of every hinge. Cost O(n). @pre prepared
-  /// @param remaining prepared, and `energy` is what it returned, J
+  /// @param remaining prepared, and `left` is what it returned
   template <class AnySystem>
-  void bound(const AnySystem& system, const RemainingEnergy<T>& remaining, const T& energy) {
+  void bound(const AnySystem& system, const RemainingEnergy<T>& remaining,
+             const EnergyLeft<T>& left) {
     using std::sqrt;
-    bound_moments(system, remaining, energy);
-    T Z = centripetal(system, remaining.load(), energy);
+    bound_moments(system, remaining, left.within);
+    T Z = centripetal(system, remaining.load(), left);
     for (int i = first_body<AnySystem>; i < net_.size(); ++i)
       if (!is_still(system, i)) Z = Z + net_(i) * net_(i) / system.wing().bodies[i].central_inertia;
     for (int i = 1; i < net_.size(); ++i) force(i) = sqrt(outward_mass_(i) * Z);
@@ -75,7 +77,7 @@ public:
   [[nodiscard]] bool keeps_latched(const AnySystem& system, const RemainingEnergy<T>& remaining,
                                    const T& energy, int i) const {
     const CaptureTerms<T>& latch = system.wing().real[i].capture;
-    if (!latch.may_open()) return true;
+    if (!latch.may_let_go()) return true;
     const T &rest = remaining.rest()[system.layout().angle(i)], way = remaining.furthest(i, energy);
     return latch.most_excess({rest - way, rest + way}, {T(-rate_(i)), T(rate_(i))}) < T(0);
   }
@@ -173,13 +175,16 @@ private:
   /// Σ m γ² of (4).
   template <class AnySystem>
   [[nodiscard]] T centripetal(const AnySystem& system, const ApparentLoad<T>& load,
-                              const T& energy) {
+                              const EnergyLeft<T>& left) {
     using std::sqrt;
     const Wing<T>& wing = system.wing();
     const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
     const auto spin = [&](int i) { // bounds ω_i²
-      const bool still = i < first_body<AnySystem> || is_still(system, i);
-      return still ? T(0) : T(2) * energy / wing.bodies[i].central_inertia;
+      if (i < first_body<AnySystem> || is_still(system, i)) return T(0);
+      const T square = T(2) * left.within / wing.bodies[i].central_inertia;
+      if (!(left.whirl > T(0))) return square;
+      const T rate = left.whirl + sqrt(square);
+      return smaller(T(rate * rate), T(T(2) * left.whole / wing.bodies[i].central_inertia));
     };
     T sum(0);
     gamma_.setZero(net_.size()), speed_.setZero(net_.size());

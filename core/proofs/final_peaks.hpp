@@ -90,24 +90,27 @@ template <class T>
 
 /// Says which attempts also ask for the energy's box, after all cheaper bounds have refused: that box costs several times as
 /// much as they do. Heuristic: the first two refusals do not lead to it, because the cheaper bounds often prove the peaks at
-/// the third attempt. Where its bounds exceed a peak r times, it is asked for again once the energy has fallen to 1/r: loads
-/// fall no faster than the energy, and with its root where they are linear. A run may therefore end some attempts late; of
-/// the outputs only `peaks_final` depends on that.
+/// the third attempt. Where its bounds exceed a peak r times, it is asked for again once the energy has fallen to 1/r, or after
+/// as many refusals as before: loads fall no faster than the energy, and with its root where they are linear. A run may
+/// therefore end some attempts late; of the outputs only `peaks_final` depends on that.
 template <class T> class ThoroughAttempts {
 public:
   /// Counts an attempt that the cheaper bounds refused. @return whether to ask for the energy's box
+  /// @param energy E' of remaining_energy.hpp (4): what turns a free base never falls
   [[nodiscard]] bool is_due(const T& energy) {
     constexpr int before_first = 2;
-    return refusals_++ >= before_first && (!below_ || energy <= *below_);
+    ++refusals_;
+    return refusals_ > before_first && (!below_ || energy <= *below_ || refusals_ >= again_);
   }
   /// The box proved nothing. @param excess of its bounds over the peaks; none: there was no box
   void note_failure(const T& energy, const std::optional<T>& excess) {
     constexpr double least = 4.0 / 3, without_box = 2; // heuristic
     below_ = energy / (excess ? larger(*excess, T(least)) : T(without_box));
+    again_ = 2 * refusals_; // the loads may fall though the energy stays
   }
 
 private:
-  int refusals_ = 0;
+  int refusals_ = 0, again_ = 0;
   std::optional<T> below_; ///< J; none: not asked yet
 };
 
@@ -140,7 +143,7 @@ public:
     if (holds_forbid(system)) return false;
     if (!is_prepared_) prepare(system, x, t, all_latched);
     if (!modes_ || !latches_act_fully(system, x)) {
-      const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
+      const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t, t_end);
       return energy && prove_by_energy(system, x, *energy, seen);
     }
     const auto start = modes_->start(&x[system.layout().angle(1)], &x[system.layout().rate(1)], t);
@@ -148,7 +151,7 @@ public:
     // The linear model alone refuses most attempts, and costs less than the energy. Heuristic: the energy is then not
     // asked either. Its bounds ignore damping and are as a rule wider; where they are not, the run ends some attempts later.
     if (linear_loads_are_below(seen, start)) {
-      const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
+      const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t, t_end);
       is_proven = prove_by_modes(system, x, t, t_end, start, energy, seen);
     }
     if (!is_proven) tune_dampers(system, start);
@@ -161,11 +164,11 @@ public:
                                   bool all_latched) {
     if (system.next_knot() < T(never) || holds_forbid(system)) return false;
     if (!is_prepared_) prepare(system, x, t, all_latched);
-    const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
+    const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t, t_end);
     if (!energy) return false;
     bounds_.bound(system, remaining_, *energy);
     for (int i = 1; i <= system.layout().bodies; ++i)
-      if (system.latch_acts(i) && !bounds_.keeps_latched(system, remaining_, *energy, i))
+      if (system.latch_acts(i) && !bounds_.keeps_latched(system, remaining_, energy->within, i))
         return false;
     return true;
   }
@@ -237,19 +240,21 @@ private:
   /// By the modes, by the energy alone, and where that is due by both together: the cheapest first. @pre modes_
   [[nodiscard]] bool prove_by_modes(AnySystem& system, const State<T>& x, const T& t,
                                     const T& t_end, const ModalBounds::ModeVector& start,
-                                    const std::optional<T>& energy, const SeenPeaks<T>& seen) {
+                                    const std::optional<EnergyLeft<T>>& energy,
+                                    const SeenPeaks<T>& seen) {
     using std::abs;
     const T momentum = spin(system, x, t);
     const auto proves = [&](const std::optional<HingeBounds>& most) {
       return most && no_peak_can_rise(system, x, T(t_end - t), momentum, *most, seen);
     };
-    if (proves(modes_->bound(start, energy, abs(momentum)))) return true;
+    const std::optional<T> within = energy ? std::optional(energy->within) : std::nullopt;
+    if (proves(modes_->bound(start, within, abs(momentum)))) return true;
     if (!energy) return false;
     if (prove_by_energy(system, x, *energy, seen)) return true;
-    if (!thorough_.is_due(*energy)) return false;
-    const auto closest = modes_->bound_in_reach(start, *energy, abs(momentum));
+    if (!thorough_.is_due(*within)) return false;
+    const auto closest = modes_->bound_in_reach(start, energy->whole, abs(momentum));
     if (proves(closest)) return true;
-    thorough_.note_failure(*energy,
+    thorough_.note_failure(*within,
                            closest ? std::optional(excess_of_loads(seen, *closest)) : std::nullopt);
     return false;
   }
@@ -270,8 +275,8 @@ private:
                [&](int i) { return most.way(i - 1); });
   }
 
-  [[nodiscard]] bool prove_by_energy(const AnySystem& system, const State<T>& x, const T& energy,
-                                     const SeenPeaks<T>& seen) {
+  [[nodiscard]] bool prove_by_energy(const AnySystem& system, const State<T>& x,
+                                     const EnergyLeft<T>& energy, const SeenPeaks<T>& seen) {
     if (seen.base) return false; // of the base it tells nothing
     const Layout& at = system.layout();
     bounds_.bound(system, remaining_, energy);
@@ -279,7 +284,7 @@ private:
            no_hold_rises(system, x, seen) &&
            no_overtravel_can_rise(
                seen, system.wing(), [&](int i) { return remaining_.rest()[at.angle(i)]; },
-               [&](int i) { return remaining_.furthest(i, energy); });
+               [&](int i) { return remaining_.furthest(i, energy.within); });
   }
 
   /// H of a free base about the common centre of mass, kg·m²/s; else 0.

@@ -12,7 +12,17 @@
 ///
 /// never grows on a base that is fixed or free. (For a free base T is taken about the common centre
 /// of mass: its energy is constant.) A hinge that cannot reach its latch goes no further than E takes
-/// it. On a driven base T is taken as seen from the base, and by (3) of apparent_load.hpp
+/// it.
+///
+/// A free base that turns keeps its angular momentum H. Its bodies turn together by r = H/I, I their inertia about the
+/// common centre, and as the hinges move them beside that: T = T' + ½H²/I. Of E no more than
+///
+///     E' = E − ½H²/I_max,     I_max = Σ_(k<l) m_k m_l d_kl²/m + Σ J_k,     |r| ≤ 2E/|H|              (4)
+///
+/// goes to the hinges, d_kl the length of the path along the bodies from the centre of body k to that of body l. It
+/// stands for E in what follows.
+///
+/// On a driven base T is taken as seen from the base, and by (3) of apparent_load.hpp
 ///
 ///     T + Σ ½ κ_i (|u_i| − g_i/κ_i)² ≤ Ē = E + Σ g_i²/2κ_i                                     (2)
 ///
@@ -43,6 +53,13 @@
 
 namespace wingspread {
 
+/// What is left of energy, J.
+template <class T> struct EnergyLeft {
+  T whole;    ///< E, or Ē of (3)
+  T within;   ///< E' of (4); on a base that is not free the same
+  T whirl{0}; ///< bounds |r| of a free base, rad/s
+};
+
 template <class T> class RemainingEnergy {
 public:
   using Numbers = Eigen::Matrix<T, Eigen::Dynamic, 1>; ///< 0 … n, as the bodies are numbered
@@ -55,6 +72,7 @@ public:
       v->setZero(n + 1);
     bounded_ = load_.prepare(system) && system.wing().plates.empty();
     offset_ = p_ = q_ = T(0);
+    if (system.base_motion == BaseMotion::free) largest_inertia_ = largest_inertia(system);
     rest_.assign(system.layout().size(), T(0));
     for (int i = 1; i <= n; ++i) prepare(system, i);
     elastic_ = bounded_ && system.base_motion != BaseMotion::prescribed;
@@ -62,11 +80,11 @@ public:
   }
 
   /// Bounds the energy from the state x at t up to t_end, by (1), (2) or (3). Cost O(n).
-  /// @return J; none without a bound: on a base that turns faster and faster, and where a spring
+  /// @return none without a bound: on a base that turns faster and faster, and where a spring
   ///         drives its hinge away from rest
   template <class AnySystem>
-  [[nodiscard]] std::optional<T> energy(AnySystem& system, const State<T>& x, const T& t,
-                                        const T& t_end) {
+  [[nodiscard]] std::optional<EnergyLeft<T>> energy(AnySystem& system, const State<T>& x,
+                                                    const T& t, const T& t_end) {
     if (!bounded_) return std::nullopt;
     const Layout& at = system.layout();
     T sum(0);
@@ -75,11 +93,12 @@ public:
       if (!own) return std::nullopt;
       sum = sum + *own;
     }
-    sum = with_motion(system, x, t, t_end, T(sum + loops_energy(system, x)));
-    if (may_touch_stop(system, sum)) return std::nullopt;
+    const EnergyLeft<T> left = with_motion(system, x, t, t_end, T(sum + loops_energy(system, x)));
+    if (may_touch_stop(system, left.within)) return std::nullopt;
     for (int i = 1; i <= at.bodies; ++i)
-      if (is_open(system, i) && !find_way(system, x[at.angle(i)], sum, i)) return std::nullopt;
-    return sum;
+      if (is_open(system, i) && !find_way(system, x[at.angle(i)], left.within, i))
+        return std::nullopt;
+    return left;
   }
 
   [[nodiscard]] const State<T>& rest() const { return rest_; }            ///< y* of every hinge
@@ -91,7 +110,7 @@ public:
   [[nodiscard]] const T* least_stiffness() const {
     return elastic_ ? least_stiffness_.data() + 1 : nullptr;
   }
-  /// How far hinge i may stand off its rest, rad. @param energy that `energy` returned, J
+  /// How far hinge i may stand off its rest, rad. @param energy `within` of what `energy` returned, J
   [[nodiscard]] T furthest(int i, const T& energy) const {
     using std::sqrt;
     const T& kappa = least_stiffness_(i);
@@ -219,8 +238,8 @@ private:
   }
 
   template <class AnySystem>
-  [[nodiscard]] T with_motion(AnySystem& system, const State<T>& x, const T& t, const T& t_end,
-                              const T& springs) const {
+  [[nodiscard]] EnergyLeft<T> with_motion(AnySystem& system, const State<T>& x, const T& t,
+                                          const T& t_end, const T& springs) const {
     using std::sqrt;
     constexpr double lost = 64 * epsilon_of<T>; // by the rounding of differences and sums
     if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
@@ -229,13 +248,52 @@ private:
       const T ahead = t_end - t, bar = springs + (now - at_rest) + T(lost) * (size + size_at_rest);
       const T root =
           fused(T(0.5) * q_, ahead, T(sqrt(larger(T(bar + fused(p_, ahead, offset_)), T(0)))));
-      return root * root;
+      return {root * root, root * root};
     } else {
+      using std::abs;
       const TotalMotion<T> now = total_motion(system, x, t);
-      const T own =
-          AnySystem::base_motion == BaseMotion::free ? now.central_kinetic() : now.kinetic;
-      return springs + own + T(lost) * now.kinetic;
+      const bool is_free = AnySystem::base_motion == BaseMotion::free;
+      const T own = is_free ? now.central_kinetic() : now.kinetic;
+      const T whole = springs + own + T(lost) * now.kinetic;
+      const T spin = is_free ? T(abs(now.spin())) : T(0);
+      if (!(spin > T(0))) return {whole, whole};
+      constexpr double rounded_down = 1 - 1e-9; // far more than the sums lose
+      const T turning = T(rounded_down) * spin * spin / (T(2) * largest_inertia_);
+      return {whole, larger(T(whole - turning), T(0)), T(2) * whole / spin};
     }
+  }
+
+  /// I_max of (4), kg·m². Cost O(n²) times the tree's depth.
+  template <class AnySystem> [[nodiscard]] static T largest_inertia(const AnySystem& system) {
+    const Wing<T>& wing = system.wing();
+    T products(0), mass(0), inertia(0);
+    for (int l = 0; l <= wing.size(); ++l) {
+      mass = mass + wing.bodies[l].mass;
+      inertia = inertia + wing.bodies[l].central_inertia;
+      for (int k = 0; k < l; ++k) {
+        const T d = path_between(system, k, l);
+        products = fused(wing.bodies[k].mass * wing.bodies[l].mass, d * d, products);
+      }
+    }
+    return products / mass + inertia;
+  }
+
+  /// The length of the path along the bodies between the centres of two, m: no two points of it are further apart.
+  template <class AnySystem>
+  [[nodiscard]] static T path_between(const AnySystem& system, int k, int l) {
+    using std::sqrt;
+    const Wing<T>& wing = system.wing();
+    Vec2<T> on_k = wing.bodies[k].center, on_l = wing.bodies[l].center; // where the path enters
+    const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
+    T sum(0);
+    while (k != l) { // a body has a greater number than its parent
+      int& outer = k > l ? k : l;
+      Vec2<T>& place = k > l ? on_k : on_l;
+      sum = sum + length(place);
+      place = wing.bodies[outer].arm;
+      outer = system.topology().parent_of(outer);
+    }
+    return sum + length(on_k - on_l);
   }
 
   /// Finds how far hinge i, which cannot reach its latch, goes either way with this energy, and keeps
@@ -274,6 +332,7 @@ private:
   Numbers at_rest_;         ///< P(y*) of a real hinge
   State<T> rest_;
   T offset_{}, p_{}, q_{}; ///< Σ g²/2κ; p and q of (3)
+  T largest_inertia_{1};   ///< I_max of a free base
 };
 
 } // namespace wingspread

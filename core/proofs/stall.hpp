@@ -79,6 +79,17 @@ template <class AnySystem, class T>
 
 } // namespace detail
 
+/// Whether (1) holds of this wing in its present state: not with a driven base, smoothed latches, real hinges, elastic
+/// holds or the wind, which may bring energy in.
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] bool energy_tells(const System<T, Topology, M>& system) {
+  if (M == BaseMotion::prescribed || system.layout().smoothed || system.wing().is_real())
+    return false;
+  for (int i = 1; i <= system.layout().bodies; ++i)
+    if (system.is_restrained(i)) return false;
+  return M != BaseMotion::free || system.wing().plates.empty();
+}
+
 /// Proves by (1) that no open hinge will latch while holds keep theirs. Cost O(n).
 /// @return the least energy that an open hinge lacks to reach its latch, J, > 0. None without a proof:
 ///         a hinge may reach its latch, none is open, the base is driven, or smoothed latches or the
@@ -86,12 +97,8 @@ template <class AnySystem, class T>
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] std::optional<T> energy_missing(System<T, Topology, M>& system, const State<T>& x,
                                               const T& t) {
-  if constexpr (M == BaseMotion::prescribed) return std::nullopt;
   const Layout& at = system.layout();
-  if (at.smoothed || system.wing().is_real()) return std::nullopt;
-  for (int i = 1; i <= at.bodies; ++i)
-    if (system.is_restrained(i)) return std::nullopt;
-  if (M == BaseMotion::free && !system.wing().plates.empty()) return std::nullopt; // wind
+  if (!energy_tells(system)) return std::nullopt;
   if (detail::springs_reach_a_latch(system, x)) return std::nullopt; // most attempts end here
   using std::abs;
   const TotalMotion<T> now = total_motion(system, x, t);

@@ -43,6 +43,7 @@ struct End {
   Status status = Status::timed_out;
   std::string reason; ///< of a stall
   Finality final{};   ///< of the peaks that were asked for, and of the latches
+  std::vector<int> never_released{}, released_later{}; ///< of a stall, as in Outcome
 };
 
 /// Decides whether a run ends at its present state.
@@ -86,7 +87,7 @@ public:
   /// Whether the latch just engaged ends the run and no peak is asked for. If so, the new right-hand side need not
   /// be evaluated.
   [[nodiscard]] bool ends_at_latch() const {
-    if (wants_peaks() || may_open() || !diary_.any_latch()) return false;
+    if (wants_peaks() || may_let_go() || !diary_.any_latch()) return false;
     return run_.goal.first_latch_only || (!latches_left() && !goes_to_t_end());
   }
 
@@ -96,9 +97,13 @@ public:
     const bool is_cut_short = run_.goal.first_latch_only && diary_.any_latch();
     // when motion ended tells more than when its end was certain
     if ((goes_to_t_end() || waits_for_rest()) && is_stuck()) stall_.reset();
-    if (!is_cut_short && (events_.releases().held() > 0 || (latches_left() && prove_stall())))
+    const bool no_latch = latches_left() && prove_stall();
+    const auto& releases = events_.releases();
+    if (!is_cut_short && (no_latch || releases.held() > 0)) {
       end.status = Status::stalled, end.reason = stall_.value_or("");
-    else if (!latches_left())
+      end.never_released = releases.never_released();
+      end.released_later = releases.released_later(no_latch, is_stuck());
+    } else if (!latches_left())
       end.status = diary_.any_latch() ? Status::deployed : Status::timed_out;
     if (end.status == Status::deployed && !is_cut_short) end.final.latches = latches_stay();
     if (wants_peaks()) describe_peaks(end.final);
@@ -107,11 +112,12 @@ public:
 
   /// Steps that may be accepted before one at whose end a proof is attempted.
   [[nodiscard]] long steps_to_attempt() const {
-    return seeks_proof() ? schedule_.steps_to_attempt() : std::numeric_limits<long>::max();
+    return seeks_proof() && !is_stall_vain() ? schedule_.steps_to_attempt()
+                                             : std::numeric_limits<long>::max();
   }
   /// Counts steps that a lane has made. @pre no more than `steps_to_attempt`
   void count_lane_steps(long steps) {
-    if (seeks_proof()) schedule_.skip_steps(steps);
+    if (seeks_proof()) schedule_.skip_steps(steps, sought());
   }
 
 private:
@@ -132,8 +138,8 @@ private:
   }
   /// Whether all latches are engaged, and a hold may still let go. Where latches are left, the proof of a stall asks.
   [[nodiscard]] bool may_release() const {
-    return !latches_left() && events_.releases().may_come(
-                                  T(run_.how.t_end), is_stuck_for_good(run_.system, run_.step.x));
+    return !latches_left() &&
+           events_.releases().may_come(is_stuck_for_good(run_.system, run_.step.x));
   }
   /// Whether any motion changes an output. @see motor_energy.hpp for what counts as a motor's energy
   [[nodiscard]] bool waits_for_rest() const {
@@ -146,15 +152,14 @@ private:
   }
 
   [[nodiscard]] bool is_stuck() const {
-    return is_stuck_for_good(run_.system, run_.step.x) &&
-           !events_.releases().may_come(T(run_.how.t_end), true);
+    return is_stuck_for_good(run_.system, run_.step.x) && !events_.releases().may_come(true);
   }
 
   /// Whether an engaged latch may let go, as far as its holding moment tells.
-  [[nodiscard]] bool may_open() const { return run_.system.wing().can_open; }
+  [[nodiscard]] bool may_let_go() const { return run_.system.wing().can_let_go; }
   /// Whether it is proven that no engaged latch lets go. @pre no open hinge will latch any more
   [[nodiscard]] bool latches_stay() {
-    return !may_open() || is_stuck() ||
+    return !may_let_go() || is_stuck() ||
            final_peaks_.latches_stay(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end),
                                      !latches_left());
   }
@@ -163,7 +168,7 @@ private:
   void watch_latches() {
     if (events_.latches_left() == latches_before_) return;
     latches_before_ = events_.latches_left();
-    if (!may_open()) return;
+    if (!may_let_go()) return;
     stall_.reset();
     final_peaks_.reset();
     if (latches_were_left_ != latches_left()) return; // is_attempt_due will note that
@@ -193,11 +198,20 @@ private:
   /// Whether a proof may end the run before its next event; in a run to t_end, whether it may say why the run stalls.
   [[nodiscard]] bool seeks_proof() const {
     if (goes_to_t_end()) return latches_left() && !stall_;
-    return latches_left() || (diary_.any_latch() && (wants_peaks() || may_open()));
+    return latches_left() || (diary_.any_latch() && (wants_peaks() || may_let_go()));
   }
   [[nodiscard]] SoughtProof sought() const {
     if (latches_left()) return stall_ ? SoughtProof::peaks_after_stall : SoughtProof::stall;
     return final_peaks_.lacks_modes() ? SoughtProof::peaks_by_energy : SoughtProof::peaks_by_modes;
+  }
+
+  /// Whether no attempt before the next event can prove a stall: a hold may let go, or the energy tells nothing of this
+  /// wing.
+  [[nodiscard]] bool is_stall_vain() const {
+    if (stall_ || !latches_left()) return false;
+    if (events_.releases().may_come(is_stuck())) return true;
+    return !is_stuck() && events_.latches_left() != events_.releases().latches_held() &&
+           !energy_tells(run_.system);
   }
 
   /// Proves that no open hinge will latch, and keeps the reason. @return whether that is proven
@@ -206,7 +220,7 @@ private:
     const auto from = [](const T& t) {
       return ", from t = " + in_words(static_cast<double>(t)) + " s on";
     };
-    if (events_.releases().may_come(T(run_.how.t_end), is_stuck())) return false;
+    if (is_stall_vain()) return false;
     if (is_stuck())
       stall_ = "every hinge sticks, and the load on them stays as it is" + from(*standstill_);
     else if (!latches_stay())

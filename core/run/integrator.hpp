@@ -93,7 +93,6 @@ public:
             .motor_energy = peaks_.motor_energy().empty() ? nullptr : peaks_.motor_energy().data(),
             .held_before = holds ? run_.held_before.data() : nullptr,
             .excess_before = holds ? events_.excess_before().data() : nullptr,
-            .conserved = kept_,
             .base = peaks_.base(),
             .t_end = static_cast<double>(stepping_.end_of_stretch()),
             .most_trial_steps = asks_for_plain_step() ? stepping_.tries_left() : 0,
@@ -196,7 +195,10 @@ private:
     system.want_forces(run_.goal.peak_force);
     system.start(run_.step.x);
     system.find_sides(run_.step.x);
-    if constexpr (M == BaseMotion::free) kept_ = conserved(system, run_.step.x, run_.step.t);
+    if constexpr (M == BaseMotion::free) {
+      system.writable_workspace().conserved = conserved(system, run_.step.x, run_.step.t);
+      system.writable_workspace().keeps_momenta = system.wing().plates.empty(); // air takes some
+    }
     events_.start();
     run_.next_release = events_.releases().next();
     diary_.start();
@@ -283,11 +285,7 @@ private:
   }
 
   /// Looks for the peaks of an accepted step.
-  void accept() {
-    if constexpr (M == BaseMotion::free)
-      if (run_.system.wing().plates.empty()) restore_momentum(); // with plates the air takes some
-    confirm_peaks(peaks_.first_doubt(by_lane_));
-  }
+  void accept() { confirm_peaks(peaks_.first_doubt(by_lane_)); }
 
   /// Asks for a step to the peak in doubt. @param doubt its fraction of the step; none: all are known
   void confirm_peaks(const std::optional<T>& doubt) {
@@ -336,13 +334,6 @@ private:
     if (stepping_.method() == Method::adams_bashforth_moulton) stepping_.restart_at_knot();
   }
 
-  void restore_momentum() {
-    Step<T>& step = run_.step;
-    const T end = step.t + step.h;
-    if constexpr (M == BaseMotion::free) keep_momentum(run_.system, kept_, step.x1, end);
-    run_.system(step.x1, step.dxdt1, end);
-  }
-
   void fail(const std::string& why) {
     end({Status::failed,
          why + ", at t = " + std::to_string(static_cast<double>(run_.step.t)) + " s"});
@@ -350,7 +341,7 @@ private:
 
   void end(const End& how) {
     diary_.close(how.status, how.reason, stepping_.work(), peaks_, how.final);
-    if (how.status == Status::stalled) diary_.blame(events_.releases().never_released());
+    if (how.status == Status::stalled) diary_.blame(how.never_released, how.released_later);
     ended_ = true;
   }
 
@@ -382,7 +373,6 @@ private:
   std::vector<char>
       may_happen_; ///< 1 … n: if so, the hinges that may have events; for the lane to write to
   typename PeakSearch<T, AnySystem>::LaneSearch by_lane_; ///< of the peaks of that step
-  Conserved<T> kept_{};                                   ///< momenta of a free base
 };
 
 } // namespace wingspread

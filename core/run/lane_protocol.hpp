@@ -53,12 +53,11 @@ struct LaneTask {
   const double*
       held_before; ///< 1 … n: moments on stuck hinges at the state, N·m; null: none sticks
   const double* excess_before; ///< 1 … n: of their friction over its limit, N·m; null: none sticks
-  const Conserved<double>& conserved; ///< of a free base
-  const BaseExcursion<double>& base;  ///< of a free base, so far
-  double t_end;                       ///< the lane makes no step that may reach it, s
-  long most_trial_steps;              ///< the run must see the next one after so many
-  long most_steps;                    ///< the run must see the next one after so many accepted
-  long evaluations;                   ///< so far
+  const BaseExcursion<double>& base; ///< of a free base, so far
+  double t_end;                      ///< the lane makes no step that may reach it, s
+  long most_trial_steps;             ///< the run must see the next one after so many
+  long most_steps;                   ///< the run must see the next one after so many accepted
+  long evaluations;                  ///< so far
   StepHistory<double> history;
 };
 

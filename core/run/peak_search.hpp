@@ -4,6 +4,7 @@
 #include "core/events/standstill.hpp"
 #include "core/peaks/base_peaks.hpp"
 #include "core/peaks/force_peaks.hpp"
+#include "core/peaks/locked_samples.hpp"
 #include "core/peaks/moment_peaks.hpp"
 #include "core/peaks/motor_energy.hpp"
 #include "core/peaks/overtravel.hpp"
@@ -87,6 +88,7 @@ public:
     if (run_.system.work().stuck > 0) held_at_end_ = run_.system.work().holding;
     hinge_ = hold_ = 0;
     doubt_.reset(), held_at_.reset(), borne_at_.reset();
+    locked_.begin();
     base_.over_step(run_.at, run_.step);
     if (is_stuck_for_good(run_.system, run_.step.x)) return std::nullopt; // nothing else changes
     for (int i = 1; run_.goal.overtravel && i <= run_.at.bodies; ++i)
@@ -150,13 +152,18 @@ private:
     return s;
   }
 
+  /// The loads of locked hinges at the fraction s of the step.
+  [[nodiscard]] const typename LockedSamples<T>::Sample& locked_at(const T& s) {
+    return locked_.at(s, run_.system, !holds_.empty(), [this](const T& place) -> const State<T>& {
+      return run_.evaluate_at(place);
+    });
+  }
+
   [[nodiscard]] std::optional<T> doubtful_moment() {
     PeakOf<T>& peak = moments_[hinge_];
     if (run_.system.sticks(hinge_)) {
       const HeldMoments<T> ends{run_.held_before[hinge_], held_at_end_[hinge_]};
-      const auto load = [this](const T& s) {
-        return run_.system.moment(run_.evaluate_at(s), hinge_);
-      };
+      const auto load = [this](const T& s) { return locked_at(s).moments[hinge_]; };
       held_at_ = raise_held_moment(peak, run_.system, run_.step, hinge_, ends, held_, load);
       return held_at_;
     }
@@ -172,9 +179,7 @@ private:
     const Step<T>& step = run_.step;
     const HeldMoments<T> ends{run_.held_before[hold_] - run_.system.sliding_moment(step.x, hold_),
                               held_at_end_[hold_] - run_.system.sliding_moment(step.x1, hold_)};
-    const auto load = [this](const T& s) {
-      return run_.system.locking_moment(run_.evaluate_at(s), hold_);
-    };
+    const auto load = [this](const T& s) { return locked_at(s).borne[hold_]; };
     held_.over_step(run_.system, step);
     PeakOf<T>& peak = holds_[hold_];
     const T close = negligible(peak, held_, hold_);
@@ -242,6 +247,7 @@ private:
   int hinge_ = 0;                          ///< the hinge searched for moment peaks
   std::optional<DoubtfulMoment<T>> doubt_; ///< of its moment; none while forces are in doubt
   HeldLoadBound<T> held_;
+  LockedSamples<T> locked_;
   std::vector<T> held_at_end_; ///< 1 … n: moments on stuck hinges at the step's end
   std::optional<T> held_at_;   ///< where the moment of a stuck hinge is in doubt
   int hold_ = 0;               ///< the hold searched

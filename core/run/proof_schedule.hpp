@@ -30,8 +30,12 @@ public:
     return due;
   }
 
-  /// Counts steps that an engine of packs has made. @pre no more than steps_to_attempt()
-  void skip_steps(long steps) { steps_ += steps; }
+  /// Counts steps that an engine of packs has made. Attempts that were due at their ends count as made.
+  void skip_steps(long steps, SoughtProof sought) {
+    steps_ += steps;
+    while (sought == SoughtProof::stall && next_attempt_ <= steps_)
+      next_attempt_ += interval(sought);
+  }
 
   /// Steps that may be accepted before one whose end is due for an attempt.
   [[nodiscard]] long steps_to_attempt() const { return std::max(0L, next_attempt_ - steps_ - 1); }

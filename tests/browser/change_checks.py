@@ -15,7 +15,13 @@ LEVERS = """const lever = more => ({ words: "tip latch damping", draws: ["tip_la
 class ChangeChecks:
     def opened_with(self, script, kind="loads"):
         self.open(pages.made_up(kind))
+        self.run_script("window.sets = JSON.stringify(W.sets)")
         self.run_script(LEVERS + script + "W.outcomes();")
+
+    def again_with(self, script):
+        """The page that `opened_with` opened, with the data that it had, changed by another script."""
+        self.run_script("JSON.parse(window.sets).forEach((set, at) => { Object.keys(W.sets[at]).forEach(key => delete W.sets[at][key]); Object.assign(W.sets[at], set); });" +
+                        LEVERS + script + "W.outcomes();")
 
     def test_a_failed_requirement_says_what_would_make_it_pass(self):
         """Each change with its bounds and the values drawn; beyond them it says so; the distance that is lacking, and the command."""
@@ -53,7 +59,8 @@ class ChangeChecks:
 
     def test_without_an_estimate_it_says_why(self):
         """Too few runs; no input that is enough; no run that deploys."""
-        given = lambda block, more="": self.opened_with(
+        self.opened_with("")
+        given = lambda block, more="": self.again_with(
             "W.sets.forEach(set => set.requirements.forEach(one => one.changes = one.verdict === 'failed' && one.beyond ? [" + block + "] : []));" + more)
         given('{ for: "limit", runs: 0, explained: null, levers: [] }')
         draws = self.run_script("return W.set().inputs.dispersions.length")
@@ -87,7 +94,8 @@ class ChangeChecks:
 
     def test_a_change_of_a_latch_that_makes_the_peak_says_so(self):
         """Where the damping's jump is most of the hinge's nominal peak; not for a hinge whose latch has none."""
-        given = lambda jumps: (self.opened_with("""W.sets.forEach(set => { set.latch_jumps = """ + jumps + """; set.inputs.dispersions.push({ draw: "tip_latch", words: "tip latch damping", paths: ["hinges.tip.latch.damping"], apply: "scale", law: "", low: 0, high: 1, median: 1 });
+        self.opened_with("")
+        given = lambda jumps: (self.again_with("""W.sets.forEach(set => { set.latch_jumps = """ + jumps + """; set.inputs.dispersions.push({ draw: "tip_latch", words: "tip latch damping", paths: ["hinges.tip.latch.damping"], apply: "scale", law: "", low: 0, high: 1, median: 1 });
             set.requirements.forEach(one => one.changes = [{ for: "limit", runs: 900, explained: 0.9, levers: [lever()] }]); });"""), [one.text for one in self.all(".findings .caution")])[1]
         (text, *_) = given('[{ hinge: "tip", moment: 9.9, peak: 10 }]')
         self.assertEqual(text, "May be an artefact of the latch law: the jump of damping times rate as the latch engages makes 99 % of the nominal peak moment of tip. Measure the damping, or give “dissipation”.")
@@ -95,7 +103,8 @@ class ChangeChecks:
 
     def test_a_change_that_takes_torque_warns_of_static_margins_and_deployment(self):
         """Weaker springs, more friction, stiffer harness, stronger dampers; not the other way."""
-        told = lambda path, change: (self.opened_with(f"""W.sets.forEach(set => {{ (set.static_margins.hinges || []).forEach(one => Object.assign(one, {{ least: 0.2, lower: 0.1, required: 0 }}));
+        self.opened_with("")
+        told = lambda path, change: (self.again_with(f"""W.sets.forEach(set => {{ (set.static_margins.hinges || []).forEach(one => Object.assign(one, {{ least: 0.2, lower: 0.1, required: 0 }}));
             set.inputs.dispersions.push({{ draw: "tip_latch", words: "", paths: ["hinges.tip.{path}"], apply: "scale", law: "", low: 0, high: 1, median: 1 }});
             set.requirements.forEach(one => one.changes = [{{ for: "limit", runs: 900, explained: 0.9, levers: [lever({{ change: {change} }})] }}]); }}); W.sets[0].static_margins.hinges[0].lower = -0.61; """), self.all(".findings .caution"))[1]
         first = lambda path, change: next((one.text for one in told(path, change)), None)

@@ -110,7 +110,7 @@ class FitChecks:
         self.open(pages.reported("fit", folder))
         fit = json.loads((folder / "fit.json").read_text())
         text = self.one("#why").text
-        self.assertNotRegex(self.one("main").text, r"NaN|undefined|Infinity|could not be drawn")
+        self.assertNotRegex(self.page_text(), r"NaN|undefined|Infinity|could not be drawn")
         for sentence in [*fit["findings"], *(one["text"] for one in fit["unseen"])]:
             self.assertIn(sentence, text)
         self.fit_traces(fit, folder)

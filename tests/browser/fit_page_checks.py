@@ -194,5 +194,8 @@ class FitPageChecks:
         for text, one in zip(described, largest[:12], strict=True):
             self.check(text, one["relative"], share=True, about=text)
         self.assertEqual(self.run_script("return [...document.querySelectorAll('figure.forest text > title')].map(e => e.textContent)"), [one["output"].replace(".", " ").replace("_", " ") for one in largest])
+        self.run_script("Object.assign(W.data.comparisons[0].outputs[0], { difference: 123.4567, lower: null, upper: null }); Object.assign(W.data.comparisons[0].outputs[1], { difference: 0, lower: null, upper: null }); W.comparison()")
+        unbounded = self.table(f"Differences of the means: {comparison['text']}")[:2]
+        self.assertEqual([row[2:4] for row in unbounded], [["+123.5", "no bounds"], ["0", "no bounds"]])  # a twentieth of the difference is its grain
         self.run_script("W.data.comparisons.length = 0; W.comparison()")
         self.assertIn("No set has a partner to compare with.", self.one("#comparison").text)

@@ -116,11 +116,9 @@ def limited(name, output, kind, limit, unit, both):
 def sensitivity_of(rows, outputs, hinges):
     effects = []
     for name, values in outputs.items():
-        ranked = []
-        for draw in draws_of(hinges):
-            pairs = [(row["draws"][draw], value) for row, value in zip(rows, values) if value is not None]
-            if len(pairs) > 10:
-                ranked.append((numbers.spearman(pairs), draw))
+        known = [(row["draws"], value) for row, value in zip(rows, values) if value is not None]
+        own = numbers.ranks([value for _, value in known])
+        ranked = [(numbers.spearman(numbers.ranks([draws[draw] for draws, _ in known]), own), draw) for draw in draws_of(hinges) if len(known) > 10]
         for rho, draw in sorted(ranked, key=lambda pair: -abs(pair[0]))[:12]:
             width, partial = 1.96 * math.sqrt((1 + rho * rho / 2) / (len(rows) - 3)), max(-1, min(1, 1.06 * rho))
             effects.append({"output": name, "draw": draw, "spearman": rho, "spearman_lower": max(-1, rho - width),

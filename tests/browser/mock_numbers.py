@@ -1,6 +1,7 @@
 """The statistics of a made-up column, in the shape of an OUTPUT of DATA.md. Plain Python: nothing to install."""
 
 import bisect
+import functools
 import math
 
 
@@ -16,13 +17,19 @@ def edges(values, bins):
     return [low + width * k / bins for k in range(bins + 1)]
 
 
+@functools.cache
+def log_choices(n):
+    """ln of n over k, for every k."""
+    return [math.lgamma(n + 1) - math.lgamma(k + 1) - math.lgamma(n - k + 1) for k in range(n + 1)]
+
+
 def binomial_cdf(k, n, p):
     if p <= 0 or k >= n:
         return 1.0
     if p >= 1:
         return 0.0
-    logs = [math.lgamma(n + 1) - math.lgamma(i + 1) - math.lgamma(n - i + 1) + i * math.log(p) + (n - i) * math.log1p(-p)
-            for i in range(k + 1)]
+    odds, none = math.log(p) - math.log1p(-p), n * math.log1p(-p)
+    logs = [choices + i * odds + none for i, choices in enumerate(log_choices(n)[: k + 1])]
     top = max(logs)
     return min(1.0, math.exp(top) * sum(math.exp(one - top) for one in logs))
 
@@ -48,11 +55,10 @@ def ranks(values):
     return rank
 
 
-def spearman(pairs):
-    x, y = (ranks([pair[axis] for pair in pairs]) for axis in (0, 1))
-    mean = (len(pairs) - 1) / 2
-    spread = sum((a - mean) ** 2 for a in x) or 1
-    return sum((a - mean) * (b - mean) for a, b in zip(x, y)) / spread
+def spearman(x, y):
+    """Of two columns' ranks."""
+    n, products = len(x), sum(a * b for a, b in zip(x, y))
+    return (products - n * ((n - 1) / 2) ** 2) / (n * (n * n - 1) / 12 or 1)
 
 
 def histogram(values, index, orders):

@@ -20,7 +20,7 @@ class OwnChecks:
                 path = pages.real(campaign, runs)
                 self.assertLess(path.stat().st_size, 5_000_000)
                 self.open(path)
-                self.assertNotRegex(self.one("main").text, r"NaN|undefined|Infinity|could not be drawn")
+                self.assertNotRegex(self.page_text(), r"NaN|undefined|Infinity|could not be drawn")
                 for part in ("histogram", "distribution", "stage", "history", "strobe", "envelopes", "strips", "tornado", "scatter", "settling"):
                     self.assertTrue(self.all(f"figure.{part} svg"), part)
                 drawn, filled = self.run_script("""const h = W.output().histogram, left = h.counts.map((n, b) => n - h.by_order.reduce((sum, row) => sum + row[b], 0));

@@ -23,7 +23,8 @@ SCRATCH = pathlib.Path(_scratch.name)
 
 def browser():
     options = webdriver.ChromeOptions()
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1280,1000"):
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1280,1000",
+                     "--disable-extensions", "--no-first-run", "--disable-component-update", "--disable-background-networking", "--disable-sync"):
         options.add_argument(argument)
     options.binary_location = CHROMIUM
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
@@ -70,6 +71,9 @@ def compared(campaign, runs, *options):
 
 
 def resize(driver, width, height=1000):
+    if getattr(driver, "shown_size", None) == (width, height):
+        return
+    driver.shown_size = width, height
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
 
 
@@ -87,8 +91,9 @@ def picture(driver, path):
 
 
 def settle(driver):
-    """Until sizes have been seen and every visible picture is drawn: two frames and a task at least."""
-    driver.execute_async_script("""const done = arguments[0], end = performance.now() + 300;
+    """Until sizes have been seen and every visible picture is drawn: two frames at least. A picture of a closed part is never drawn."""
+    driver.execute_async_script("""const done = arguments[0], end = performance.now() + 1000, shown = { visibilityProperty: true, contentVisibilityAuto: true };
+        const missing = one => one.clientWidth && one.checkVisibility(shown) && !one.querySelector('svg');
         const look = () => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(() =>
-            performance.now() > end || [...document.querySelectorAll('.picture')].every(one => !one.clientWidth || one.querySelector('svg')) ? done() : look(), 30)));
+            performance.now() < end && [...document.querySelectorAll('.picture')].some(missing) ? look() : done())));
         look()""")

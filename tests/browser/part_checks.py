@@ -58,6 +58,21 @@ class PartChecks:
                     self.assertEqual([tag for tag, _ in row], ["TH"] + ["TD"] * (len(cells) - 1), caption)
                     self.assertEqual([at_right for _, at_right in row], [at_right for _, at_right in cells], caption)
 
+    def test_a_part_that_cannot_be_drawn_says_so_in_its_section_and_the_others_are_drawn(self):
+        self.open(pages.made_up("loads"))
+        self.run_script("W.sets.forEach(set => set.modes = { wing: set.wing, rest: set.wing.hinges.map(() => 0), modes: [{ frequency: 1, damping_ratio: 0.01, shape: set.wing.hinges.map(() => 1), base: null }] })")
+        parts = self.run_script("return [...document.querySelectorAll('main > section')].map(one => one.id)")
+        self.assertEqual(len(parts), 9)
+        failed = self.run_script("""const section = W.section, angles = document.getElementById('angles');
+            return arguments[0].map(id => { let broken = false; W.fill(section(id));
+                W.section = asked => { if (asked === id && !broken) { broken = true; throw new Error(`no ${id}`); } return section(asked); };
+                angles.dispatchEvent(new Event('change')); W.section = section;
+                const found = [...document.querySelectorAll('main > section')].map(one => [one.id, one.textContent.match(/This part could not be drawn: .+\\./)?.[0] ?? null]).filter(one => one[1]);
+                W.fill(section(id)); angles.dispatchEvent(new Event('change')); return found; })""", parts)
+        self.assertEqual(failed, [[[id, f"This part could not be drawn: no {id}."]] for id in parts])
+        self.assertNotIn("could not be drawn", self.page_text())
+        self.assertEqual(len(self.driver.get_log("browser")), 9)  # each is told to the console as well
+
     def test_every_picture_has_its_titles_legend_and_columns(self):
         self.open(pages.made_up("plain"))
         for figure, (titles, legend, columns, samples) in PICTURES.items():

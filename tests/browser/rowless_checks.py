@@ -17,7 +17,7 @@ class RowlessChecks:
     def test_a_page_without_rows(self):
         self.open(rowless())
         summary = json.loads((pages.SCRATCH / "rowless" / "summary.json").read_text())
-        self.assertNotRegex(self.one("main").text, r"NaN|undefined|Infinity|could not be drawn")
+        self.assertNotRegex(self.page_text(), r"NaN|undefined|Infinity|could not be drawn")
         for part in ("histogram", "distribution", "stage", "history", "strobe", "envelopes", "strips", "tornado"):
             self.assertTrue(self.all(f"figure.{part} svg"), part)
         for part in ("settling", "scatter"):

@@ -1,10 +1,24 @@
 """The page's building blocks: texts of numbers and units, copying, legends, upright lines, hatches, dashes, saved and printed pictures, poses and states in words."""
 
+import re
+
 import pages
 from number_checks import DEGREES, parsed
 
 PRINTED = {"histogram": 440, "distribution": 440, "history": 440, "scatter": 440, "settling": 440, "still": 300, "envelopes": 940, "tornado": 940, "static-margins": 860, "forest": 860,
            "stage": 660, "strobe": 660, "strips": 660, "margin": 660, "rare": 660}  # px: as wide as they stand on a printed page
+
+
+def crossings(box, a, b, c, dotted):
+    """The lines ax + by = c, c + 6, … inside a box, each by the two points where it crosses the sides; a dotted one begins at its first dot."""
+    left, top, right, bottom = box[0], box[1], box[0] + box[2], box[1] + box[3]
+    for level in range(c - 300, 300, 6):
+        on_sides = {(x, (level - a * x) / b) for x in (left, right) if b} | {((level - b * y) / a, y) for y in (top, bottom) if a}
+        ends = sorted((x, y) for x, y in on_sides if left <= x <= right and top <= y <= bottom)
+        if dotted and ends:
+            ends[0] = (next(x for x in range(c - 300, 300, 6) if x >= left), ends[0][1])
+        if len(ends) == 2 and ends[0] < ends[1]:
+            yield ends
 
 
 class ShapeChecks:
@@ -82,15 +96,49 @@ class ShapeChecks:
         self.assertEqual(self.run_script("return d3.range(49).map(at => [W.marks.colour(at), W.marks.dash(at)].join()).filter((one, at, all) => all.indexOf(one) === at).length"), 49)  # colour and dash together
         self.assertEqual(self.run_script("return [W.marks.dash(0), W.marks.colour(-1), W.marks.colour(8), new Set(d3.range(7).map(W.marks.colour)).size, new Set(d3.range(7).map(W.marks.shape)).size, W.marks.shape(-1) === W.marks.shape(6)]"), ["", "var(--none)", "var(--c1)", 7, 7, True])
         self.assertEqual(self.run_script("const set = { orders: [{ order: 'a>b' }, { order: 'others' }, { order: 'no latch' }] }; return [0, 1, 2, 3].map(at => W.marks.ofOrder(set, at))"), [0, 6, -1, -1])
-        hatches = self.run_script("const svg = d3.select(document.querySelector('main')).append('svg'), fill = W.marks.hatches(svg, 7); return [[-1, 0, 1, 6].map(fill), [...svg.node().querySelectorAll('pattern')].map(one => [`url(#${one.id})`, one.querySelector('rect').style.fill, one.querySelector('path')?.getAttribute('d') ?? null])]")
-        self.assertEqual([hatches[1][at + 1][0] for at in (-1, 0, 1, 6)], hatches[0])
-        self.assertEqual([one[1] for one in hatches[1]], ["var(--none)", *(f"var(--c{at})" for at in range(7))])
-        self.assertEqual((hatches[1][0][2], hatches[1][1][2], len({one[2] for one in hatches[1][2:]})), (None, None, 6))
         scales = self.run_script("return [[1, 3], [2, 2], [0], [null], [-4, null, 6]].map(values => [W.marks.linear(values, [0, 1]).domain(), W.marks.linear(values, [0, 1], 0.5).domain()])")
         self.assertEqual([[[round(end, 9) for end in ends] for ends in one] for one in scales], [[[0.94, 3.06], [0, 4]], [[1.9, 2.1]] * 2, [[-1, 1]] * 2, [[0, 1]] * 2, [[-4.3, 6.3], [-9, 11]]])
         short, long = self.run_script("const long = W.marks.shorten('a long label of a row', 60); return [W.marks.shorten('ab', 60), [long, W.marks.textWidth(long), W.marks.textWidth(long.slice(0, -1) + 'xx…')]]")
         self.assertEqual(short, "ab")
         self.assertTrue(long[0].endswith("…") and long[1] <= 60 < long[2], long)
+
+    def test_bars_are_hatched_each_colour_in_its_way(self):
+        """Each hatching's lines within three boxes: where they cross a box's sides, found side by side."""
+        self.open(pages.made_up("single"))
+        boxes = [(3.25, 7.5, 20, 15.5), (-4, 30.75, 6, 0.5), (2.5, 41, 3, 12)]
+        drawn = self.run_script("""return d3.range(-1, 9).map(at => { const svg = d3.select(document.querySelector('main')).append('svg'); W.marks.hatch(svg, at, arguments[0]); W.marks.hatch(svg, at, []);
+            return [...svg.node().children].map(one => [one.getAttribute('d'), one.getAttribute('stroke-dasharray'), one.getAttribute('class'), getComputedStyle(one).pointerEvents]); })""", boxes)
+        kinds = {0: [], 1: [(1, 1, 0)], 2: [(0, 1, 3)], 3: [(1, 0, 3)], 4: [(1, -1, 0)], 5: [(1, 1, 0), (1, -1, 0)], 6: [(0, 1, 1), (0, 1, 4)]}
+        for at, paths in zip(range(-1, 9), drawn):
+            kind = 0 if at < 0 else at % 7
+            if kind == 0:
+                self.assertEqual(paths, [], at)
+                continue
+            (path, dashes, name, pointer), = paths
+            self.assertEqual((dashes, name, pointer), ("1 5" if kind == 6 else None, "hatch", "none"), at)
+            lines, wanted = [], [ends for box in boxes for line in kinds[kind] for ends in crossings(box, *line, kind == 6)]
+            for x, y, step, end in re.findall(r"M([-\d.]+),([-\d.]+)([VHL])([-\d.,]+)", path):
+                last = {"V": f"{x},{end}", "H": f"{end},{y}", "L": end}[step].split(",")
+                lines.append(sorted([(float(x), float(y)), tuple(map(float, last))]))
+            self.assertEqual(len(lines), len(wanted), at)
+            for line, want in zip(sorted(lines), sorted(wanted)):
+                self.assertTrue(all(abs(a - b) < 0.006 for one, two in zip(line, want) for a, b in zip(one, two)), (at, line, want))
+
+    def test_bars_and_their_samples_have_one_hatching(self):
+        """In the histogram and among the influences: lines lie on bars of their colour alone, and on the legend's sample of it."""
+        self.open(pages.made_up("plain"))
+        for figure, bars in (("histogram", ".bin"), ("tornado", ".effect")):
+            colours, samples, wrong = self.run_script("""const figure = document.querySelector('figure.' + arguments[0]), bars = [...figure.querySelectorAll(arguments[1])], points = {}, wrong = [];
+                const hatched = [...figure.querySelectorAll('.hatch')].filter(one => !one.closest('.legend')), found = new Set(), at = (path, point) => path.isPointInStroke(point);
+                hatched.forEach(path => { path.getAttribute('d').match(/M[-\\d.]+,[-\\d.]+/g).forEach(start => { const [x, y] = start.slice(1).split(',').map(Number);
+                    const under = bars.filter(bar => { const [l, t, w, tall] = ['x', 'y', 'width', 'height'].map(n => Number(bar.getAttribute(n))); return x > l - 0.01 && x < l + w + 0.01 && y > t - 0.01 && y < t + tall + 0.01; });
+                    const own = path.closest('.layer') ? under.filter(bar => bar.parentNode === path.parentNode) : under;
+                    if (!own.length) wrong.push(start); else found.add(own[0].style.fill); }); });
+                return [[...found].sort(), [...figure.querySelectorAll('.legend > g')].map(one => [one.firstChild.style.fill, one.querySelectorAll('.hatch').length]), wrong]""", figure, bars)
+            self.assertEqual(wrong, [])
+            self.assertEqual(colours, sorted(fill for fill, hatched in samples if hatched), figure)
+            self.assertEqual([fill for fill, hatched in samples if not hatched], ["var(--c0)"], figure)
+            self.assertGreater(len(samples), 1)
 
     def test_pictures_are_saved_and_printed_in_their_sizes(self):
         self.open(pages.made_up("cases"), 1700)

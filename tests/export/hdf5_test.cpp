@@ -143,7 +143,7 @@ TEST_CASE("exported columns say what they are, and the file where they are from"
         "drawn: uniform (lower 9, upper 11); set bodies.panel_1.mass");
   CHECK(attribute(spring, "unit").empty()); // a factor
   CHECK(attribute(in.openDataSet("mid.rate_at.tip"), "description") ==
-        "the relative rate of mid when tip latches, signed");
+        "relative rate of mid when tip latches, signed");
 }
 
 TEST_CASE("the same folder is exported to the same bytes, in place of what was there") {

@@ -51,7 +51,7 @@ public:
       for (const ResultRow& row : batch.rows)
         judged.push_back({row.outputs.front(), row.status,
                           is_cut(peak_, row.peaks_final.value_or(PeaksFinal::unknown)),
-                          row.status == Status::deployed && row.reason == latches_may_open});
+                          row.status == Status::deployed && row.reason == latches_may_let_go});
       told(std::ssize(judged));
     };
     if (evaluator_.make(plan_, all, {keep}) < all.size()) throw Stopped{};

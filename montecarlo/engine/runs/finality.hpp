@@ -45,7 +45,7 @@ inline constexpr std::array all_peaks_final{PeaksFinal::unknown, PeaksFinal::no,
 [[nodiscard]] bool is_cut(PeakKind kind, PeaksFinal final);
 
 /// The reason of a deployed run, of which it is not proven that its latches stay engaged. Else such a run has none.
-inline constexpr std::string_view latches_may_open =
+inline constexpr std::string_view latches_may_let_go =
     "t_end came before a proof that every latch stays engaged";
 
 /// "in 7 of 300 runs it is not proven …", the warning of such runs.

@@ -71,7 +71,7 @@ long count_cut(const Results& results, std::string_view output) {
 
 long count_open_latches(const Results& results) {
   long open = 0;
-  for (std::size_t row = 0; row < results.size(); ++row) open += results.may_open(row) ? 1 : 0;
+  for (std::size_t row = 0; row < results.size(); ++row) open += results.may_let_go(row) ? 1 : 0;
   results.status.release();
   results.reason.release();
   return open;

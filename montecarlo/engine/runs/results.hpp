@@ -2,7 +2,7 @@
 ///
 /// Columns of runs.csv in the order written: `run` (counted from 0; the number that `replay --run` takes), `status`,
 /// the draws by name, the outputs by name, `peaks_final` if peaks are among them, `latch_order`, and `reason` (why a
-/// run did not deploy, or latches_may_open; else empty). The readers accept the columns in any order.
+/// run did not deploy, or latches_may_let_go; else empty). The readers accept the columns in any order.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -38,7 +38,7 @@ struct ResultRow {
   std::vector<double> draws;               ///< in the order of ResultNames::draws
   std::vector<double> outputs;             ///< in the order of ResultNames::outputs
   std::string latch_order;                 ///< "root>mid>tip"; empty when no hinge latched
-  std::string reason;                      ///< why it did not deploy; or latches_may_open
+  std::string reason;                      ///< why it did not deploy; or latches_may_let_go
   std::optional<PeaksFinal> peaks_final{}; ///< nothing if the column does not exist
 };
 
@@ -73,8 +73,8 @@ struct Results {
     return wingspread::is_cut(kind, peaks_final[index]);
   }
   /// Whether a run deployed, and it is not proven that its latches stay engaged.
-  [[nodiscard]] bool may_open(std::size_t index) const {
-    return status[index] == Status::deployed && reason[index] == latches_may_open;
+  [[nodiscard]] bool may_let_go(std::size_t index) const {
+    return status[index] == Status::deployed && reason[index] == latches_may_let_go;
   }
   /// Releases the memory of all columns that lie in files (spilled.hpp).
   void release() const;

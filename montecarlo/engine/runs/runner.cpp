@@ -92,7 +92,7 @@ ResultRow Runner::row_of(long k, std::vector<double>&& draws, Outcome& outcome) 
   // A draw that overflowed becomes an empty cell; the reason of its invalid run names the value.
   std::ranges::transform(row.draws, row.draws.begin(), finite_or_none);
   row.status = outcome.status;
-  row.reason = outcome.latches_final ? outcome.reason : std::string(latches_may_open);
+  row.reason = outcome.latches_final ? outcome.reason : std::string(latches_may_let_go);
   if (plan_->names().peaks_final) row.peaks_final = peaks_final_of(outcome);
   row.latch_order = latch_order(plan_->campaign().scene, outcome);
   return row;

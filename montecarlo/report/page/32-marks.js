@@ -45,23 +45,45 @@
   M.colour = (at) => (at < 0 ? "var(--none)" : `var(--c${at % 7})`);
   // Beyond seven the colours come again, each with another dash.
   M.dash = (at) => ["", "7 3", "2 3", "9 3 2 3", "12 4", "4 4", "1 2"][(((at + Math.floor(at / 7)) % 7) + 7) % 7];
-  const HATCH = [null, "M0,6 L6,0", "M0,3 H6", "M3,0 V6", "M0,0 L6,6", "M0,6 L6,0 M0,0 L6,6", "M1,1 h1 M4,4 h1"];
+  // Hatchings by colour number: [a, b, c] are the lines ax + by = c, and every 6 px another; the last is dotted.
+  const HATCH = [[], [[1, 1, 0]], [[0, 1, 3]], [[1, 0, 3]], [[1, -1, 0]], [[1, 1, 0], [1, -1, 0]], [[0, 1, 1], [0, 1, 4]]];
+  const EVERY = 6,
+    DOTS = 6;
+  const firstFrom = (low, phase) => low + ((((phase - low) % EVERY) + EVERY) % EVERY);
+  const px = (number) => Number(number.toFixed(2));
 
-  // Fills of a picture by number, hatched so that they differ in black and white as well.
-  M.hatches = function (svg, count) {
-    const stem = W.newId("hatch"),
-      definitions = svg.append("defs");
-    for (let at = -1; at < count; ++at) {
-      const pattern = M.put(definitions, "pattern", {
-        id: `${stem}_${at}`,
-        width: 6,
-        height: 6,
-        patternUnits: "userSpaceOnUse",
-      });
-      M.put(pattern, "rect", { width: 6, height: 6, style: { fill: M.colour(at) } });
-      if (at > 0 && HATCH[at % 7]) M.put(pattern, "path.hatch", { d: HATCH[at % 7] });
+  // The lines of a hatching within a box [left, top, width, height], as a path's text.
+  function linesIn([left, top, width, height], [a, b, c], dotted) {
+    const right = left + width,
+      bottom = top + height,
+      along = [a * left, a * right].flatMap((one) => [one + b * top, one + b * bottom]),
+      [low, high] = d3.extent(along);
+    let text = "";
+    for (let at = firstFrom(low, c); at < high; at += EVERY) {
+      const dot = firstFrom(left, c);
+      if (b === 0) text += `M${px(at)},${px(top)}V${px(bottom)}`;
+      else if (a === 0) {
+        if (!dotted || dot < right) text += `M${px(dotted ? dot : left)},${px(at)}H${px(right)}`;
+      } else {
+        const [from, to] = d3.extent([at - b * top, at - b * bottom]),
+          ends = [Math.max(left, from), Math.min(right, to)].map((x) => `${px(x)},${px(b * (at - x))}`);
+        text += `M${ends[0]}L${ends[1]}`;
+      }
     }
-    return (at) => `url(#${stem}_${at})`;
+    return text;
+  }
+
+  // Hatches boxes [left, top, width, height] of a colour, so that colours differ in black and white as well. One path of
+  // lines, not an SVG pattern: Chromium prints each pattern as an image, of 160 kB and a twentieth of a second per bar.
+  M.hatch = function (svg, at, boxes) {
+    const lines = at < 0 ? [] : HATCH[at % 7],
+      dotted = at % 7 === DOTS;
+    if (lines.length && boxes.length)
+      M.put(svg, "path.hatch", {
+        d: boxes.flatMap((box) => lines.map((one) => linesIn(box, one, dotted))).join(""),
+        "stroke-dasharray": dotted ? "1 5" : null,
+        "pointer-events": "none",
+      });
   };
 
   // A picture within a line of a table.
@@ -80,7 +102,7 @@
     return 1.05 * ruler.measureText(text).width; // tabular figures are a little wider
   };
 
-  // Draws a legend above the picture, in as many lines as necessary: items { text, fill | line, dash, mark }. Returns its height.
+  // Draws a legend above the picture, in as many lines as necessary: items { text, fill, hatch | line, dash, mark }. Returns its height.
   M.legend = function (svg, items, width, left = 0) {
     const group = M.put(svg, "g.legend");
     let x = left,
@@ -92,7 +114,7 @@
         y += 18;
       }
       const one = M.put(group, "g", { transform: `translate(${x},${y})` });
-      if (item.fill)
+      if (item.fill) {
         M.put(one, "rect", {
           x: 0,
           y: -5,
@@ -100,7 +122,8 @@
           height: 10,
           style: { fill: item.fill, "fill-opacity": item.opacity || null },
         });
-      else if (item.mark)
+        if (item.hatch) M.hatch(one, item.hatch, [[0, -5, 16, 10]]);
+      } else if (item.mark)
         M.put(one, "path", {
           transform: "translate(8,0)",
           d: d3

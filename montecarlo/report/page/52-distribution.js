@@ -119,11 +119,10 @@
 
   function drawStack(svg, width, view, layers) {
     const { output, factor, unit } = view,
-      { edges, counts } = output.histogram,
-      fill = M.hatches(svg, 7);
+      { edges, counts } = output.histogram;
     const top = M.legend(
       svg,
-      layers.map((one) => ({ text: one.text, fill: fill(one.at) })),
+      layers.map((one) => ({ text: one.text, fill: M.colour(one.at), hatch: one.at })),
       width,
     );
     const y = d3.scaleLinear([0, d3.max(counts) * 1.06 || 1], [0, 1]),
@@ -137,21 +136,27 @@
     });
     const base = counts.map(() => 0);
     for (const layer of layers) {
-      const group = M.put(svg, "g.layer");
+      const group = M.put(svg, "g.layer"),
+        boxes = [];
       layer.counts.forEach(function (count, bin) {
         if (count <= 0) return;
         const left = x(edges[bin] * factor),
           right = x(edges[bin + 1] * factor);
-        M.put(group, "rect.bin", {
+        const bar = {
           x: Math.min(left, right) + 0.25,
-          width: Math.max(0.6, Math.abs(right - left) - 0.5),
           y: y(base[bin] + count),
+          width: Math.max(0.6, Math.abs(right - left) - 0.5),
           height: y(base[bin]) - y(base[bin] + count),
-          style: { fill: fill(layer.at) },
+        };
+        M.put(group, "rect.bin", {
+          ...bar,
+          style: { fill: M.colour(layer.at) },
           title: `${layer.text}: ${F.runs(count)} from ${value(edges[bin])} to ${value(edges[bin + 1])} ${unit}`,
         });
+        boxes.push(Object.values(bar));
         base[bin] += count;
       });
+      M.hatch(group, layer.at, boxes);
     }
     drawMarks(svg, box, view, x);
     return box.bottom + 40;

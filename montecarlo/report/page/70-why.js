@@ -64,12 +64,11 @@
         rows: rows.map((one) => [one.draw, ...pair.flatMap(([key]) => (bounded ? withBounds(one, key) : [one[key]]))]),
       }),
       draw: function (svg, width) {
-        const fill = M.hatches(svg, 2),
-          top = M.legend(
-            svg,
-            pair.map(([, text], at) => ({ text, fill: fill(at) })),
-            width,
-          );
+        const top = M.legend(
+          svg,
+          pair.map(([, text], at) => ({ text, fill: M.colour(at), hatch: at })),
+          width,
+        );
         const left = M.labelRoom(
             width,
             0.34,
@@ -102,14 +101,13 @@
             const [value, low, high] = withBounds(one, key),
               y = upper + 13 * place;
             if (!W.isNumber(value)) return;
+            const bar = { x: Math.min(x(0), x(value)), y: y + 1, width: Math.max(1, Math.abs(x(value) - x(0))), height: 11 };
             M.put(svg, "rect.effect", {
-              x: Math.min(x(0), x(value)),
-              width: Math.max(1, Math.abs(x(value) - x(0))),
-              y: y + 1,
-              height: 11,
-              style: { fill: fill(place) },
+              ...bar,
+              style: { fill: M.colour(place) },
               title: `${one.draw}, ${text}: ${F.fixed(value, 3)}${W.isNumber(low) ? ` (${F.fixed(low, 3)} … ${F.fixed(high, 3)})` : ""}`,
             });
+            M.hatch(svg, place, [Object.values(bar)]);
             if (W.isNumber(low) && W.isNumber(high)) M.whisker(svg, x, low, high, y + 6.5, 3.5);
           });
         });

@@ -44,12 +44,13 @@ auto standing(const Verdict& verdict) {
                     verdict.share);
 }
 
-/// Counts all verdicts of all cases, because each of them might have been a false pass.
+/// Counts all verdicts of all cases, because each of them might have been a false pass. A group's members share its
+/// risk, as in each case's own summary.
 double joint_confidence_of(const std::vector<CaseSummary>& cases) {
   std::vector<double> confidences;
   for (const CaseSummary& each : cases)
     for (const Verdict& verdict : each.summary.requirements)
-      confidences.push_back(verdict.requirement.confidence);
+      confidences.push_back(verdict.confidence_alone);
   return joint_confidence(confidences);
 }
 

@@ -22,13 +22,14 @@ bool is_on_flexible(const Scene& scene, const Hinge& hinge) {
 std::vector<LatchJump> latch_jumps(const Scene& scene, const Outcome& outcome) {
   std::vector<LatchJump> found;
   if (outcome.status == Status::failed || outcome.peak_moment.empty()) return found;
-  for (std::size_t i = 0; i < scene.hinges.size(); ++i)
-    for (const LatchEvent& latch : outcome.latches) {
-      if (latch.hinge != static_cast<int>(i)) continue;
-      const double moment = scene.hinges[i].latch->damping * std::abs(latch.rates[i]);
-      const double peak = outcome.peak_moment[i].value;
-      if (moment > 0.5 * peak) found.push_back({scene.hinges[i].name, moment, peak});
-    }
+  for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
+    double moment = 0; // the largest: a latch that let go may engage again
+    for (const LatchEvent& latch : outcome.latches)
+      if (latch.hinge == static_cast<int>(i))
+        moment = std::max(moment, scene.hinges[i].latch->damping * std::abs(latch.rates[i]));
+    const double peak = outcome.peak_moment[i].value;
+    if (moment > 0.5 * peak) found.push_back({scene.hinges[i].name, moment, peak});
+  }
   return found;
 }
 

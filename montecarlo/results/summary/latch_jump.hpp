@@ -18,7 +18,7 @@ namespace wingspread {
 /// A latch whose jump exceeds half of its hinge's peak moment.
 struct LatchJump {
   std::string hinge;
-  double moment = 0; ///< d·|ω| at engagement, N·m
+  double moment = 0; ///< d·|ω| at engagement, the largest if the latch engages several times, N·m
   double peak = 0;   ///< N·m
 };
 

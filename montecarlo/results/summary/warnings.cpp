@@ -19,11 +19,11 @@ std::string warn_of_cut_peaks(const PeaksCount& peaks, long runs) {
          "correlations are of the cut values. Lengthen t_end";
 }
 
-/// Deployed runs with a reason: latches_may_open is the only one.
+/// Deployed runs with a reason: latches_may_let_go is the only one.
 long count_open_latches(const Summary& summary) {
   long open = 0;
   for (const ReasonCount& each : summary.reasons)
-    if (each.status == Status::deployed && each.reason == latches_may_open) open += each.count;
+    if (each.status == Status::deployed && each.reason == latches_may_let_go) open += each.count;
   return open;
 }
 

@@ -33,3 +33,17 @@ TEST_CASE("a kink or a jump is not resolved by few samples") {
     CHECK_FALSE((p.begin(jump, jump(0), jump(1)), p.resolve(jump)));
   }
 }
+
+TEST_CASE("the largest magnitude is a value of the polynomial, and none on the grid is larger") {
+  // with samples enough at 9 points, and at 17
+  for (const double speed : {0.4, 2.5})
+    for (double phase = 0; phase < 6; phase += 0.37) {
+      const auto f = [&](double s) { return std::sin(speed * s + phase); };
+      StepInterpolant<double> p;
+      CAPTURE(speed, phase);
+      REQUIRE((p.begin(f, f(0), f(1)), p.resolve(f)));
+      const Sampled<double> found = p.largest_magnitude();
+      CHECK(found.value == std::abs(p(found.s)));
+      for (int k = 0; k <= 64; ++k) CHECK(std::abs(p(k / 64.0)) <= found.value);
+    }
+}

@@ -36,4 +36,9 @@ TEST_CASE("a base that a table drives turns over a step as its piece says, and i
   CHECK(push.value == Approx(std::hypot(6.5, 27)).epsilon(1e-14));
   CHECK(push.first == Approx(std::hypot(2, 18)).epsilon(1e-14));
   CHECK(push.second == Approx(6).epsilon(1e-14));
+  piece.x = {1, 2, 0.5, 0.25}, piece.y = {0, 0, 0, 2}; // growing terms: all are largest at the end
+  const CubicBounds<double> more = push_of_base(base, piece, t0, h);
+  CHECK(more.value == Approx(std::hypot(0.5 + 6 + 4.5 + 6.75, 54)).epsilon(1e-14));
+  CHECK(more.first == Approx(std::hypot(2 + 3 + 6.75, 54)).epsilon(1e-14));
+  CHECK(more.second == Approx(std::hypot(1 + 4.5, 36)).epsilon(1e-14));
 }

@@ -55,3 +55,33 @@ TEST_CASE("regularized friction stays in its range, and its change in that of it
     }
   }
 }
+
+TEST_CASE("measured friction whose level falls to 0 has no bounds of its slopes there") {
+  const Curve level({0, 1, 2, 3}, {1, -1, 1, 2}, Interpolation::linear); // 0 from 0.5 to 1.5
+  const double sliding = -1;
+  MeasuredFrictionTerms<double> terms{&level, 2, 0.1, false, 4};
+  const MeasuredFriction<double> law{terms, sliding};
+  const auto moment = [&](double angle) {
+    double m = 0;
+    law.add_moment(m, angle, -1.0);
+    return m;
+  };
+  CHECK(moment(0.25) == Approx(2 * 0.5).epsilon(1e-14));
+  CHECK(moment(1.0) == 0);
+  CHECK(moment(2.5) == Approx(2 * 1.5).epsilon(1e-14));
+  CHECK(law.has_slopes({0.1, 0.4}));
+  CHECK(law.has_slopes({1.6, 2.9}));
+  for (const ValueRange<double> angle :
+       {ValueRange<double>{0.4, 0.6}, {0.9, 1.1}, {1.4, 1.6}, {0.1, 2.9}})
+    CHECK_FALSE(law.has_slopes(angle));
+  for (const ValueRange<double> angle : {ValueRange<double>{0.1, 0.4}, {1.6, 2.9}}) {
+    MomentSlopes<double> slopes;
+    law.add_slopes(slopes, angle, {-1, -0.5});
+    const double d = 1e-6, middle = (angle.low + angle.high) / 2;
+    const double quotient = (moment(middle + d) - moment(middle - d)) / (2 * d);
+    CHECK(slopes.by_angle.low <= quotient + 1e-6);
+    CHECK(quotient - 1e-6 <= slopes.by_angle.high);
+  }
+  terms.regularized = true;
+  CHECK_FALSE(law.has_slopes({0.1, 0.4}));
+}

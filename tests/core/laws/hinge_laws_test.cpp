@@ -258,3 +258,43 @@ TEST_CASE("a latch that dissipates exerts −k c |e| φ̇, e its deflection beyo
             Approx(-k * c * std::abs(side) * depth * 0.7).epsilon(1e-12).margin(1e-12));
     }
 }
+
+TEST_CASE(
+    "the rates at which a damper's law or a stop's has a kink are those where its damping jumps") {
+  int dampers = 0, stops = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Draws draws(seed);
+    RandomScene options;
+    options.bodies = 1;
+    const Scene scene = with_real_hinges(random_scene(seed, options), seed);
+    const Hinge& hinge = scene.hinges[0];
+    const double sense = hinge.latched > hinge.stowed ? 1 : -1;
+    const RealHingeTerms<double> terms = real_hinge_terms(hinge, sense);
+    const HingeMode<double> now{double(draws.chance(0.5)), double(draws.chance(0.5)), 0, 0,
+                                double(draws.chance(0.5))};
+    int listed = 0;
+    for_each_kink_of_rate(terms, now, [&](double rate, bool acts, const HingeStop<double>* stop) {
+      CAPTURE(seed, rate, acts, stop != nullptr);
+      ++listed;
+      if (!acts) return;
+      // angles inside the stop's contact; a damper's moment does not depend on the angle
+      const double angle = stop ? stop->terms.contact_angle - stop->terms.sense * 0.01 : 0;
+      const auto damping = [&](double v) {
+        HingeResistance<double> r{0, 0};
+        if (stop)
+          stop->add_resistance(r, angle, v);
+        else
+          r.damping = damper_damping(terms.damper, v);
+        return r.damping;
+      };
+      const double below = damping(rate - 1e-9 * std::abs(rate)),
+                   above = damping(rate + 1e-9 * std::abs(rate));
+      ++(stop ? stops : dampers);
+      if (stop) CHECK(std::min(below, above) == 0); // it pushes on one side only
+      CHECK(std::abs(above - below) > 1e-6 * std::max(below, above));
+    });
+    const bool power = terms.has_damper && terms.damper.law == DamperLaw::power;
+    CHECK(listed == 2 * power + terms.stop.present + terms.far_stop.present);
+  }
+  CHECK(std::min(dampers, stops) >= 20);
+}

@@ -59,6 +59,52 @@ struct LoopOverStep {
 
 constexpr int samples = 400; // of a step
 
+/// A loop by a table between its first two knots, where the gear changes all the time; hinge a moves at a constant
+/// acceleration and hinge b hardly: the gear's change makes most of the bounds.
+LoopOverStep bent_loop(std::uint64_t seed) {
+  LoopOverStep step(seed);
+  Draws draws(seed + 500);
+  LoopTerms<double>& loop = step.loop;
+  tabulate(step.given, {0, 1, 2}, {0, draws.uniform(0.1, 0.3), draws.uniform(1, 2)});
+  loop.table = step.given.table.get();
+  loop.damping = draws.chance(0.5) ? draws.log_uniform(1, 100) : 0, loop.slack_beyond = 1e300;
+  const double h = step.h, from = draws.uniform(0.05, 0.3), way = draws.log_uniform(1e-3, 0.5);
+  const double v = way / h * draws.uniform(0.3, 1), w = 2 * (way - v * h) / (h * h);
+  step.a = hermite<double>(h, {from, v, w}, {from + way, v + w * h, w});
+  for (double& angle : step.a) angle = loop.stowed_a + loop.sense_a * angle;
+  step.b.fill(loop.stowed_b + loop.sense_b * value(*loop.table, from));
+  return step;
+}
+
+/// The largest |τ|', |τ|'' and gear'' by differences, over their bounds: at most 1.
+struct Reached {
+  double moment = 0, first = 0, second = 0, gear = 0;
+  void take(const Reached& other) {
+    moment = std::max(moment, other.moment), first = std::max(first, other.first);
+    second = std::max(second, other.second), gear = std::max(gear, other.gear);
+  }
+};
+
+Reached reached_by(const LoopOverStep& step) {
+  const LoopTorqueBounds<double> bounds = loop_torque_bounds(step.loop, step.a, step.b, step.h);
+  REQUIRE(bounds.smooth);
+  const ValueRange<double> range = loop_moment_range(
+      step.loop, 2, step.a, derivative(step.a, step.h), step.b, derivative(step.b, step.h));
+  Reached most;
+  for (int k = 1; k < 40; ++k) {
+    const double s = k / 40.0, ds = 1e-3, dt = ds * step.h;
+    const auto second = [&](const auto& of) {
+      return std::abs(of(s + ds) - 2 * of(s) + of(s - ds)) / (dt * dt);
+    };
+    const auto torque = [&](double at) { return step.torque(at); };
+    const auto gear = [&](double at) { return step.state(at).gear; };
+    const double of_moment = step.moment(2, s) / (step.moment(2, s) < 0 ? range.low : range.high);
+    most.take({of_moment, std::abs(torque(s + ds) - torque(s - ds)) / (2 * dt * bounds.first),
+               second(torque) / bounds.second, second(gear) / bounds.gear_second});
+  }
+  return most;
+}
+
 } // namespace
 
 TEST_CASE("a loop's moments stay in their range over a step: damped, slack, by a table") {
@@ -140,6 +186,23 @@ TEST_CASE("bounds of a loop's torque, of its gear and of their derivatives hold 
   CHECK(smooth >= 100);
   CHECK(kinked >= 50);
   CHECK(tabled >= 20);
+}
+
+TEST_CASE("bounds of a loop whose gear changes hold its torque and its derivatives, and are nearly "
+          "reached") {
+  Reached most;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    CAPTURE(seed);
+    const Reached own = reached_by(bent_loop(seed));
+    CAPTURE(own.moment, own.first, own.second, own.gear);
+    CHECK(own.moment <= 1 + 1e-6);
+    CHECK(own.first <= 1 + 1e-4);
+    CHECK(own.second <= 1 + 1e-3);
+    CHECK(own.gear <= 1 + 1e-3);
+    most.take(own);
+  }
+  CAPTURE(most.moment, most.first, most.second, most.gear);
+  CHECK(std::min({most.moment, most.first, most.second, most.gear}) > 0.9);
 }
 
 TEST_CASE("a loop's torque at rest is the slope of its energy, and its rate follows the motion") {

@@ -1,4 +1,5 @@
-// A motor's moment, damping, range and change over a step, its work, and when its command is steady.
+// A motor's moment, damping, range and change over a step, its work, when its command is steady, and bounds of what it
+// exerts at rest.
 #include "core/laws/motor.hpp"
 #include "tests/support/random_scenes.hpp"
 
@@ -71,6 +72,62 @@ TEST_CASE("a motor's range and change over a step hold its moments and their slo
     ++(regime == 0 ? within : regime == 2 ? crossing : beyond);
   }
   CHECK(std::min({within, beyond, crossing}) > 20);
+}
+
+TEST_CASE("a motor whose excess rises or falls through its limit has moments that rise or fall, or "
+          "rest") {
+  const MotorTerms<double> terms = constant(1);
+  const MotorPiece<double> piece = motor_piece(terms, 0.0, 0);
+  const double h = 0.1, steep = gain * (2 * limit / gain) / h; // slope of M within the limit
+  const auto change = [&](double first, double last) {
+    return motor_change(terms, piece, line(first, last), h);
+  };
+  const ValueRange<double> rises = change(0, 2 * limit / gain); // reaches the limit half-way
+  CHECK(rises.low == Approx(0).margin(1e-12));
+  CHECK(rises.high == Approx(steep).epsilon(1e-12));
+  const ValueRange<double> falls = change(2 * limit / gain, 0);
+  CHECK(falls.low == Approx(-steep).epsilon(1e-12));
+  CHECK(falls.high == Approx(0).margin(1e-12));
+  const ValueRange<double> within = change(0, 0.5 * limit / gain);
+  CHECK(within.low == Approx(steep / 4).epsilon(1e-12));
+  CHECK(within.high == Approx(steep / 4).epsilon(1e-12));
+}
+
+TEST_CASE("what a motor of constant command exerts beyond its part at rest is bounded") {
+  Draws draws(11);
+  int inside = 0, limited = 0, left = 0;
+  for (int k = 0; k < 400; ++k) {
+    MotorTerms<double> terms = constant(draws.sign() * draws.log_uniform(1e-2, 3));
+    terms.gain = draws.log_uniform(0.1, 10), terms.limit = draws.log_uniform(0.1, 10);
+    const MotorPiece<double> piece = motor_piece(terms, 0.0, 0);
+    const MotorAtRest rest = motor_at_rest({terms}, {piece}, 0);
+    const double at_rest = std::clamp(terms.gain * terms.rate, -terms.limit, terms.limit);
+    const double most = draws.log_uniform(1e-2, 30);
+    double largest = 0, braking = 0;
+    for (int j = -1000; j <= 1000; ++j) {
+      const double v = most * j / 1000;
+      const double moment = std::clamp(terms.gain * (terms.rate - v), -terms.limit, terms.limit);
+      largest = std::max(largest, std::abs(moment - at_rest + rest.taken * v));
+      braking = std::max(braking, std::abs(moment - at_rest));
+      REQUIRE((moment - at_rest) * v <= 1e-12);
+    }
+    CAPTURE(k, terms.rate, terms.gain, terms.limit, most, largest, braking);
+    CHECK(rest.drive == Approx(at_rest).epsilon(1e-14));
+    CHECK(largest <= rest.beyond(most) * (1 + 1e-12) + 1e-12);
+    CHECK(rest.beyond(most) <= largest * (1 + 1e-9) + terms.gain * most * 2e-3); // by the samples
+    CHECK(braking <= most_braking(terms, piece, most) * (1 + 1e-12));
+    const bool saturates = std::abs(terms.gain * terms.rate) > terms.limit;
+    ++(saturates ? limited : inside);
+    left += most > rest.until;
+    if (!saturates && terms.gain * most <= terms.limit) // the larger part of the way is within it
+      CHECK(most_braking(terms, piece, most) == Approx(braking).epsilon(1e-12));
+    if (terms.gain * most >
+        4 * terms.limit + terms.gain * std::abs(terms.rate)) // beyond both limits
+      CHECK(most_braking(terms, piece, most) == Approx(braking).epsilon(1e-12));
+  }
+  CHECK(std::min({inside, limited, left}) >= 50);
+  const MotorAtRest none = motor_at_rest({}, {}, 0);
+  CHECK((none.drive == 0 && none.taken == 0 && none.beyond(1e3) == 0));
 }
 
 TEST_CASE("a motor's work over a step in which it leaves its limit and reaches the other") {

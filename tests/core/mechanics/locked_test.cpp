@@ -1,4 +1,5 @@
 // The recursion while hinges are locked, against a dense constrained solve.
+#include "core/mechanics/energy.hpp"
 #include "tests/core/mechanics/constrained_wing.hpp"
 
 #include <catch2/catch.hpp>
@@ -89,5 +90,83 @@ TEST_CASE("a wing whose hinges are all locked moves as one body, or not at all")
       CHECK(rest.forces.isZero());
       CHECK(rest.moments.isZero());
     }
+  }
+}
+
+namespace {
+
+/// An evaluation of the system with these hinges locked, and the passes of locked.hpp at all bodies.
+template <BaseMotion M> void require_same_bits(const Scene& scene, std::uint64_t seed) {
+  Posed<M> at(scene, random_state(seed + 1000, scene)),
+      by_passes(scene, random_state(seed + 1000, scene));
+  const Layout& layout = at.system.layout();
+  const int n = layout.bodies;
+  const Constraints constraints = random_constraints(seed, n);
+  for (int i = 1; i <= n; ++i)
+    if (constraints.locked[at.wing.hinge_of[i]]) at.system.set_contact(i, Contact::stuck);
+  if (at.work.stuck == 0) return;
+  State<double> dxdt(at.x.size());
+  at.system(at.x, dxdt, 0.0);
+
+  by_passes.system.place_all(by_passes.x, 0.0);
+  auto& frames = by_passes.work.frames;
+  const Tree& tree = at.wing.tree;
+  std::vector<Crossing<double>> crossings(n + 1);
+  for (int i = n; i >= 1; --i) {
+    frames[i].moment = at.work.frames[i].moment;
+    gather_with_locks(at.wing, tree, frames, crossings, i, at.system.sticks(i));
+  }
+  if (M == BaseMotion::free) {
+    gather_with_locks(at.wing, tree, frames, crossings, 0, false);
+    accelerate_free_base(frames[0]);
+  }
+  for (int i = 1; i <= n; ++i) {
+    const double relative = accelerate_with_locks<M, double>(tree, frames, i, at.system.sticks(i));
+    CHECK(dxdt[layout.rate(i)] == relative);
+    const double parents = frames[tree.parent_of(i)].angular_acceleration;
+    CHECK(at.work.holding[i] == axis_moment(frames[i], crossings[i], parents));
+  }
+}
+
+} // namespace
+
+TEST_CASE("an evaluation with locks spares free hinges the locks' terms, with the same bits") {
+  for (std::uint64_t seed = 0; seed < 90; ++seed) {
+    const Scene scene = random_scene(seed, of(2 + static_cast<int>(seed % 11), true));
+    CAPTURE(seed);
+    switch (scene.base.motion) {
+    case BaseMotion::prescribed:
+      require_same_bits<BaseMotion::prescribed>(scene, seed);
+      break;
+    case BaseMotion::free:
+      require_same_bits<BaseMotion::free>(scene, seed);
+      break;
+    case BaseMotion::fixed:
+      require_same_bits<BaseMotion::fixed>(scene, seed);
+    }
+  }
+}
+
+TEST_CASE("the end of a step gets the conserved momenta, and the derivative there, with and "
+          "without locks") {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    Scene scene = random_scene(seed, of(1 + static_cast<int>(seed % 8), true));
+    if (scene.base.motion != BaseMotion::free) continue;
+    Posed<BaseMotion::free> at(scene, random_state(seed + 1000, scene));
+    if (seed % 2 == 0) at.system.set_contact(1, Contact::stuck);
+    at.work.keeps_momenta = true;
+    at.work.conserved = conserved(at.system, at.x, 0.0);
+    const State<double> before = at.x;
+    const int v = at.system.layout().freedoms();
+    at.x[0] += 0.1, at.x[v + 1] -= 0.02, at.x[v + 2] += 0.3; // off the invariants
+    State<double> dxdt(at.x.size()), anew(at.x.size());
+    at.system.end_step(at.x, dxdt, 0.0);
+    CAPTURE(seed);
+    for (const int k : {0, 1, v, v + 1, v + 2})
+      CHECK(at.x[k] == Approx(before[k]).epsilon(1e-9).margin(1e-9));
+    for (int i = 1; i <= at.system.layout().bodies; ++i)
+      CHECK(at.x[at.system.layout().rate(i)] == before[at.system.layout().rate(i)]);
+    at.system(at.x, anew, 0.0);
+    CHECK(dxdt == anew);
   }
 }

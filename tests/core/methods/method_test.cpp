@@ -29,6 +29,7 @@ template <class AnySystem> struct Faulty : AnySystem {
   template <class T> void stage(const State<T>& x, State<T>& dxdt, const T& t) {
     (*this)(x, dxdt, t);
   }
+  template <class T> void end_step(State<T>& x, State<T>& dxdt, const T& t) { (*this)(x, dxdt, t); }
 };
 
 /// A method in the middle of its run.

@@ -51,7 +51,7 @@ template <template <class> class Struct> void require_way_and_back(std::size_t c
 TEST_CASE("every number set in a lane comes back from it, whatever the other lanes contain") {
   require_way_and_back<Vec2>(2);
   require_way_and_back<LinearLaw>(4);
-  require_way_and_back<BodyTerms>(10);
+  require_way_and_back<BodyTerms>(12);
   require_way_and_back<StepHistory>(9);
 }
 

@@ -1,4 +1,6 @@
 // The bounds by energy on the peaks of a latched wing: the tests seek states that break them.
+#include "core/mechanics/energy.hpp"
+#include "core/peaks/base_peaks.hpp"
 #include "core/proofs/energy_bounds.hpp"
 #include "core/proofs/remaining_energy.hpp"
 #include "tests/support/closed_forms.hpp"
@@ -27,7 +29,7 @@ template <BaseMotion M = BaseMotion::fixed> struct LatchedWing {
 
   /// What no energy exceeds from this state on, at its own time.
   [[nodiscard]] double energy(const State<double>& x, double t) {
-    return remaining.energy(system, x, t, t).value();
+    return remaining.energy(system, x, t, t).value().whole;
   }
 
   /// Largest share of its bound that any moment or force takes at the state rest + s·way, s such
@@ -47,7 +49,8 @@ template <BaseMotion M = BaseMotion::fixed> struct LatchedWing {
     for (int pass = 0; pass < 60; ++pass)
       (put((low + high) / 2) < energy_given ? low : high) = (low + high) / 2;
     put(low);
-    bounds.bound(system, remaining, energy_given * (1 + 1e-9));
+    const double given = energy_given * (1 + 1e-9);
+    bounds.bound(system, remaining, {given, given});
     return taken(x, t);
   }
 
@@ -184,7 +187,7 @@ TEST_CASE("friction of either model may be seen where no energy is left") {
         hinge.friction.coulomb = 0.7, hinge.friction.model = model;
       }
       LatchedWing<> wing(scene);
-      wing.bounds.bound(wing.system, wing.remaining, 0.0);
+      wing.bounds.bound(wing.system, wing.remaining, {0, 0});
       for (int i = 1; i <= panels; ++i) CHECK(wing.bounds.moment[i] == Approx(0.7).epsilon(1e-8));
     }
 }
@@ -259,7 +262,7 @@ TEST_CASE("the bounds by energy are (2) to (4)") {
   const double l = 1.5, c1 = 0.7, c2 = 0.4, J1 = 0.5, J2 = 0.2;
   LatchedWing<> wing(two_in_line(l, c1, c2));
   const double E = 100;
-  wing.bounds.bound(wing.system, wing.remaining, E);
+  wing.bounds.bound(wing.system, wing.remaining, {E, E});
   const double M1 = std::sqrt(2 * E * (1e4 + 10 * 10 / J1));
   const double M2 = std::sqrt(2 * E * (6e3 + 20 * 20 * (1 / J1 + 1 / J2)));
   CHECK(wing.bounds.moment[1] == Approx(M1));
@@ -269,4 +272,59 @@ TEST_CASE("the bounds by energy are (2) to (4)") {
   const double Z = 10 * g1 * g1 + 4 * g2 * g2 + (M1 + M2) * (M1 + M2) / J1 + M2 * M2 / J2;
   CHECK(wing.bounds.force[1] == Approx(std::sqrt(14 * Z)));
   CHECK(wing.bounds.force[2] == Approx(std::sqrt(4 * Z)));
+}
+
+TEST_CASE("of a free base that turns, the energy of the whole's turning loads no hinge") {
+  oracle::Draws draws(7);
+  int far_below = 0;
+  for (int k = 0; k < 60; ++k) {
+    oracle::RandomScene options;
+    options.bodies = 1 + k % 6;
+    options.branching = k % 2 == 0;
+    options.motion = BaseMotion::free;
+    options.mass_lower = 0.1, options.mass_upper = 30;
+    Scene scene = oracle::random_scene(700 + k, options);
+    for (Hinge& hinge : scene.hinges)
+      hinge.latch = Latch{draws.log_uniform(1e3, 1e6), draws.log_uniform(1, 1e3)};
+    LatchedWing<BaseMotion::free> wing(scene);
+    const double turning = draws.log_uniform(0.01, 10); // rad/s
+    for (int state = 0; state < 20; ++state) {
+      State<double> x = wing.rest;
+      const double size = draws.log_uniform(1e-4, 1);
+      for (int i = 1; i <= wing.at.bodies; ++i) {
+        x[wing.at.angle(i)] += size * draws.uniform(-1, 1);
+        x[wing.at.rate(i)] = size * draws.uniform(-1, 1) * turning;
+      }
+      x[BaseExcursion<double>::coordinate + wing.at.freedoms()] = turning;
+      const auto left = wing.remaining.energy(wing.system, x, 0., 0.).value();
+      const TotalMotion<double> now = total_motion(wing.system, x, 0.);
+      const double spin = now.spin(), inertia = now.central_inertia();
+      CAPTURE(k, turning, size, left.whole, left.within, left.whirl);
+      // T' moves the hinges; ½H²/I turns the whole
+      CHECK(left.within >= now.central_kinetic() - spin * spin / (2 * inertia));
+      CHECK(left.whirl >= std::abs(spin) / inertia);
+      wing.bounds.bound(wing.system, wing.remaining, left);
+      const auto worst = wing.taken(x, 0);
+      CHECK(worst.moment <= 1);
+      CHECK(worst.force <= 1);
+      far_below += left.within < 0.5 * left.whole ? 1 : 0;
+    }
+  }
+  CHECK(far_below > 100); // of 1200
+}
+
+TEST_CASE("two stretched wings in line have the largest inertia that they can have") {
+  Scene scene = oracle::two_wing_free_spacecraft();
+  for (Hinge& hinge : scene.hinges) {
+    hinge.parent_point.y() = hinge.child_point.y() = 0;
+    hinge.latch = Latch{1e4, 100};
+    hinge.spring = {}, hinge.harness = {}, hinge.friction = {};
+  }
+  LatchedWing<BaseMotion::free> wing(scene);
+  State<double> x = wing.rest;
+  x[BaseExcursion<double>::coordinate + wing.at.freedoms()] = 0.5;
+  const auto left = wing.remaining.energy(wing.system, x, 0., 0.).value();
+  CHECK(left.whole > 10);
+  CHECK(left.within <= 2e-9 * left.whole);
+  CHECK(left.whirl == Approx(0.5));
 }

@@ -1,5 +1,7 @@
 // When a run asks for the energy's box, and how far bounds exceed the peaks seen.
+#include "core/deployment.hpp"
 #include "core/proofs/final_peaks.hpp"
+#include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -20,6 +22,35 @@ TEST_CASE(
   attempts.note_failure(1, std::nullopt); // no box
   CHECK_FALSE(attempts.is_due(0.51));
   CHECK(attempts.is_due(0.5));
+  attempts.note_failure(
+      0.5,
+      2.0); // at the ninth refusal: though the energy stays, the box is asked for at the eighteenth
+  int refused = 0;
+  while (!attempts.is_due(0.5)) ++refused;
+  CHECK(refused == 8);
+}
+
+TEST_CASE(
+    "the peaks of a free base that turns fast are proven, and are those of the run to t_end") {
+  Integration how;
+  how.t_end = 100;
+  for (const double turning : {0.0, 0.2, 0.5, 1.0, -2.0}) {
+    Scene scene = oracle::two_wing_free_spacecraft();
+    scene.base.rate = turning;
+    CAPTURE(turning);
+    const Outcome out = Deployment().run(scene, how, {}),
+                  whole = Deployment().run(scene, how, {.to_t_end = true});
+    REQUIRE(out.status == Status::deployed);
+    CHECK(out.peaks_final);
+    CHECK(out.t_end < 60);
+    for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
+      CHECK(out.peak_moment[i].value == Approx(whole.peak_moment[i].value).epsilon(1e-9));
+      CHECK(out.peak_force[i].value == Approx(whole.peak_force[i].value).epsilon(1e-9));
+    }
+    scene.hinges[2].release =
+        Release{.fails = 1}; // what one wing lacks does not hide the other's peaks
+    CHECK(Deployment().run(scene, how, {}).moments_final);
+  }
 }
 
 TEST_CASE("the excess of loads is the largest ratio of any bound to its peak") {

@@ -21,6 +21,12 @@ struct Shares {
 /// The bounds by the modes alone, with the energy's cap, and inside the energy's box.
 enum class Kind { modes, capped, in_reach };
 
+/// What no energy exceeds from this state on, J.
+template <BaseMotion M> std::optional<double> energy_of(Latched<M>& wing, const State<double>& x) {
+  const auto left = wing.remaining.energy(wing.system, x, 0., 0.);
+  return left ? std::optional(left->whole) : std::nullopt;
+}
+
 /// Largest shares of the bounds that the motion from x takes, by Runge and Kutta's classical steps;
 /// none where no bound was found.
 template <BaseMotion M>
@@ -31,7 +37,7 @@ std::optional<Shares> shares_from(Latched<M>& wing, State<double> x, Kind kind, 
       wing.modes->rates(wing.modes->start(&x[at.angle(1)], &x[at.rate(1)], 0));
   if (!wing.model.is_tuned_for(rates) && !wing.tune(rates.data())) return std::nullopt;
   std::optional<double> energy;
-  if (kind != Kind::modes) energy = wing.remaining.energy(wing.system, x, 0., 0.);
+  if (kind != Kind::modes) energy = energy_of(wing, x);
   double spin = 0;
   if (M == BaseMotion::free) spin = std::abs(total_motion(wing.system, x, 0.).spin());
   std::optional<HingeBounds> bounds;
@@ -245,7 +251,7 @@ TEST_CASE("friction swings a wing that is hardly damped no further than its ener
   CHECK(sought.worst.force <= 1);
   State<double> x = wing.rest();
   for (int i = 1; i <= 3; ++i) x[wing.at.angle(i)] += 1e-3;
-  const auto energy = wing.remaining.energy(wing.system, x, 0., 0.);
+  const auto energy = energy_of(wing, x);
   REQUIRE(energy);
   const auto with = wing.bound_in_reach(x, *energy, 0), without = wing.bound(x, 0, std::nullopt, 0);
   REQUIRE(with);
@@ -269,7 +275,7 @@ TEST_CASE("the energy caps the mode of one hinge where a motion without loss tak
   REQUIRE(wing.has_model);
   State<double> x = wing.rest();
   x[wing.at.angle(1)] += 0.01;
-  const auto energy = wing.remaining.energy(wing.system, x, 0., 0.);
+  const auto energy = energy_of(wing, x);
   REQUIRE(energy);
   const auto bounds = wing.bound(x, 0, energy, 0);
   REQUIRE(bounds);

@@ -1,4 +1,5 @@
 #include "montecarlo/analyses/margin/margin_findings.hpp"
+#include "montecarlo/engine/runs/finality.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -121,6 +122,49 @@ TEST_CASE("what a recommended scale gives up is what is worse there than at pres
   CHECK(nearer[0].condition == 1);
   search.recommended = 1;
   CHECK(concessions(campaign, result, search).empty());
+}
+
+TEST_CASE("a warning of open latches, or of a cut peak, names the scale with most of them",
+          "[margin]") {
+  MarginResult result;
+  result.cases = {{"nominal", {}}};
+  MarginSearch& search = result.searches.emplace_back();
+  search.seen = {{0.5, scale_with(0, 0)},
+                 {0.8, scale_with(0, 0)},
+                 {1.5, scale_with(0, 0)},
+                 {4, scale_with(0, 0)}};
+  CHECK(margin_warnings(result).empty());
+  for (const auto& [scale, open] : {std::pair{0.5, 2L}, {1.5, 7L}, {4.0, 3L}})
+    search.seen[scale][0].open_latches = open;
+  CHECK(margin_warnings(result) ==
+        std::vector{"at scale 1.5 " + warn_of_open_latches(7, runs_of_case)});
+  search.seen[1.5][0].open_latches = 1;
+  CHECK(margin_warnings(result) ==
+        std::vector{"at scale 4 " + warn_of_open_latches(3, runs_of_case)});
+
+  // 9 runs break the second requirement and 5 may: cut peaks alone stand against it where 4 of them or more may rise
+  const auto cut = [&](double scale, long runs) {
+    Verdict& own = search.seen[scale][0].verdicts[1];
+    own = verdict("root.latch_rate", 9);
+    own.cut = own.open = runs;
+  };
+  const auto found = [&] {
+    const std::vector<CutPeaks> all = cut_peaks(result, search);
+    return all.empty() ? CutPeaks{0, "", "", 0, 0} : all.front();
+  };
+  CHECK(found().cut == 0);
+  cut(0.5, 3); // 6 broken for sure
+  CHECK(found().cut == 0);
+  cut(0.5, 4);
+  CHECK((found().scale == 0.5 && found().cut == 4 && found().runs == runs_of_case));
+  cut(4, 4); // as many, but further from the present springs
+  CHECK(found().scale == 0.5);
+  cut(1.5, 4); // nearer
+  CHECK(found().scale == 1.5);
+  cut(0.8, 4);
+  CHECK(found().scale == 0.8);
+  cut(4, 5);
+  CHECK((found().scale == 4 && found().cut == 5));
 }
 
 TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {

@@ -121,6 +121,31 @@ TEST_CASE("a middle that fails splits the window, and the wider part is taken", 
   CHECK(failing(search.seen.at(*search.recommended)).empty());
 }
 
+// From 0.5 to 0.6 nothing breaks, nor from 1.4 to 1.6; between them 5 runs do. The first range is the wider one by ratio,
+// the second by difference.
+TEST_CASE("of two ranges that are as good the wider one by ratio is taken: scales upside down "
+          "change nothing",
+          "[margin]") {
+  Wing wing{[](double s) { return s < 0.5              ? line(-s, -0.5, 500)
+                                  : s > 0.6 && s < 1.4 ? 5.0
+                                                       : 0.0; },
+            [](double s) { return line(s, 1.6, 500); },
+            {0.4, 0.5, 0.6, 1, 1.4, 1.6, 1.8}};
+  const MarginSearch search = wing.recommended();
+  REQUIRE(search.recommended);
+  CHECK(*search.recommended == Approx(std::sqrt(0.5 * 0.6)).epsilon(0.02));
+  Wing inverse{[](double t) { return 1 / t < 0.5 ? line(-1 / t, -0.5, 500) : 0.0; },
+               [](double t) {
+                 const double s = 1 / t;
+                 return s > 0.6 && s < 1.4 ? 5.0 : line(s, 1.6, 500);
+               },
+               {}};
+  for (const double scale : wing.scales) inverse.scales.push_back(1 / scale);
+  const MarginSearch other = inverse.recommended();
+  REQUIRE(other.recommended);
+  CHECK(*other.recommended == Approx(1 / *search.recommended).epsilon(0.02));
+}
+
 TEST_CASE("without both edges nothing is recommended", "[margin]") {
   Wing wing{[](double) { return 0.0; },
             [](double s) { return line(s, 1.1, 100); },

@@ -239,3 +239,54 @@ TEST_CASE("the report of strata has each one's probability, and the sum", "[rare
   CHECK(json["strata"][1]["event"] == 1);
   CHECK(json["warnings"].empty());
 }
+
+namespace {
+
+/// A stratum of probability w in which the event has the probability p, or at most `upper` if no repeat reached it.
+StratumEstimate part_of(double w, double p, const Interval& interval, double variation,
+                        bool reached) {
+  StratumEstimate part;
+  part.stratum.probability = w;
+  part.estimates.resize(3);
+  for (SubsetEstimate& estimate : part.estimates) estimate.reached = reached;
+  part.estimate.probability = p, part.estimate.interval = interval;
+  part.estimate.reached = reached;
+  part.estimate.variation = variation, part.estimate.from_chains = 0.8 * variation;
+  part.estimate.from_spread = variation, part.estimate.bias = 0.1 * variation;
+  part.estimate.evaluations = 1000, part.estimate.draws = 300, part.estimate.hits = 2;
+  return part;
+}
+
+} // namespace
+
+TEST_CASE("a sum over strata is weighed by their probabilities, and its errors by the squares",
+          "[rare]") {
+  const auto seen = part_of(0.9, 1e-3, {4e-4, 3e-3}, 0.3, true);
+  const auto likely = part_of(1e-3, 0.5, {0.2, 0.9}, 0.2, true);
+  const auto silent = part_of(2e-4, 1e-4, {0, 1e-2}, 0.5, false);
+  const double a = 0.9 * 1e-3, b = 1e-3 * 0.5, p = a + b;
+  for (const double left_out : {0.0, 3e-5}) {
+    const RareEstimate sum = sum_of({seen, likely, silent}, left_out);
+    CHECK(sum.probability == Approx(p).epsilon(1e-12)); // the silent one adds nothing
+    CHECK(sum.variation == Approx(std::hypot(0.3 * a, 0.2 * b) / p).epsilon(1e-12));
+    CHECK(sum.from_chains == Approx(0.8 * sum.variation).epsilon(1e-12));
+    CHECK(sum.bias == Approx((0.03 * a + 0.02 * b) / p).epsilon(1e-12));
+    CHECK(sum.interval.lower == Approx(p - std::hypot(0.9 * 6e-4, 1e-3 * 0.3)).epsilon(1e-12));
+    CHECK(sum.interval.upper ==
+          Approx(p + std::hypot(0.9 * 2e-3, 1e-3 * 0.4) + 2e-4 * 1e-2 + left_out)
+              .epsilon(1e-12)); // both may be certain to fail
+    CHECK(sum.reached ==
+          (left_out == 0)); // 2e-6 is less than a hundredth of 1.4e-3, 3.2e-5 is more
+    CHECK((sum.evaluations == 3000 && sum.draws == 900 && sum.hits == 6));
+    CHECK(sum.plain_runs == Approx((1 - p) / (p * sum.variation * sum.variation)).epsilon(1e-12));
+    const RareEstimate turned = sum_of({silent, likely, seen}, left_out);
+    CHECK(turned.probability == Approx(sum.probability).epsilon(1e-12));
+    CHECK(turned.interval.upper == Approx(sum.interval.upper).epsilon(1e-12));
+    CHECK(turned.interval.lower == Approx(sum.interval.lower).epsilon(1e-12));
+  }
+  const RareEstimate none = sum_of({silent, silent}, 1e-6);
+  CHECK_FALSE(none.reached);
+  CHECK(none.probability == Approx(2 * 2e-4 * 1e-4).epsilon(1e-12)); // of the last levels
+  CHECK(none.interval.lower == 0);
+  CHECK(none.interval.upper >= 2 * 2e-4 * 1e-2 + 1e-6 - 1e-12);
+}

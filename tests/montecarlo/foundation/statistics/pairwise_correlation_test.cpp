@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <unordered_map>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -43,11 +44,14 @@ Columns with_gaps(std::uint64_t seed, std::size_t rows, const std::vector<std::s
 
 /// Mid-ranks by the definition: (values below) + (1 + values that are the same)/2.
 std::vector<double> ranks_of(const std::vector<double>& values) {
-  std::vector<double> sorted = sorted_present(values), ranks;
-  for (const double value : values) {
-    const auto [first, end] = std::ranges::equal_range(sorted, value);
-    ranks.push_back(static_cast<double>(first - sorted.begin() + end - sorted.begin() + 1) / 2);
+  const std::vector<double> sorted = sorted_present(values);
+  std::unordered_map<double, double> rank_of;
+  for (std::size_t first = 0, end = 0; first < sorted.size(); first = end) {
+    while (end < sorted.size() && sorted[end] == sorted[first]) ++end;
+    rank_of[sorted[first]] = static_cast<double>(first + end + 1) / 2;
   }
+  std::vector<double> ranks;
+  for (const double value : values) ranks.push_back(rank_of.at(value));
   return ranks;
 }
 

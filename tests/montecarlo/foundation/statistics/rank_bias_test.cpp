@@ -54,3 +54,19 @@ TEST_CASE("with ties the bias is that of all samples of four") {
                std::sqrt(w20x * w20y) * tau / std::sqrt(x_ties * y_ties))
             .epsilon(1e-12));
 }
+
+TEST_CASE("a column longer than the rows that are compared has the share of its own length") {
+  std::vector<double> x, y; // without ties
+  for (std::size_t row = 0; row < 3 * rank_bias_rows; ++row) {
+    x.push_back(std::fmod(0.6180339887498949 * static_cast<double>(row), 1.0));
+    y.push_back(x.back() + std::fmod(0.4142135623730951 * static_cast<double>(row), 1.0));
+  }
+  const auto share = [&](std::size_t rows) { // w τ, where nothing is correlated
+    return RankBias({std::span(x).first(rows), std::span(y).first(rows)}).in_sample(0, 1, 0);
+  };
+  const auto n = static_cast<double>(rank_bias_rows);
+  REQUIRE(share(rank_bias_rows) > 0);
+  for (const double times : {2.0, 3.0})
+    CHECK(share(static_cast<std::size_t>(times * n)) ==
+          Approx(share(rank_bias_rows) * (n + 1) / (times * n + 1)).epsilon(1e-12));
+}

@@ -93,6 +93,34 @@ TEST_CASE("cases.json has every requirement with its worst case, and every outpu
   CHECK_FALSE(json["cases"]["cold"].contains("partial"));
 }
 
+TEST_CASE("a group's members share its risk in every case", "[comparison]") {
+  const auto grouped = [](const std::string& name, std::vector<Requirement> requirements) {
+    Results results(ResultNames{{}, {"deployment_time"}});
+    for (long run = 0; run < 200; ++run)
+      results.append({run, Status::deployed, {}, {5.0 + 1e-3 * double(run)}, "root", ""});
+    CaseSummary its{name, summarize(results, {})};
+    its.summary.requirements = judge_all(requirements, results);
+    return its;
+  };
+  std::vector<Requirement> requirements{{"T-1", "deployment_time", 8.0, {}, 0.8, 0.9},
+                                        {"T-2", "deployment_time", 9.0, {}, 0.8, 0.9},
+                                        {"T-3", "deployment_time", {}, 4.0, 0.9, 0.99}};
+  const auto joint = [&](std::size_t count) {
+    std::vector<CaseSummary> cases;
+    for (std::size_t k = 0; k < count; ++k)
+      cases.push_back(grouped("case " + std::to_string(k), requirements));
+    const double own = joint_confidence(cases.front().summary.requirements);
+    const double of_all = cases_json(cases, "about")["joint_confidence"].get<double>();
+    CHECK(of_all == Approx(1 - static_cast<double>(count) * (1 - own)).epsilon(1e-12));
+    return of_all;
+  };
+  CHECK(joint(1) == Approx(1 - 0.1 - 0.1 - 0.01).epsilon(1e-12));
+  CHECK(joint(3) == Approx(1 - 3 * 0.21).epsilon(1e-12));
+  requirements[0].group = requirements[1].group = "timing"; // 90 % for both together
+  CHECK(joint(1) == Approx(1 - 0.1 - 0.01).epsilon(1e-12));
+  CHECK(joint(3) == Approx(1 - 3 * 0.11).epsilon(1e-12));
+}
+
 TEST_CASE("cases stand side by side", "[comparison]") {
   std::vector<CaseSummary> cases{case_of("hot", 0), case_of("cold", 20)};
   cases[1].summary.nominal = NominalRun{Status::deployed, "root", ""};

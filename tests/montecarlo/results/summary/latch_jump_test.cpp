@@ -59,6 +59,29 @@ TEST_CASE("a latch whose damping times its own rate exceeds half the peak is war
   CHECK_THAT(warning(latch_jumps(wing.scene, wing.outcome)), Catch::Contains(" root (100 %), "));
 }
 
+TEST_CASE("a latch that engages again is named once, by its largest jump") {
+  Latched wing;
+  const auto found = [&] { return latch_jumps(wing.scene, wing.outcome); };
+  wing.outcome.latches = {{0, 3.0, {-2, 9}}, {0, 4.0, {2.5, 9}}, {0, 5.0, {-1.9, 9}}};
+  REQUIRE(found().size() == 1);
+  CHECK((found()[0].hinge == "root" && found()[0].moment == 250 && found()[0].peak == 350));
+  std::ranges::reverse(wing.outcome.latches);
+  REQUIRE(found().size() == 1);
+  CHECK(found()[0].moment == 250);
+  wing.outcome.latches = {{0, 3.0, {-1, 9}}, {0, 4.0, {-1, 9}}}; // two small jumps are no large one
+  CHECK(found().empty());
+}
+
+TEST_CASE("the mirrored wing has the same latch jumps") {
+  Latched wing;
+  const std::vector<LatchJump> before = latch_jumps(wing.scene, wing.outcome);
+  for (LatchEvent& latch : wing.outcome.latches)
+    for (double& rate : latch.rates) rate = -rate;
+  const std::vector<LatchJump> after = latch_jumps(wing.scene, wing.outcome);
+  REQUIRE((before.size() == 1 && after.size() == 1));
+  CHECK(after[0].moment == before[0].moment);
+}
+
 TEST_CASE("a force at the instant of a latch's jump on a flexible body is warned of") {
   Latched wing;
   const auto forces = [&] { return forces_of_jumps(wing.scene, wing.outcome); };

@@ -58,6 +58,31 @@ TEST_CASE("A width is that of the interval that the summary gives", "[stopping]"
   CHECK_FALSE(are_met({}));
 }
 
+TEST_CASE("An output below 0 meets the goals that its mirror image meets", "[stopping]") {
+  Results results(ResultNames{{}, {"root.latch_time", "root.final_angle"}});
+  for (long run = 0; run < 201; ++run) {
+    const double value = 100 + 0.01 * static_cast<double>(run * run);
+    results.append({run, Status::deployed, {}, {value, -value}, "", ""});
+  }
+  const auto find = [&](const std::string& text) {
+    return find_goals(rule_of(text.c_str()), results, {}, {}, .95).front();
+  };
+  int met = 0, open = 0;
+  for (const auto& [below, above] : {std::pair{"0.3", "0.7"}, {"0.7", "0.3"}, {"0.55", "0.45"}})
+    for (const char* width : {"5%", "20%", "60%", "3", "30", "90"}) {
+      const GoalFound one = find(std::string("root.latch_time@") + below + ' ' + width);
+      const GoalFound other = find(std::string("root.final_angle@") + above + ' ' + width);
+      CAPTURE(below, width);
+      REQUIRE(one.width);
+      CHECK(*other.width == Approx(*one.width).epsilon(1e-12));
+      CHECK(other.met == one.met);
+      CHECK(other.relative.has_value() == one.relative.has_value());
+      if (one.relative) CHECK(*other.relative == Approx(*one.relative).epsilon(1e-12));
+      ++(one.met ? met : open);
+    }
+  CHECK(std::min(met, open) >= 3);
+}
+
 TEST_CASE("A width of an output that is 1 or 0 is that of its share of all runs", "[stopping]") {
   Results results(ResultNames{{}, {"root.held"}});
   for (long run = 0; run < 200; ++run) // the last five failed

@@ -121,7 +121,7 @@ TEST_CASE("peaks of one kind that t_end cut are named, and latches that may let 
              Catch::StartsWith("in 3 of 4 runs t_end cut peaks (moments in 1, forces in 3): "));
 
   Results open(ResultNames{{}, {"root.latch_rate"}});
-  open.append({0, Status::deployed, {}, {-1.}, "", std::string(latches_may_open)});
+  open.append({0, Status::deployed, {}, {-1.}, "", std::string(latches_may_let_go)});
   open.append({1, Status::deployed, {}, {-1.}, "", ""});
   CHECK(warnings(summarize(open, {})) == std::vector{warn_of_open_latches(1, 2)});
 }

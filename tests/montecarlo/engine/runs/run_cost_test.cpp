@@ -1,0 +1,70 @@
+#include "montecarlo/engine/runs/run_cost.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <omp.h>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// So many threads for the tests' runs, until it ends.
+class Threads {
+public:
+  explicit Threads(int count) { omp_set_num_threads(count); }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+  ~Threads() { omp_set_num_threads(before_); }
+
+private:
+  int before_ = omp_get_max_threads();
+};
+
+} // namespace
+
+TEST_CASE("the time of many runs is that of one, times their number, over the threads") {
+  NominalRuns nominal;
+  nominal.seconds = 0.5;
+  for (const int threads : {1, 3, 8}) {
+    const Threads some(threads);
+    CAPTURE(threads);
+    CHECK(time_of_runs(nominal, threads) == "0.5 s");
+    CHECK(time_of_runs(nominal, 80 * threads) == "40 s");
+    CHECK(time_of_runs(nominal, 240 * threads) == "2 min");
+    CHECK(time_of_runs(nominal, 36000 * threads) == "5 h");
+    nominal.seconds = 0.04;
+    CHECK(time_of_runs(nominal, threads) == "40 ms");
+    nominal.seconds = 0.5;
+  }
+}
+
+TEST_CASE("the cost of a campaign names its runs, its threads, and the nominal run's evaluations") {
+  const Campaign campaign = campaign_of(quick_campaign(30));
+  Goal goal = goal_of(campaign.outputs);
+  goal.audit = goal.end_state = false;
+  const Outcome alone = Deployment().run(nominal_scene(campaign), campaign.integration, goal);
+  for (const int threads : {1, 3}) {
+    const Threads some(threads);
+    const NominalRuns tried = try_nominal(campaign);
+    CHECK(tried.not_deployed.empty());
+    CHECK(tried.seconds > 0);
+    CHECK_THAT(tried.cost, Catch::StartsWith(fmt::format("the nominal run takes {} evaluations, ",
+                                                         alone.work.rhs_evaluations)));
+    CHECK_THAT(tried.cost, Catch::EndsWith(fmt::format("; 30 runs: about {} on {}, less in packs",
+                                                       time_of_runs(tried, 30),
+                                                       counted(threads, "thread", "threads"))));
+  }
+}
+
+TEST_CASE("a nominal wing that does not deploy is said, with its status") {
+  Json json = quick_campaign(3);
+  json["integration"]["t_end"] = 0.5;
+  const NominalRuns tried = try_nominal(campaign_of(json));
+  REQUIRE(tried.not_deployed.size() == 1);
+  CHECK_THAT(tried.not_deployed[0],
+             Catch::StartsWith("the nominal wing does not deploy: timed out"));
+}
