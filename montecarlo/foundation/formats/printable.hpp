@@ -13,8 +13,8 @@ namespace wingspread {
 /// Whether the text has control characters; line feeds and tabs count.
 [[nodiscard]] bool has_control_characters(std::string_view text);
 
-/// A word of a command as a POSIX shell takes it: in quotes where it has blanks, "&", quotes and the like. Every command
-/// that the program prints has its paths, names and texts through this function; those of the page through W.shellWord.
+/// A word of a command as a POSIX shell takes it: in quotes where it has blanks, "&", quotes and the like. Every
+/// command that the program prints has its paths, names and texts through this function; those of the page through W.shellWord.
 [[nodiscard]] std::string shell_word(const std::string& word);
 
 } // namespace wingspread

@@ -32,8 +32,8 @@ std::string ending(const Scene& scene, const Outcome& outcome) {
   return text + fmt::format(", integrated {}\n", extent(outcome));
 }
 
-/// Seven significant digits at the end of a column, after at least one blank: a time of 3e-5 s keeps its digits, and one
-/// of a day does not touch its neighbour.
+/// Seven significant digits at the end of a column, after at least one blank: a time of 3e-5 s keeps its digits, and
+/// one of a day does not touch its neighbour.
 std::string number(double value, std::size_t width) {
   return right_aligned(fmt::format("{:#.7g}", value), width);
 }
