@@ -123,6 +123,24 @@ std::vector<std::string> candidates(const Scene& scene, const Path& path) {
   return paths;
 }
 
+/// The matches of a path, or what its owner would need.
+ParameterMatches find_matches(const Scene& scene, const Path& parts) {
+  ParameterMatches found;
+  if (parts.list == "base")
+    match<Base>(Owner::base, {&scene.base, 1}, base_fields, parts, found);
+  else if (parts.list == "bodies")
+    match<Body>(Owner::body, scene.bodies, body_fields, parts, found);
+  else if (parts.list == "hinges")
+    match<Hinge>(Owner::hinge, scene.hinges, hinge_fields, parts, found);
+  else if (parts.list == "synchronisations")
+    match<Synchronisation>(Owner::synchronisation, scene.synchronisations, synchronisation_fields,
+                           parts, found);
+  else if (parts.list == "environment")
+    match<Environment>(Owner::environment, {&scene.environment, 1}, environment_fields, parts,
+                       found);
+  return found;
+}
+
 } // namespace
 
 double& SceneParameter::in(Scene& scene) const {
@@ -139,23 +157,11 @@ double SceneParameter::in(const Scene& scene) const {
 
 ParameterMatches resolve(const Scene& scene, std::string_view path) {
   const Path parts = split(path);
-  ParameterMatches found;
-  if (parts.list == "base")
-    match<Base>(Owner::base, {&scene.base, 1}, base_fields, parts, found);
-  else if (parts.list == "bodies")
-    match<Body>(Owner::body, scene.bodies, body_fields, parts, found);
-  else if (parts.list == "hinges")
-    match<Hinge>(Owner::hinge, scene.hinges, hinge_fields, parts, found);
-  else if (parts.list == "synchronisations")
-    match<Synchronisation>(Owner::synchronisation, scene.synchronisations, synchronisation_fields,
-                           parts, found);
-  else if (parts.list == "environment")
-    match<Environment>(Owner::environment, {&scene.environment, 1}, environment_fields, parts,
-                       found);
+  ParameterMatches found = find_matches(scene, parts);
   if (!found.matches.empty())
     found.expected.clear();
   else if (const std::string other = other_stop(parts);
-           !other.empty() && !resolve(scene, other).matches.empty())
+           !other.empty() && !find_matches(scene, split(other)).matches.empty())
     found.expected += fmt::format(" (did you mean \"{}\"?)", other);
   else if (found.expected.empty())
     found.expected = "the path of a parameter" + did_you_mean(path, candidates(scene, parts));
