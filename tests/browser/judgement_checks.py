@@ -80,6 +80,31 @@ class JudgementChecks:
         bars = self.run_script("W.set().statuses = [['deployed', 1990], ['stalled', 6], ['failed', 4], ['invalid', 0]].map(([status, count]) => ({ status, count, rate: count / 2000, lower: 0, upper: 1 })); W.outcomes(); return [...document.querySelectorAll('.stack span')].map(one => [one.className, Number(one.style.flexGrow)])")
         self.assertEqual(bars, [["deployed", 1990], ["stalled", 12], ["failed", 12]])  # the few can be seen
 
+    def test_the_worst_is_what_uses_most_of_its_allowance_then_what_has_the_least_margin(self):
+        self.open(pages.made_up("plain"))
+        order = lambda *given: (self.told("#verdicts", list(given)), self.run_script("return W.verdicts.judged().map(row => row.requirement.text).join('')"))[1]
+        self.assertEqual(order(stated("A", broken=0, allowed=22, margin=1), stated("B", broken=4, allowed=22, margin=90), stated("C", broken=1, allowed=0)), "CBA")
+        self.assertEqual(order(stated("A", broken=4, allowed=22), stated("B", broken=4, allowed=12), stated("C", "open", allowed=None), stated("D", "failed", broken=13)), "DCBA")
+        self.assertEqual(order(stated("A", margin=40), stated("B", margin=2), stated("C", margin=20, limit=50)), "BAC")  # 0.2, 0.01 and 0.4 of the limit
+        self.assertEqual(order(stated("A", **{**SHARE, "guaranteed": 0.99923}), stated("B", **{**SHARE, "guaranteed": 0.99885})), "BA")
+        self.open(pages.made_up("cases"))
+        share = lambda bound: [stated("D", **{**SHARE, "guaranteed": bound})]
+        self.told("#verdicts", share(0.99923), share(0.99885), share(0.99885))
+        self.assertEqual([row[2] for row in self.table("Requirements, the worst first")][:1], [self.run_script("return W.sets[1].label")])
+
+    def test_a_cell_without_a_margin_names_what_decides(self):
+        self.open(pages.made_up("cases"))
+        none = {"margin": None, "guaranteed_value": None}
+        self.told("#verdicts", [stated("A", "open", **none, cut=135, not_deployed=53, broken=188, allowed=12)], [stated("A", "failed", **none, not_deployed=53, broken=53)],
+                  [stated("A", "open", **none, not_deployed=1, broken=1, cut=1, allowed=None)])
+        (row,) = self.table("Verdict and distance to the limit by case")
+        self.assertEqual([cell[2:].replace("\u00a0", " ").split(" ", 1)[1] for cell in row[1:4]], ["135 peaks cut by t_end", "53 not deployed", "1 not deployed"])
+
+    def test_commands_of_the_page_are_quoted_for_a_shell(self):
+        self.open(pages.made_up("plain"))
+        words = ["results/a_1", "a b&c", "it's", "", "Fl\u00fcgel", "$HOME"]
+        self.assertEqual(self.run_script("return arguments[0].map(W.shellWord)", words), ["results/a_1", "'a b&c'", "'it'\\''s'", "''", "'Fl\u00fcgel'", "'$HOME'"])
+
     def test_why_wings_that_do_not_deploy_break_everything(self):
         self.open(pages.made_up("loads"))
         failed = lambda text, **more: stated(text, "failed", broken=40, not_deployed=40, **more)

@@ -251,7 +251,9 @@ class MarkChecks:
                 self.assertIn({"passed": "pass", "failed": "fail", "open": "undecided"}[one["verdict"]], cell)
                 values = one["limit"] is not None
                 wanted = self.margin(one) if values else 100 * (one["guaranteed"] - one["probability"])
-                if values and one["margin"] is None and one["not_deployed"]:
+                if values and one["margin"] is None and one["allowed"] is not None and one["cut"]:
+                    self.assertIn(f"{one['cut']:,} peak", cell)
+                elif values and one["margin"] is None and one["not_deployed"]:
                     self.assertIn(f"{one['not_deployed']:,} not deployed", cell)
                 elif wanted is None:
                     self.assertNotRegex(cell, NUMBER)

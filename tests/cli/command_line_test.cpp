@@ -72,10 +72,17 @@ TEST_CASE("a command line that makes no sense is refused") {
        "error: --shard: found 3/2, expected I/N with whole numbers 1 ≤ I ≤ N ≤ 1000000\n"
        "error: see wingspread run --help\n"},
       {{"run", "c.json", "--out", "r", "--runs", "0"},
-       "error: --runs: Value 0 not in range 1 to 2147483647\n"
+       "error: --runs: found 0, expected a whole number from 1 to 2147483647\n"
        "error: see wingspread run --help\n"},
+      {{"run", "c.json", "--out", "r", "--runs", "1e3"},
+       "error: --runs: found 1e3, expected a whole number from 1 to 2147483647\n"
+       "error: see wingspread run --help\n"},
+      {{"replay", "r", "--run", "1.5"},
+       "error: --run: found 1.5, expected a whole number at least 0\n"
+       "error: see wingspread replay --help\n"},
       {{"run", "c.json", "--out", "r", "--threads", "0"},
-       "error: --threads: Value 0 not in range 1 to 1024\nerror: see wingspread run --help\n"},
+       "error: --threads: found 0, expected a whole number from 1 to 1024\n"
+       "error: see wingspread run --help\n"},
       {{"run", "c.json", "--out", "r", "--seed", "-1"},
        "error: --seed: found -1, expected an integer from 0 to 2^64 - 1\nerror: see wingspread run "
        "--help\n"},

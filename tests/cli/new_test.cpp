@@ -1,3 +1,4 @@
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>
@@ -94,4 +95,47 @@ TEST_CASE("an example is copied by its name, and runs from its copy") {
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.error, HasFacts({"--example", "one of bending_wings, correlated, long_chain, ",
                                       "yoke_wing"}));
+}
+
+namespace {
+
+/// Collects the commands in a page's data.
+void find_commands(const Json& part, std::vector<std::string>& commands) {
+  if (part.is_string() && part.get_ref<const std::string&>().starts_with("wingspread "))
+    commands.push_back(part.get<std::string>());
+  if (part.is_structured())
+    for (const Json& each : part) find_commands(each, commands);
+}
+
+} // namespace
+
+TEST_CASE("printed commands quote their paths for a shell") {
+  const Folder folder;
+  const std::string wing = folder.path() / "it's a&b", quoted = shell_word(wing + "/campaign.json");
+  REQUIRE(quoted.ends_with(R"(/it'\''s a&b/campaign.json')"));
+  const auto made = run_program(folder, {"new", "--panels", "1", "--name", "w", "--out", wing});
+  REQUIRE(made.code == 0);
+  CHECK_THAT(made.out,
+             HasFacts({"  wingspread check " + quoted + " --draw ",
+                       "  wingspread run " + quoted + " --out ", "  wingspread report "}));
+  CHECK_THAT(
+      read_text(wing + "/README.md").value(),
+      Catch::Contains("    wingspread new --name w --panels 1 --out " + shell_word(wing) + "\n"));
+  const std::string results = wing + "/r 1", campaign = wing + "/campaign.json";
+  const Finished done =
+      run_program(folder, {"run", campaign, "--out", results, "--runs", "20", "--table"});
+  REQUIRE(done.code <= 1);
+  REQUIRE(run_program(folder, {"report", results}).code == 0);
+  std::vector<std::string> commands;
+  find_commands(page_data(results + "/report.html"), commands);
+  REQUIRE(commands.size() >= 3); // how the page, the runs and a motion are made
+  for (const std::string& command : commands) {
+    CAPTURE(command);
+    const std::size_t at = command.find(folder.path().string());
+    CHECK((at == std::string::npos || command[at - 1] == '\''));
+  }
+  const auto replayed = run_program(
+      folder, {"replay", results, "--case", "cold", "--run", "0", "--scene", wing + "/s 1.json"});
+  CHECK_THAT(replayed.out,
+             Catch::Contains("\n  wingspread simulate " + shell_word(wing + "/s 1.json") + " "));
 }

@@ -241,6 +241,22 @@ class Errors(InFolder):
         self.assertEqual(str(raised.exception), self.texts("simulate", SCENE, "--set", "hinges.rot.spring.scale=2.0"))
         with self.assertRaisesRegex(wingspread.SpecError, "--threads: found -2"):
             wingspread.run(small(), threads=-2)
+        whole = "a whole number from "
+        for make, option, found, expected in [
+                (lambda: wingspread.run(small(), seed=-1), "--seed", "-1", whole + "0 to 18446744073709551615"),
+                (lambda: wingspread.run(small(), runs=2.5), "--runs", "2.5", whole + "1 to 2147483647"),
+                (lambda: wingspread.run(small(), runs="2"), "--runs", "'2'", whole + "1 to 2147483647"),
+                (lambda: wingspread.run(small(), runs=True), "--runs", "True", whole + "1 to 2147483647"),
+                (lambda: wingspread.fit(small(), small(), runs=-1), "--runs", "-1", whole + "0 to 2147483647"),
+                (lambda: wingspread.evaluate(SCENE, ["hinges.*.spring.scale"], [[1]], threads=1.5), "--threads", "1.5",
+                 whole + "0 to 1024"),
+                (lambda: wingspread.simulate(SCENE, dt=0), "--dt", "0", "a number, s, > 0"),
+                (lambda: wingspread.simulate(SCENE, t_end="5 s"), "--t-end", "'5 s'", "a number, in SI units")]:
+            with self.assertRaises(wingspread.SpecError) as raised:
+                make()
+            self.assertEqual(str(raised.exception), f"{option}: found {found}, expected {expected}")
+            self.assertEqual(raised.exception.problems, [("", option, found, expected)])
+        self.assertEqual(wingspread.run(small(), runs=np.int64(2), seed=np.uint64(2**64 - 1)).size, 2)
         with self.assertRaisesRegex(wingspread.SpecError, r"paths\[0\].*did you mean .hinges.root"):
             wingspread.Model(SCENE, ["hinges.rooot.spring.scale"])
 

@@ -4,6 +4,7 @@
 #include "montecarlo/analyses/run/timing.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/machine_error.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 #include "montecarlo/results/streaming/streaming_folder.hpp"
@@ -115,7 +116,7 @@ bool run_folder(const Campaign& campaign, const std::filesystem::path& out,
     } catch (const MachineError& error) {
       throw MachineError(fmt::format("{}\n{}, without statistics: `wingspread analyze {}` makes "
                                      "them once there is room",
-                                     error.what(), describe(runs), out.string()));
+                                     error.what(), describe(runs), shell_word(out.string())));
     }
   }
   if (wanted && !runs.interrupted) return true;

@@ -1,6 +1,7 @@
 #include "montecarlo/analyses/sensitivity/design_merge.hpp"
 
 #include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 #include "montecarlo/results/results_folder/parts.hpp"
 

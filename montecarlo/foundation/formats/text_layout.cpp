@@ -13,6 +13,17 @@ namespace {
 /// Whether the byte is the first byte of a character.
 bool starts_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }
 
+/// Heuristic: nobody writes a number with more digits, a conversion to SI has all 17.
+constexpr std::size_t most_given_digits = 10;
+
+/// The number with all its digits, or with six if a conversion made them: 56.4924 of "500 in*lbf", which is
+/// 56.49241451380835 N·m.
+std::string given_digits(double value) {
+  const std::string all = fmt::format("{}", value);
+  const auto digits = std::ranges::count_if(all, [](char c) { return c >= '0' && c <= '9'; });
+  return static_cast<std::size_t>(digits) > most_given_digits ? fmt::format("{:.6g}", value) : all;
+}
+
 } // namespace
 
 std::size_t count_characters(std::string_view text) {
@@ -113,13 +124,16 @@ std::string degrees_text(double radians) {
 }
 
 std::string as_written(double value, std::string_view unit) {
-  const std::string number = fmt::format("{}", value);
+  const std::string number = given_digits(value);
   if (unit != "rad" && unit != "rad/s")
     return unit.empty() ? number : fmt::format("{} {}", number, unit);
   // twelve digits: the conversion from degrees and back costs a rounding
   const std::string degrees = fmt::format("{:.12g}", value * 180 / std::numbers::pi);
-  return degrees.size() < number.size() ? fmt::format("{} deg{}", degrees, unit.substr(3))
-                                        : fmt::format("{} {}", number, unit);
+  if (degrees.size() >= fmt::format("{}", value).size()) return fmt::format("{} {}", number, unit);
+  const bool is_exact = degrees.size() <= most_given_digits;
+  return fmt::format("{} deg{}",
+                     is_exact ? degrees : fmt::format("{:.6g}", value * 180 / std::numbers::pi),
+                     unit.substr(3));
 }
 
 std::string spaced(std::string_view name) {

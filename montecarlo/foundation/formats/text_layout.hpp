@@ -44,7 +44,8 @@ inline constexpr int table_width = 100;
 [[nodiscard]] std::string degrees_text(double radians);
 
 /// A value as its author wrote it: an angle or a rate in degrees where that number is shorter, "8 deg/s" of
-/// 0.13962634015954636 rad/s; else all its digits, "1.5 rad/s".
+/// 0.13962634015954636 rad/s; else all its digits, "1.5 rad/s". A number that a conversion to SI gave more than ten
+/// digits has six: "56.4924 N·m" of "500 in*lbf".
 [[nodiscard]] std::string as_written(double value, std::string_view unit);
 
 /// "timed out" of "timed_out".

@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <exception>
 #include <fcntl.h>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <string_view>
@@ -144,6 +145,10 @@ int run_action(const Action& action) {
     return action();
   } catch (const MachineError& error) {
     return print_error(error.what(), exit_code::machine_refused);
+  } catch (const std::filesystem::filesystem_error& error) { // a path at which nobody may look
+    return run_action([&]() -> int {
+      refuse_path(error.path1(), error.code().value(), "a path that can be opened");
+    });
   } catch (const std::system_error& error) { // from standard output or threads
     return print_error(error.what(), exit_code::machine_refused);
   } catch (const std::bad_alloc&) {

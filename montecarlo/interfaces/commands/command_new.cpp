@@ -1,4 +1,5 @@
 #include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/formats/spec_error.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
@@ -47,12 +48,13 @@ void write_new_files(const std::filesystem::path& folder, const NewFiles& files)
 
 /// Prints the commands that come next.
 void print_next(const std::filesystem::path& folder, std::string_view campaign) {
-  const std::string file = (folder / campaign).string(), results = (folder / "results").string();
+  const std::string file = shell_word((folder / campaign).string());
+  const std::string results = shell_word((folder / "results").string());
   fmt::print("next:\n"
              "  wingspread check {0} --draw {1}\n"
              "  wingspread run {0} --out {2} --table\n"
              "  wingspread report {2}\n",
-             file, (folder / "wing.svg").string(), results);
+             file, shell_word((folder / "wing.svg").string()), results);
 }
 
 int copy_example(const NewOptions& options) {
@@ -71,7 +73,7 @@ int make_new(const NewOptions& options) {
   if (!options.example.empty()) return copy_example(options);
   const bool asks = !options.designed && isatty(STDIN_FILENO) == 1;
   const WingDesign design = asks ? ask_design(std::cin, std::cout) : options.design;
-  const Starter starter = make_starter(design, command_of(design));
+  const Starter starter = make_starter(design, command_of(design, options.out.string()));
   const std::filesystem::path folder =
       options.out.empty() ? std::filesystem::path(design.name) : options.out;
   write_new_files(folder, {{starter_scene_file, starter.scene},

@@ -1,4 +1,5 @@
 #include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"

@@ -2,6 +2,7 @@
 #include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
@@ -118,7 +119,7 @@ int replay(const ReplayOptions& options) {
   fmt::print("{}", options.json ? json_text(replay_json(replayed)) : replay_text(replayed));
   if (!options.scene.empty() && !options.json)
     fmt::print("Its scene: {}\n  wingspread simulate {}{}\n", options.scene.string(),
-               options.scene.string(), options_of(integration));
+               shell_word(options.scene.string()), options_of(integration));
   for (const std::string& difference : replayed.differences)
     fmt::print(stderr, "error: {}\n", difference);
   const int code = status_code(replayed.outcome);

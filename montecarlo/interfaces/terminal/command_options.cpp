@@ -39,9 +39,14 @@ CLI::Option* limited(CLI::Option* option, std::string_view limits) {
 
 CLI::Option* within(CLI::Option* option, std::int64_t least, std::int64_t most) {
   const bool open = most == std::numeric_limits<std::int64_t>::max();
-  option->check(CLI::Range(least, most).description(""));
-  return limited(option, open ? fmt::format("at least {}", least)
-                              : fmt::format("from {} to {}", least, most));
+  const std::string limits =
+      open ? fmt::format("at least {}", least) : fmt::format("from {} to {}", least, most);
+  option->check([=](const std::string& text) -> std::string {
+    const auto number = parse_number<std::int64_t>(text);
+    if (number && *number >= least && *number <= most) return "";
+    return fmt::format("found {}, expected a whole number {}", text, limits);
+  });
+  return limited(option, limits);
 }
 
 CLI::Option* one_of(CLI::Option* option, std::vector<std::string> words) {

@@ -1,6 +1,7 @@
 #include "montecarlo/interfaces/terminal/design_questions.hpp"
 
 #include "montecarlo/foundation/formats/number_text.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
 
 #include <fmt/format.h>
 
@@ -107,10 +108,10 @@ WingDesign ask_design(std::istream& in, std::ostream& out) {
   return design;
 }
 
-std::string command_of(const WingDesign& design) {
+std::string command_of(const WingDesign& design, const std::string& out) {
   const WingDesign usual;
   std::string text = "wingspread new";
-  if (design.name != usual.name) text += " --name " + design.name;
+  if (design.name != usual.name) text += " --name " + shell_word(design.name);
   if (design.wings != usual.wings) text += fmt::format(" --wings {}", design.wings);
   if (design.panels != usual.panels) text += fmt::format(" --panels {}", design.panels);
   if (design.yoke) text += " --yoke";
@@ -118,6 +119,7 @@ std::string command_of(const WingDesign& design) {
     if (design.*number.value != usual.*number.value)
       text += fmt::format(" {} {}", number.option, design.*number.value);
   if (design.damper) text += fmt::format(" {} {}", damper_option, *design.damper);
+  if (!out.empty()) text += " --out " + shell_word(out);
   return text;
 }
 

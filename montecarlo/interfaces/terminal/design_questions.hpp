@@ -20,7 +20,8 @@ read_design_number(std::string_view text, const DesignNumber& number, WingDesign
 /// its answer can be read. At the end of the input all remaining parts keep their values.
 [[nodiscard]] WingDesign ask_design(std::istream& in, std::ostream& out);
 
-/// "wingspread new --panels 4 --yoke": the options that differ from the defaults.
-[[nodiscard]] std::string command_of(const WingDesign& design);
+/// "wingspread new --panels 4 --yoke --out wing": the options that differ from the defaults, ready for a shell.
+/// @param out the folder of --out; empty: not given
+[[nodiscard]] std::string command_of(const WingDesign& design, const std::string& out = "");
 
 } // namespace wingspread

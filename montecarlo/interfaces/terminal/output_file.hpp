@@ -6,9 +6,9 @@
 
 namespace wingspread {
 
-/// Refuses a file for `--out` that would overwrite input or results: a file that the command reads, or that the
-/// campaign names (its scene, the table of an empirical law); any JSON file, because scenes and campaigns are JSON
-/// files; a file of a results folder.
+/// Refuses a file for `--out` that would overwrite input or results: a file that the command reads, or that a text of
+/// its campaign or scene names (a scene, the table or the rows of a dispersion); any JSON file, because scenes and
+/// campaigns are JSON files; a file of any results folder. A link counts as the file to which it leads.
 /// @param out  the file; may be empty
 /// @param read the files and results folders that the command reads
 /// @throws SpecError that names the option

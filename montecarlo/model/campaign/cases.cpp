@@ -79,7 +79,7 @@ private:
                      "the name of a dispersion with a distribution");
       spec.distributions.push_back(
           {name, read_distribution(place, directory_,
-                                   listed ? unit_of_draws(*listed, scene_) : std::string_view())});
+                                   listed ? unit_of_draws(*listed, scene_) : std::nullopt)});
     }
   }
 

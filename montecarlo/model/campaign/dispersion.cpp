@@ -82,21 +82,6 @@ std::vector<Dispersion> expand(const JsonCursor& each, const Scene* scene,
   return copies;
 }
 
-/// The common unit of all parameters of these paths; empty if there is none.
-std::string_view common_unit(const Json& paths, const Scene& scene) {
-  std::set<std::string_view> units;
-  const auto add = [&](const Json& path) {
-    if (!path.is_string()) return;
-    for (const ParameterMatch& match : resolve(scene, path.get<std::string>()).matches)
-      units.insert(unit_of(match.parameter));
-  };
-  if (paths.is_array())
-    for (const Json& path : paths) add(path);
-  else
-    add(paths);
-  return units.size() == 1 ? *units.begin() : "";
-}
-
 /// Reads a table's `at`.
 bool read_knots(JsonObject& table, std::vector<double>& at_draws) {
   const std::string expected = fmt::format("an array of 2 to {} numbers, ascending", most_knots);
@@ -106,14 +91,19 @@ bool read_knots(JsonObject& table, std::vector<double>& at_draws) {
   return check_ascending(*at, at_draws, "draw");
 }
 
+/// @param unit     nothing: unknown
 /// @param resolved the table's JSON; receives the values in SI
-void read_drive_table(const JsonCursor& at, std::string_view unit, Driven& driven, Json& resolved) {
+void read_drive_table(const JsonCursor& at, std::optional<std::string_view> unit, Driven& driven,
+                      Json& resolved) {
   JsonObject object(at, expected_drive_table);
   std::vector<double> draws, values;
   bool good = read_knots(object, draws);
   const auto value = object.require("value", "an array with a number for each draw");
   if (value) value->note_quantity("in the parameter's unit, of a scale a factor");
-  good = good && value && read_column_beside(*value, draws, "draws", Dimension{unit}, values);
+  const std::size_t before = at.problems().size();
+  good = good && value &&
+         read_column_beside(*value, draws, "draws", Dimension{unit.value_or("")}, values);
+  if (!unit) drop_quantities(before, at.problems());
   object.refuse_others();
   if (!good) return;
   resolved = {{"at", draws}, {"value", values}};
@@ -128,8 +118,9 @@ Driven read_driven(const JsonCursor& at, const Scene* scene, Json& resolved) {
   if (const auto to = object.require("to", "an array of at least one parameter's path"))
     driven.targets = read_paths(*to, scene);
   object.required_choice("apply", driven.apply, apply_names);
-  const bool has_unit = scene && driven.apply != Apply::scale && at.value().is_object();
-  const std::string_view unit = has_unit ? common_unit(at.value().value("to", Json()), *scene) : "";
+  std::optional<std::string_view> unit = "";
+  if (driven.apply != Apply::scale && at.value().is_object())
+    unit = scene ? common_unit(at.value().value("to", Json()), *scene) : std::nullopt;
   if (const auto table = object.require("table", expected_drive_table))
     read_drive_table(*table, unit, driven, resolved["table"]);
   object.refuse_others();
@@ -359,16 +350,6 @@ void apply_to(double& parameter, Apply how, double value) {
     parameter += value;
     break;
   }
-}
-
-std::string_view unit_of_draws(const Json& spec, const Scene* scene) {
-  if (!scene || !spec.is_object() || spec.value("apply", Json()) == "scale") return "";
-  Json paths = Json::array();
-  for (const char* key : {"to", "each"})
-    if (const auto named = spec.find(key); named != spec.end())
-      for (const Json& path : named->is_array() ? *named : Json::array({*named}))
-        paths.push_back(path);
-  return common_unit(paths, *scene);
 }
 
 std::vector<SharedTarget> shared_targets(std::span<const Dispersion> dispersions,

@@ -72,12 +72,6 @@ struct Coordinates {
 [[nodiscard]] Dispersions read_dispersions(const JsonCursor& at, const Scene* scene,
                                            const std::filesystem::path& directory);
 
-/// The unit of a dispersion's draws: the common unit of all targets for "set" and "add". Empty for "scale", for tables,
-/// and without a common unit.
-/// @param spec  the dispersion's JSON
-/// @param scene null if the scene has problems
-[[nodiscard]] std::string_view unit_of_draws(const Json& spec, const Scene* scene);
-
 /// Parameters that the same draws change one after the other.
 struct SharedTarget {
   std::vector<std::string> paths;

@@ -2,12 +2,14 @@
 
 #include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/model/scene_file/scene_parameter.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <span>
 #include <sstream>
 #include <utility>
@@ -162,8 +164,48 @@ void read_csv_column(const JsonCursor& at, const std::string& name, const std::s
   }
 }
 
+std::optional<std::string_view> common_unit(const Json& paths, const Scene& scene) {
+  std::set<std::string_view> units;
+  const auto add = [&](const Json& path) {
+    if (!path.is_string()) return;
+    for (const ParameterMatch& match : resolve(scene, path.get<std::string>()).matches)
+      units.insert(unit_of(match.parameter));
+  };
+  if (paths.is_array())
+    for (const Json& path : paths) add(path);
+  else
+    add(paths);
+  if (units.empty()) return std::nullopt;
+  return units.size() == 1 ? *units.begin() : "";
+}
+
+std::optional<std::string_view> unit_of_draws(const Json& spec, const Scene* scene) {
+  if (!spec.is_object() || spec.value("apply", Json()) == "scale") return "";
+  Json paths = Json::array();
+  for (const char* key : {"to", "each"})
+    if (const auto named = spec.find(key); named != spec.end())
+      for (const Json& path : named->is_array() ? *named : Json::array({*named}))
+        paths.push_back(path);
+  if (paths.empty()) return ""; // through tables: draws have no unit
+  return scene ? common_unit(paths, *scene) : std::nullopt;
+}
+
+bool drop_quantities(std::size_t before, std::vector<Problem>& problems) {
+  constexpr std::string_view begin = "string \"", number = "+-.0123456789";
+  const auto is_quantity = [&](const Problem& problem) {
+    return problem.found.starts_with(begin) && problem.found.size() > begin.size() &&
+           number.find(problem.found[begin.size()]) != std::string_view::npos;
+  };
+  const auto dropped = std::remove_if(problems.begin() + static_cast<std::ptrdiff_t>(before),
+                                      problems.end(), is_quantity);
+  const bool any = dropped != problems.end();
+  problems.erase(dropped, problems.end());
+  return any;
+}
+
 Distribution read_distribution(const JsonCursor& at, const std::filesystem::path& directory,
-                               std::string_view unit) {
+                               std::optional<std::string_view> known_unit) {
+  const std::string_view unit = known_unit.value_or("");
   const std::size_t before = at.problems().size();
   Distribution distribution;
   constexpr std::string_view what = "a distribution: an object with its type";
@@ -183,6 +225,7 @@ Distribution read_distribution(const JsonCursor& at, const std::filesystem::path
   if (const auto truncate = object.find("truncate"))
     read_truncation(*truncate, distribution.truncate, unit);
   object.refuse_others();
+  if (!known_unit && drop_quantities(before, at.problems())) return distribution;
   const std::vector<Problem> unread(at.problems().begin() + static_cast<std::ptrdiff_t>(before),
                                     at.problems().end());
   for (const DistributionFault& fault : faults(distribution))

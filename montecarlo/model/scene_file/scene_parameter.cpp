@@ -101,6 +101,16 @@ void list_paths(const std::string& prefix, const Named& owner,
     if (field.in(owner)) paths.push_back(prefix + std::string(field.path));
 }
 
+/// The path of the stop at the hinge's other side; empty if the path is no stop's.
+std::string other_stop(const Path& path) {
+  constexpr std::string_view stowed = "stop.", latched = "far_stop.";
+  const auto with = [&](std::string_view stop, std::size_t used) {
+    return fmt::format("{}.{}.{}{}", path.list, path.name, stop, path.field.substr(used));
+  };
+  if (path.field.starts_with(stowed)) return with(latched, stowed.size());
+  return path.field.starts_with(latched) ? with(stowed, latched.size()) : "";
+}
+
 /// All paths of the scene, for suggestions; names that match the path's pattern are replaced by the pattern.
 std::vector<std::string> candidates(const Scene& scene, const Path& path) {
   std::vector<std::string> paths = parameter_paths(scene);
@@ -111,6 +121,24 @@ std::vector<std::string> candidates(const Scene& scene, const Path& path) {
       candidate = fmt::format("{}.{}.{}", list, path.name, field);
   }
   return paths;
+}
+
+/// The matches of a path, or what its owner would need.
+ParameterMatches find_matches(const Scene& scene, const Path& parts) {
+  ParameterMatches found;
+  if (parts.list == "base")
+    match<Base>(Owner::base, {&scene.base, 1}, base_fields, parts, found);
+  else if (parts.list == "bodies")
+    match<Body>(Owner::body, scene.bodies, body_fields, parts, found);
+  else if (parts.list == "hinges")
+    match<Hinge>(Owner::hinge, scene.hinges, hinge_fields, parts, found);
+  else if (parts.list == "synchronisations")
+    match<Synchronisation>(Owner::synchronisation, scene.synchronisations, synchronisation_fields,
+                           parts, found);
+  else if (parts.list == "environment")
+    match<Environment>(Owner::environment, {&scene.environment, 1}, environment_fields, parts,
+                       found);
+  return found;
 }
 
 } // namespace
@@ -129,21 +157,12 @@ double SceneParameter::in(const Scene& scene) const {
 
 ParameterMatches resolve(const Scene& scene, std::string_view path) {
   const Path parts = split(path);
-  ParameterMatches found;
-  if (parts.list == "base")
-    match<Base>(Owner::base, {&scene.base, 1}, base_fields, parts, found);
-  else if (parts.list == "bodies")
-    match<Body>(Owner::body, scene.bodies, body_fields, parts, found);
-  else if (parts.list == "hinges")
-    match<Hinge>(Owner::hinge, scene.hinges, hinge_fields, parts, found);
-  else if (parts.list == "synchronisations")
-    match<Synchronisation>(Owner::synchronisation, scene.synchronisations, synchronisation_fields,
-                           parts, found);
-  else if (parts.list == "environment")
-    match<Environment>(Owner::environment, {&scene.environment, 1}, environment_fields, parts,
-                       found);
+  ParameterMatches found = find_matches(scene, parts);
   if (!found.matches.empty())
     found.expected.clear();
+  else if (const std::string other = other_stop(parts);
+           !other.empty() && !find_matches(scene, split(other)).matches.empty())
+    found.expected += fmt::format(" (did you mean \"{}\"?)", other);
   else if (found.expected.empty())
     found.expected = "the path of a parameter" + did_you_mean(path, candidates(scene, parts));
   return found;

@@ -3,6 +3,7 @@
 #include "montecarlo/analyses/sensitivity/levers.hpp"
 #include "montecarlo/analyses/sensitivity/rank_report.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/results/results_folder/parts.hpp"

@@ -1,6 +1,7 @@
 #include "montecarlo/report/data/motions_json.hpp"
 
 #include "montecarlo/engine/runs/runner.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/report/data/motion.hpp"
@@ -214,7 +215,7 @@ Json nominal_json(const PageSource& source, std::size_t most) {
             {"why", "dispersions at their medians"},
             {"run", nullptr},
             {"replay", fmt::format("wingspread simulate {}",
-                                   (source.stored.folder / campaign_file).string())}};
+                                   shell_word((source.stored.folder / campaign_file).string()))}};
   json.update(motion_json(campaign.scene, recorder, outcome, most));
   return json;
 }

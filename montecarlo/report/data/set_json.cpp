@@ -1,5 +1,6 @@
 #include "montecarlo/report/data/set_json.hpp"
 
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/report/data/causes_json.hpp"
 #include "montecarlo/report/data/envelopes_json.hpp"
 #include "montecarlo/report/data/inputs_json.hpp"
@@ -23,9 +24,9 @@ std::string made_by(const PageSource& source) {
   const StoredCampaign& stored = source.stored;
   if (stored.foreign) return "";
   std::string text = fmt::format("wingspread run {} --seed {} --runs {}",
-                                 (source.made_from / campaign_file).string(), stored.stamp.seed,
-                                 stored.campaign.sampling.runs);
-  for (const std::string& name : source.made_cases) text += " --case " + name;
+                                 shell_word((source.made_from / campaign_file).string()),
+                                 stored.stamp.seed, stored.campaign.sampling.runs);
+  for (const std::string& name : source.made_cases) text += " --case " + shell_word(name);
   if (const auto& shard = stored.stamp.shard)
     text += fmt::format(" --shard {}/{}", shard->index, shard->of);
   if (!source.has_rows()) text += " --no-rows";

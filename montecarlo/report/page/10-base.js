@@ -108,6 +108,8 @@
     if (navigator.clipboard && window.isSecureContext) navigator.clipboard.writeText(text).then(done, older);
     else older();
   };
+  // A word of a command as a shell takes it, by the rule of the program's own commands (shell_word in printable.hpp).
+  W.shellWord = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
   W.command = function (text, what) {
     const onclick = function (event) {
       W.copy(text, what);

@@ -82,12 +82,14 @@
   };
   // A limit as its author wrote it: in degrees where that is the shorter number, "5 deg/s". The displayed unit follows in
   // brackets if it is another.
+  // A number that a conversion to SI gave more than ten digits has six: 56.4924 N·m of "500 in*lbf".
+  const givenDigits = (value) => F.given(String(value).replace(/\D/g, "").length > 10 ? Number(value.toPrecision(6)) : value);
   F.written = function (value, unit) {
-    if (!F.angular(unit)) return `${F.given(value)} ${F.unit(unit)}`.trim();
+    if (!F.angular(unit)) return `${givenDigits(value)} ${F.unit(unit)}`.trim();
     const degrees = Number((value * F.DEGREES).toPrecision(12)),
       short = String(degrees).length < String(value).length,
-      inDegrees = `${F.given(degrees)} ${F.unit(unit).replace("rad", "deg")}`,
-      inRadians = `${F.given(value)} ${F.unit(unit)}`;
+      inDegrees = `${givenDigits(degrees)} ${F.unit(unit).replace("rad", "deg")}`,
+      inRadians = `${givenDigits(value)} ${F.unit(unit)}`;
     if (short) return W.chosen.angles === "deg" ? inDegrees : `${inDegrees} (${F.number(value, 4)} ${F.unit(unit)})`;
     return W.chosen.angles === "rad" ? inRadians : `${inRadians} (${F.number(degrees, 4)} ${F.unit(unit).replace("rad", "deg")})`;
   };

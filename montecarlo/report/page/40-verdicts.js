@@ -27,17 +27,27 @@
     return one.upper ? one.limit - one.observed_value : one.observed_value - one.limit;
   }
 
-  // Every requirement of every set, the worst first: by verdict, then by margin relative to the limit. A requirement on a
-  // share has no such margin; its share of broken runs beyond the allowed one takes its place.
+  // Broken runs as a share of those that may break the requirement; without enough runs for that number, of those expected.
+  function usedShare({ requirement: one, set }) {
+    const allowed = W.isNumber(one.allowed) ? one.allowed : set.runs * (1 - one.probability);
+    return one.broken === 0 ? 0 : allowed > 0 ? one.broken / allowed : Infinity;
+  }
+  // The distance to the limit by the limit, or, of a share, by the share that may break the requirement: less is worse.
+  function relativeMargin({ requirement: one }) {
+    const margin = marginOf(one);
+    if (margin !== null) return one.limit !== 0 ? margin / Math.abs(one.limit) : margin;
+    return ((W.isNumber(one.guaranteed) ? one.guaranteed : one.observed) - one.probability) / (1 - one.probability);
+  }
+  // Every requirement of every set, the worst first: by verdict, by the share of the allowed failures that is used up, by
+  // margin. Requirements and sets with equal numbers keep their order.
   function judged() {
     const all = W.sets.flatMap((set, at) => (set.requirements || []).map((requirement) => ({ set, at, requirement })));
-    const strain = ({ requirement: one, set }) =>
-      marginOf(one) !== null && one.limit !== 0
-        ? -marginOf(one) / Math.abs(one.limit)
-        : one.broken / Math.max(1, set.runs) - (1 - one.probability);
+    const falling = (a, b) => (a === b ? 0 : b - a);
     return all.sort(
       (a, b) =>
-        RANK[verdictOf(a.requirement.verdict)] - RANK[verdictOf(b.requirement.verdict)] || strain(b) - strain(a),
+        RANK[verdictOf(a.requirement.verdict)] - RANK[verdictOf(b.requirement.verdict)] ||
+        falling(usedShare(a), usedShare(b)) ||
+        falling(-relativeMargin(a), -relativeMargin(b)),
     );
   }
 
@@ -280,6 +290,13 @@
       h("p.note", `${shortOf(one)}: no run breaks it. Its distance is small because ${F.runs(set.runs)} can show no more than ${F.share(one.guaranteed)} at ${F.given(100 * one.confidence)} % confidence.`),
     );
   }
+  // Why a requirement has no margin to show: peaks that t_end cut decide where there are runs enough, then wings that did
+  // not deploy; else there are too few runs.
+  function whyNone(one) {
+    if (one.allowed !== null && one.cut > 0) return `${F.count(one.cut)} ${one.cut === 1 ? "peak" : "peaks"} cut by t_end`;
+    if (one.not_deployed) return `${F.count(one.not_deployed)} not deployed`;
+    return verdictOf(one.verdict) === "open" && !one.one_run ? "too few runs" : F.none;
+  }
   // One cell per requirement and case.
   function matrix(rows) {
     const texts = [...new Set(rows.map((row) => keyOf(row.requirement)))],
@@ -294,7 +311,7 @@
       const one = row.requirement,
         margin = marginText(one, row.set),
         known = margin !== F.none && (W.isNumber(one.margin) || !W.isNumber(one.limit) || !one.not_deployed);
-      return h("span.cell", W.verdictBadge(one.verdict, true), " ", known ? margin : one.not_deployed ? `${F.count(one.not_deployed)} not deployed` : F.none);
+      return h("span.cell", W.verdictBadge(one.verdict, true), " ", known ? margin : whyNone(one));
     };
     return W.table(
       "Verdict and distance to the limit by case",

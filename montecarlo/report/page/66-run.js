@@ -139,7 +139,7 @@
       run,
       status: made.status,
       reason: made.reason,
-      replay: run === null || changed ? null : `wingspread replay ${set.folder} --run ${run}`,
+      replay: run === null || changed ? null : `wingspread replay ${W.shellWord(set.folder)} --run ${run}`,
       t: made.t,
       angles: made.angles,
       rates: made.rates,

@@ -129,7 +129,7 @@
     const set = W.sets[choice.set],
       motion = (set.motions || []).findIndex((one) => one.run === choice.run),
       known = motion >= 0 ? set.motions[motion] : null;
-    const command = known ? known.replay : `wingspread replay ${set.folder} --run ${choice.run}`;
+    const command = known ? known.replay : `wingspread replay ${W.shellWord(set.folder)} --run ${choice.run}`;
     const values = Object.entries(choice.values).map(([name, value]) => {
       const output = W.outputsOf(set).find((one) => one.name === name);
       return h(

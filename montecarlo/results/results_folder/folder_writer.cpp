@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json_reader.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/results_folder/differences.hpp"
 #include "montecarlo/results/results_folder/replay.hpp"
 
 #include <fmt/format.h>
@@ -33,46 +34,15 @@ std::optional<std::string> fixed_runs(const StoredCampaign& there, const Campaig
   return std::nullopt;
 }
 
-/// A value that differs between two documents; null: missing.
-struct Difference {
-  std::string pointer;
-  const Json *found, *expected;
-};
-
-/// Finds the innermost values that differ; arrays of different lengths differ as a whole.
-void find_differences(const Json& found, const Json& expected, const std::string& pointer,
-                      std::vector<Difference>& all) {
-  if (found.is_object() && expected.is_object()) {
-    for (const auto& [key, value] : found.items())
-      if (!expected.contains(key)) all.push_back({pointer + pointer_token(key), &value, nullptr});
-    for (const auto& [key, value] : expected.items()) {
-      const auto there = found.find(key);
-      if (there == found.end())
-        all.push_back({pointer + pointer_token(key), nullptr, &value});
-      else
-        find_differences(*there, value, pointer + pointer_token(key), all);
-    }
-  } else if (found.is_array() && expected.is_array() && found.size() == expected.size()) {
-    for (std::size_t i = 0; i < found.size(); ++i)
-      find_differences(found[i], expected[i], fmt::format("{}/{}", pointer, i), all);
-  } else if (found != expected) {
-    all.push_back({pointer, &found, &expected});
-  }
-}
-
-std::string describe_side(const Json* value) { return value ? describe_value(*value) : "nothing"; }
-
 /// Adds problems if the campaign differs from the stored one: the first values that differ, or the hashes if only the
 /// order of keys differs.
 /// @param told pointer of a value that is already reported
 void refuse_differences(const StoredCampaign& there, const Campaign& ours, std::string_view told,
                         std::vector<Problem>& problems) {
-  constexpr std::size_t most_told = 5;
   const std::string file = (there.folder / campaign_file).string();
   const std::string hash = campaign_hash(ours.resolved);
   if (there.stamp.hash == hash) return;
-  std::vector<Difference> all;
-  find_differences(there.campaign.resolved, ours.resolved, "", all);
+  std::vector<Difference> all = find_differences(there.campaign.resolved, ours.resolved);
   std::string reason = all.empty() ? "the same values in another order" : "";
   std::erase_if(all, [&](const Difference& each) { return each.pointer == told; });
   // Earlier extensions are not the user's: a campaign that is the same otherwise continues them.
@@ -80,11 +50,11 @@ void refuse_differences(const StoredCampaign& there, const Campaign& ours, std::
     return each.pointer == "/sampling/extended_from";
   };
   if (!std::ranges::all_of(all, is_extension)) std::erase_if(all, is_extension);
-  for (std::size_t i = 0; i < std::min(all.size(), most_told); ++i)
-    problems.push_back({file, all[i].pointer,
-                        describe_side(all[i].found) + " (when the folder was made)",
-                        describe_side(all[i].expected) + " (now), to continue what is there"});
-  if (all.size() > most_told) reason = fmt::format("{} values differ", all.size());
+  for (std::size_t i = 0; i < std::min(all.size(), most_differences); ++i)
+    problems.push_back(
+        {file, all[i].pointer, describe_or_nothing(all[i].found) + " (when the folder was made)",
+         describe_or_nothing(all[i].expected) + " (now), to continue what is there"});
+  if (all.size() > most_differences) reason = fmt::format("{} values differ", all.size());
   if (!reason.empty())
     problems.push_back({file, "/wingspread/hash", there.stamp.hash,
                         fmt::format("{}, to continue what is there: {}", hash, reason)});

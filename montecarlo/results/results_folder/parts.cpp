@@ -1,5 +1,9 @@
 #include "montecarlo/results/results_folder/parts.hpp"
 
+#include "montecarlo/foundation/formats/json_parse.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
+#include "montecarlo/results/results_folder/differences.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -137,17 +141,31 @@ void PartFaults::refuse() const {
   if (!problems_.empty()) throw SpecError(problems_);
 }
 
-std::string shell_word(const std::string& word) {
-  constexpr std::string_view plain = "_@%+=:,./-";
-  const auto is_plain = [&](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           plain.find(c) != std::string_view::npos;
+namespace {
+
+/// Names the values in which the part's campaign differs from the first one; the hashes if only the order of keys does.
+void tell_differences(const Part& part, const Part& first, const char* file,
+                      std::vector<Problem>& problems) {
+  const auto document = [&](const Part& of) {
+    Json json = parse_json_file(of.folder / file);
+    json.erase(stamp_key);
+    return json;
   };
-  if (!word.empty() && std::ranges::all_of(word, is_plain)) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string(R"('\'')") : std::string(1, c);
-  return quoted + "'";
+  const Json its = document(part), ours = document(first);
+  const std::vector<Difference> all = find_differences(its, ours);
+  const std::string path = (part.folder / file).string(),
+                    as_in = ", as in " + first.folder.string();
+  for (std::size_t i = 0; i < std::min(all.size(), most_differences); ++i)
+    problems.push_back({path, all[i].pointer, describe_or_nothing(all[i].found),
+                        describe_or_nothing(all[i].expected) + as_in});
+  if (all.empty() || all.size() > most_differences)
+    problems.push_back({path, "/wingspread/hash", part.stamp.hash,
+                        fmt::format("{}{}: {}", first.stamp.hash, as_in,
+                                    all.empty() ? "the same values in another order"
+                                                : fmt::format("{} values differ", all.size()))});
 }
+
+} // namespace
 
 void refuse_strangers(const std::vector<Part>& parts, const char* file) {
   const Part& first = parts.front();
@@ -159,7 +177,7 @@ void refuse_strangers(const std::vector<Part>& parts, const char* file) {
         problems.push_back({path, fmt::format("/wingspread/{}", key), found,
                             fmt::format("{}, as in {}", ours, first.folder.string())});
     };
-    compare("hash", part.stamp.hash, first.stamp.hash);
+    if (part.stamp.hash != first.stamp.hash) tell_differences(part, first, file, problems);
     compare("version", part.stamp.version, first.stamp.version);
     if (part.stamp.preview)
       problems.push_back({path, "/wingspread/preview", describe(*part.stamp.preview),

@@ -60,9 +60,6 @@ struct ShardMaker {
   std::string more = ""; ///< after --out and --shard
 };
 
-/// Quotes a word for a shell.
-[[nodiscard]] std::string shell_word(const std::string& word);
-
 /// Refuses folders that do not belong together.
 /// @param file name of the file in each folder that has the stamp
 /// @throws SpecError with each folder of another campaign, seed or version than the first folder, and each preview

@@ -26,10 +26,20 @@ constexpr int name_width = 46, case_width = 13;
 
 using Cases = std::span<const CaseSummary>;
 
+/// Broken runs as a share of those that may break the requirement; without enough runs for that number, of those
+/// expected. The report's page ranks by the same share (40-verdicts.js).
+double used_share(const Verdict& verdict) {
+  if (verdict.failures() == 0) return 0;
+  const double allowed =
+      verdict.allowed ? static_cast<double>(*verdict.allowed)
+                      : static_cast<double>(verdict.runs) * (1 - verdict.requirement.probability);
+  return static_cast<double>(verdict.failures()) / allowed; // infinite if none may
+}
+
 /// Ranks verdicts: smaller is worse.
 auto standing(const Verdict& verdict) {
   constexpr std::array rank{2, 0, 1}; // pass, fail, undecided
-  return std::tuple(rank[static_cast<std::size_t>(verdict.decision)],
+  return std::tuple(rank[static_cast<std::size_t>(verdict.decision)], -used_share(verdict),
                     verdict.margin.value_or(-std::numeric_limits<double>::infinity()),
                     verdict.share);
 }

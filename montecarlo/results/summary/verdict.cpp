@@ -1,5 +1,6 @@
 #include "montecarlo/results/summary/verdict.hpp"
 
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
@@ -299,7 +300,7 @@ std::string evidence(const Verdict& verdict) {
 }
 
 std::string replay_command(std::string_view folder, long run) {
-  return fmt::format("wingspread replay {} --run {}", folder, run);
+  return fmt::format("wingspread replay {} --run {}", shell_word(std::string(folder)), run);
 }
 
 Bounds output_limits(const RankedOutput& output, const ToleranceLimitSpec& spec,

@@ -149,7 +149,7 @@ struct GroupVerdict {
 /// The reason for the verdict: "25 of 10000 runs break it; at most 19 may".
 [[nodiscard]] std::string evidence(const Verdict& verdict);
 
-/// "wingspread replay DIR --run 17".
+/// "wingspread replay DIR --run 17", ready for a shell.
 [[nodiscard]] std::string replay_command(std::string_view folder, long run);
 
 /// Tolerance limits of an output over all runs. Runs that did not deploy, have no value or have a peak that t_end cut

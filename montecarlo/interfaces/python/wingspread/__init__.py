@@ -21,6 +21,8 @@ from __future__ import annotations
 
 import collections.abc
 import json
+import numbers
+import operator
 import os
 import typing
 import warnings
@@ -140,7 +142,8 @@ def run(campaign: Source, *, runs: int | None = None, seed: int | None = None, t
     runs, seed: the number of runs and the seed; default: the campaign's. threads: 0 for all processors.
     case: the case, required for a campaign with cases. set: changes of the nominal wing.
     """
-    table = _native.run(_input_of(campaign), runs, seed, threads, case, _changes_of(set))
+    table = _native.run(_input_of(campaign), _whole("runs", runs, 1, _MOST_RUNS), _whole("seed", seed, 0, _MOST_SEED),
+                        _whole("threads", threads, 0, _MOST_THREADS), case, _changes_of(set))
     for notice in table.notices:
         warnings.warn(notice, Notice, stacklevel=2)
     return Table(table)
@@ -154,7 +157,9 @@ def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", se
     0: 100 for each sample. threads: 0 for all processors. If result["finished"] is False, the chains are too short, and
     the numbers are no result; a Notice says so.
     """
-    text, posterior = _native.fit(_input_of(campaign), _input_of(tests), os.fspath(out), seed, runs, threads)
+    text, posterior = _native.fit(_input_of(campaign), _input_of(tests), os.fspath(out),
+                                  _whole("seed", seed, 0, _MOST_SEED), _whole("runs", runs, 0, _MOST_RUNS),
+                                  _whole("threads", threads, 0, _MOST_THREADS))
     result = json.loads(text)
     if not result["finished"]:
         warnings.warn(result["findings"][0], Notice, stacklevel=2)
@@ -177,8 +182,11 @@ def simulate(scene: Source, *, set: Changes | None = None, case: str = "", dt: f
     of `wingspread simulate`; default: the campaign's. check: repeat the run by another method at a tighter tolerance;
     outcome["check"] has the digits that agree.
     """
-    settings = _native.Settings(_changes_of(set), case, method, latch, step, rtol, atol, t_end)
-    outcome, trajectory = _native.simulate(_input_of(scene), settings, 0.0 if dt is None else dt, check)
+    settings = _settings(set, case, method, latch, step, rtol, atol, t_end)
+    interval = _number("dt", dt)
+    if interval is not None and not 0 < interval < float("inf"):
+        raise _wrong("dt", dt, "a number, s, > 0")
+    outcome, trajectory = _native.simulate(_input_of(scene), settings, 0.0 if interval is None else interval, check)
     return Simulation(json.loads(outcome), trajectory)
 
 
@@ -193,7 +201,7 @@ class Model:
                  set: Changes | None = None, case: str = "", method: str | None = None, latch: str | None = None,
                  step: float | None = None, rtol: float | None = None, atol: float | None = None,
                  t_end: float | None = None) -> None:
-        settings = _native.Settings(_changes_of(set), case, method, latch, step, rtol, atol, t_end)
+        settings = _settings(set, case, method, latch, step, rtol, atol, t_end)
         self._native = _native.Model(_input_of(scene), list(paths), list(outputs), settings)
 
     @property
@@ -212,7 +220,7 @@ class Model:
         x: parameters in SI units, shape (n, d). Returns outputs, shape (n, m); NaN for a missing value, or if the
         parameters are unphysical. threads: 0 for all processors.
         """
-        return self._native.evaluate(np.asarray(x, dtype=float), threads)
+        return self._native.evaluate(np.asarray(x, dtype=float), _whole("threads", threads, 0, _MOST_THREADS))
 
 
 def evaluate(scene: Source, paths: typing.Sequence[str], x: npt.ArrayLike, outputs: typing.Sequence[str] = (), *,
@@ -233,6 +241,47 @@ def _input_of(source: Source) -> _native.Input:
     if isinstance(source, (str, os.PathLike)):
         return _native.Input.from_file(os.fspath(source))
     raise TypeError(f"found {type(source).__name__}, expected a path, JSON text or a dictionary")
+
+
+def _settings(set: Changes | None, case: str, method: str | None, latch: str | None, step: float | None,
+              rtol: float | None, atol: float | None, t_end: float | None) -> _native.Settings:
+    return _native.Settings(_changes_of(set), case, method, latch, _number("step", step), _number("rtol", rtol),
+                            _number("atol", atol), _number("t_end", t_end))
+
+
+_MOST_RUNS, _MOST_SEED, _MOST_THREADS = 2**31 - 1, 2**64 - 1, 1024
+"""The limits of the options --runs, --seed and --threads"""
+
+
+def _wrong(argument: str, value: typing.Any, expected: str) -> SpecError:
+    option = "--" + argument.replace("_", "-")
+    error = SpecError(f"{option}: found {value!r}, expected {expected}")
+    error.problems = [("", option, repr(value), expected)]
+    return error
+
+
+@typing.overload
+def _whole(argument: str, value: int, least: int, most: int) -> int: ...
+@typing.overload
+def _whole(argument: str, value: int | None, least: int, most: int) -> int | None: ...
+def _whole(argument: str, value: int | None, least: int, most: int) -> int | None:
+    """Returns an integer, also a numpy one; raises SpecError for anything else, and beyond the limits."""
+    if value is None:
+        return None
+    expected = f"a whole number from {least} to {most}"
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise _wrong(argument, value, expected) from None
+    if isinstance(value, bool) or not least <= number <= most:
+        raise _wrong(argument, value, expected)
+    return number
+
+
+def _number(argument: str, value: float | None) -> float | None:
+    if value is None or (isinstance(value, (numbers.Real, np.floating)) and not isinstance(value, bool)):
+        return None if value is None else float(value)
+    raise _wrong(argument, value, "a number, in SI units")
 
 
 def _plain(value: typing.Any) -> typing.Any:

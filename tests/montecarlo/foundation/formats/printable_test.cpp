@@ -9,7 +9,18 @@ TEST_CASE("control characters are spelled out, and all other text is left alone"
   CHECK(printable("N·m ≤ 1\t2\n") == "N·m ≤ 1\t2\n");
   CHECK(printable("\xC2\x9B"
                   "31m") == R"(\xc2\x9b31m)"); // U+009B, which begins a sequence as ESC [ does
-  CHECK(printable("\xC2\xA0\xC2") == "\xC2\xA0\xC2"); // U+00A0, and half a character
+  CHECK(printable("\xC2\xA0") == "\xC2\xA0");  // U+00A0
+}
+
+TEST_CASE("bytes that are no UTF-8 are spelled out") {
+  CHECK(printable("\xC2\xA0\xC2") == "\xC2\xA0\\xc2"); // half a character at the end
+  CHECK(printable("a\xFF\xFE b") == R"(a\xff\xfe b)");
+  CHECK(printable("\xE9t\xE9") == R"(\xe9t\xe9)");               // Latin 1
+  CHECK(printable("\xC0\xAF") == R"(\xc0\xaf)");                 // overlong
+  CHECK(printable("\xED\xA0\x80") == R"(\xed\xa0\x80)");         // half of a surrogate pair
+  CHECK(printable("\xF4\x90\x80\x80") == R"(\xf4\x90\x80\x80)"); // above U+10FFFF
+  CHECK(printable("\xE2\x82\xAC\xF0\x9F\x9B\xB0") ==
+        "\xE2\x82\xAC\xF0\x9F\x9B\xB0"); // €, a satellite
 }
 
 TEST_CASE("a text has control characters or not") {

@@ -54,6 +54,10 @@ TEST_CASE("angles and rates are printed as their author wrote them", "[text_layo
   CHECK(as_written(-12.5 * std::numbers::pi / 180, "rad") == "-12.5 deg");
   CHECK(as_written(1.5, "rad/s") == "1.5 rad/s"); // 85.943669… deg/s
   CHECK(as_written(0.1, "s") == "0.1 s");
+  CHECK(as_written(56.49241451380835, "N·m") == "56.4924 N·m"); // "500 in*lbf"
+  CHECK(as_written(-0.0254 / 3, "m") == "-0.00846667 m");
+  CHECK(as_written(123456.789, "N") == "123456.789 N"); // written so
+  CHECK(as_written(0.12345678901234, "rad") == "7.07355 deg");
   CHECK(as_written(3, "") == "3");
 }
 

@@ -47,4 +47,5 @@ TEST_CASE("the command of a wing names what is not the default") {
   design.panel_mass = 9, design.damper = 0;
   CHECK(command_of(design) ==
         "wingspread new --name sat --wings 2 --panels 4 --yoke --panel-mass 9 --damper 0");
+  CHECK(command_of({}, "a b&c") == "wingspread new --out 'a b&c'");
 }

@@ -171,3 +171,36 @@ TEST_CASE("The law of an `each` is another for all of its copies", "[cases]") {
   CHECK(draws[1] == 8);
   CHECK(draws[2] == 8);
 }
+
+TEST_CASE("A quantity of an unknown parameter is no further fault", "[cases]") {
+  Json document = test::small_campaign();
+  document["dispersions"] = parse_json(R"([
+    { "name": "a", "distribution": { "type": "normal", "mean": "2 N*m", "std": "0.1 N*m",
+      "truncate": { "lower": "1 N*m" } }, "apply": "set", "to": ["hinges.root.friction.coulomb"] },
+    { "name": "b", "distribution": { "type": "uniform", "lower": "7 kg", "upper": 9 },
+      "apply": "add", "each": "bodies.*.mass" },
+    { "name": "c", "distribution": { "type": "uniform", "lower": 0, "upper": 1 }, "through": [
+      { "to": ["hinges.root.friction.viscous"], "apply": "set",
+        "table": { "at": [0, 1], "value": ["1 N*m*s/rad", "2 N*m*s/rad"] } } ] } ])");
+  document["cases"] = parse_json(R"([{ "name": "cold", "distributions": {
+    "a": { "type": "constant", "value": "3 N*m" } } }])");
+  const auto message = [&] {
+    return test::message_of([&] { (void)read_campaign(document.dump(), ""); });
+  };
+  REQUIRE(message().empty());
+  const Json whole = document;
+  document["scene"] = "none.json";
+  CHECK(message() ==
+        "/scene: found no file that can be read at \"none.json\", expected a scene, or "
+        "the name of the file that holds it");
+  document = whole; // a misspelt path is the same for its own draws and for the case's
+  document["dispersions"][0]["to"][0] = "hinges.root.friction.culomb";
+  document["dispersions"][2]["through"][0]["to"][0] = "hinges.root.friction.viscos";
+  CHECK_THAT(message(),
+             Catch::Contains("culomb") && Catch::Contains("viscos") && !Catch::Contains("N*m"));
+  document = whole; // other faults are told beside the scene's
+  document["scene"] = "none.json";
+  document["dispersions"][0]["distribution"]["std"] = "much";
+  document["dispersions"][1]["distribution"]["type"] = "unifrm";
+  CHECK_THAT(message(), Catch::Contains("\"much\"") && Catch::Contains("\"unifrm\""));
+}

@@ -98,6 +98,25 @@ TEST_CASE("A path leads to every parameter of a real hinge", "[parameter]") {
   CHECK(unit_of(found.matches[0].parameter) == unit);
 }
 
+TEST_CASE("the path of a stop at the wrong side names the stop of the other side", "[parameter]") {
+  Scene scene = read_scene(test::small_scene());
+  scene.hinges[0].far_stop = Stop{};
+  scene.hinges[1].stop = Stop{};
+  const std::string root = "hinges." + scene.hinges[0].name, mid = "hinges." + scene.hinges[1].name;
+  const auto expected = [&](const std::string& path) { return resolve(scene, path).expected; };
+  CHECK(expected(root + ".far_stop.gap").empty());
+  CHECK(expected(root + ".stop.gap") ==
+        "a hinge that has a stop at its stowed side (did you mean \"" + root + ".far_stop.gap\"?)");
+  CHECK(expected(mid + ".far_stop.stiffness") ==
+        "a hinge that has a stop at its latched side (did you mean \"" + mid +
+            ".stop.stiffness\"?)");
+  CHECK(expected("hinges.*.stop.gap").empty()); // one hinge has it
+  scene.hinges[1].stop.reset();
+  CHECK(expected("hinges.*.stop.gap") == "a hinge that has a stop at its stowed side (did you mean "
+                                         "\"hinges.*.far_stop.gap\"?)");
+  CHECK(expected(mid + ".stop.gap") == "a hinge that has a stop at its stowed side");
+}
+
 TEST_CASE("A real hinge has no parameters but its own", "[parameter]") {
   struct Case {
     const char *path, *expected;
@@ -112,7 +131,7 @@ TEST_CASE("A real hinge has no parameters but its own", "[parameter]") {
        {"hinges.mid.damper.exponent", "a hinge with a power-law damper"},
        {"hinges.root.damper.peak_torque", "a hinge with an eddy-current damper"},
        {"hinges.mid.damper.window.1", "a hinge whose damper has a window"},
-       {"hinges.mid.stop.gap", "a hinge that has a stop"},
+       {"hinges.mid.stop.gap", "a hinge that has a stop at its stowed side"},
        {"hinges.mid.latch.backlash", "a hinge that has a latch"},
        {"hinges.root.latch.dissipation", "a hinge whose latch has a dissipation"},
        {"bodies.outer.plate.width", "a body that has a plate"},

@@ -221,6 +221,28 @@ TEST_CASE("the outcome in words") {
         "three_panel: invalid (bodies.panel_1.mass is -1, expected > 0)\n");
 }
 
+TEST_CASE("short and long times keep their digits and their columns") {
+  const Scene scene = read_scene_file(three_panel_file());
+  Outcome outcome = simulate(scene, 1);
+  outcome.latches = {{0, 84078.866641, {1.07335, 0, 0}}, {1, 2.94063e-5, {0, -123456.789, 0}}};
+  for (Peak& peak : outcome.peak_moment) peak = {12345678.9, 84078.866641};
+  outcome.peak_force = outcome.peak_moment;
+  const std::string text = outcome_text(scene, outcome);
+  CHECK_THAT(text, Catch::Contains("\n  root                        84078.87        1.073350\n"));
+  CHECK_THAT(text, Catch::Contains("\n  mid                     2.940630e-05       -123456.8\n"));
+  CHECK_THAT(text, Catch::Contains("  1.234568e+07      84078.87  1.234568e+07      84078.87\n"));
+}
+
+TEST_CASE("a run at its limit of steps says what the limit counts") {
+  const Scene scene = read_scene_file(three_panel_file());
+  Integration few;
+  few.t_end = 10, few.max_steps = 50;
+  const Outcome outcome = Deployment().run(scene, few, Goal{});
+  REQUIRE(outcome.status == Status::failed);
+  CHECK_THAT(outcome_text(scene, outcome), Catch::Contains("max_steps counts every trial step"));
+  CHECK_THAT(outcome_text(scene, simulate(scene, 10)), !Catch::Contains("max_steps"));
+}
+
 TEST_CASE("each table of loads stands where its loads are known, and none of a run that failed") {
   Scene scene = read_scene_file(three_panel_file());
   scene.hinges[1].release.emplace();
@@ -244,11 +266,11 @@ TEST_CASE("each table of loads stands where its loads are known, and none of a r
   all.motor_energy = {0, 0, 4.5};
   CHECK(tables(all) == "\nPEAK\nHOLD\nMOTOR");
   const std::string text = outcome_text(scene, all);
-  for (const char* row : {"  root                          1.5000    0.250000         1.5000    "
-                          "0.250000\n",
-                          "  panel_2                       2.5000    0.500000 bending\n",
-                          "  mid                           2.5000    0.500000\n",
-                          "  tip                          4.500000\n"})
+  for (const char* row : {"  root                        1.500000     0.2500000      1.500000     "
+                          "0.2500000\n",
+                          "  panel_2                     2.500000     0.5000000 bending\n",
+                          "  mid                         2.500000     0.5000000\n",
+                          "  tip                         4.500000\n"})
     CHECK_THAT(text, Catch::Contains(row));
   CHECK(text.find("panel_1") == std::string::npos); // rigid
   Outcome one = outcome;

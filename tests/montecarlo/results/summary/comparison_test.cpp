@@ -41,6 +41,11 @@ TEST_CASE("the worst case fails, or has the least margin", "[comparison]") {
   CHECK(worst_case({open, fail, pass}, 0) == 1);
   CHECK(worst_case({fail, decided("e", Decision::fail, {})}, 0) == 1); // beyond any number
   CHECK(worst_case({pass, decided("e", Decision::pass, 1)}, 0) == 0);
+  // two of three allowed failures are worse than none, whatever the margins
+  CaseSummary used = decided("f", Decision::pass, 2);
+  used.summary.requirements[0].allowed = 3;
+  used.summary.requirements[0].broken = {4, 7};
+  CHECK(worst_case({tight, used, pass}, 0) == 1);
 }
 
 TEST_CASE("a quantile that no case, or one case, lacks is shown among runs with a value",

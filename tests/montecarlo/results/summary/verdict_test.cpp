@@ -131,6 +131,7 @@ TEST_CASE("deployment is judged by its share") {
   CHECK(pass.margin == Approx(pass.guaranteed_share - .998));
   CHECK(judge(deploys(.999, .9), results).decision == Decision::fail);
   CHECK(replay_command("results/x", 3000) == "wingspread replay results/x --run 3000");
+  CHECK(replay_command("a b&c", 1) == "wingspread replay 'a b&c' --run 1");
 }
 
 TEST_CASE("a campaign that may have stopped earlier has to show more") {
