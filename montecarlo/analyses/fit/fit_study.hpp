@@ -28,9 +28,8 @@ struct FittedParameter {
   double std_ratio = 0;    ///< standard deviation in u: the share of the prior's that is left
   double prior_sigmas = 0; ///< |u| of the mode: its distance from the prior's median
   double widening = 1;     ///< factor of `std` by the spread of dispersions that are not fitted
-  bool held_decides =
-      false; ///< the factor is cut, because the standard deviation would be wider than the prior's
   std::optional<double> limit{}; ///< of the prior, if the posterior lies there
+  bool held_decides = false;     ///< the factor is cut: it would be wider than the prior
 
   /// Sets the widening to the first-order factor, cut where the standard deviation would exceed the prior's: so far out
   /// the model is not linear, and the prior bounds the parameter anyway.

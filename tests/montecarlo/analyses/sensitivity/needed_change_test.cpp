@@ -139,15 +139,16 @@ TEST_CASE("the bounds hold the edge, and a draw without effect has no change", "
   for (int s = 0; s < samples; ++s) {
     const InventedRuns sample(600, static_cast<std::uint64_t>(100 + s),
                               [](double a, double, double z) { return a + 0.1 * z; });
-    const auto found = needed_of(NeededFor::limit, limited(1.3, 0.95), sample.results(),
+    const auto found = needed_of(NeededFor::limit, limited(1.15, 0.95), sample.results(),
                                  {a_shifted, MovedDraws{{1}, false}});
     seen += found[1] ? 1 : 0;
     if (!found[0] || !found[0]->known) continue;
     ++found_edges;
-    // a + t + 0.1 z ≤ 1.3 in the share m/n of new runs
-    const double share = static_cast<double>(*judge(limited(1.3, 0.95), sample.results()).allowed) /
-                         600,
-                 exact = 0.3 - std::sqrt(0.02) * normal_quantile(1 - share);
+    // a + t + 0.1 z ≤ 1.15 in the share m/n of new runs
+    const double share =
+                     static_cast<double>(*judge(limited(1.15, 0.95), sample.results()).allowed) /
+                     600,
+                 exact = 0.15 - std::sqrt(0.02) * normal_quantile(1 - share);
     covered += *found[0]->bounds.lower <= exact && exact <= *found[0]->bounds.upper ? 1 : 0;
   }
   CHECK(found_edges > samples / 2);
