@@ -107,6 +107,13 @@ class ChangeChecks:
         self.assertEqual(first("damper.peak_torque", 1.4), "A stronger damper slows the deployment. Static margins count it only at a stated rate.")
         self.assertIsNone(first("damper.peak_torque", 0.7))
 
+    def test_a_value_that_draws_replace_starts_from_their_median(self):
+        """The scene's value is in no run where draws set it; where they scale it, it is the value before the change."""
+        start = lambda apply: (self.opened_with(f"""W.sets.forEach(set => {{ set.inputs.dispersions = [{{ draw: "tip_latch", words: "tip latch damping", paths: ["hinges.tip.latch.damping"], apply: "{apply}", law: "", low: 0, high: 1, median: 0.11, nominal: 0.1, nominal_unit: "N·m" }}];
+            set.requirements.forEach(one => one.changes = [{{ for: "limit", runs: 900, explained: 0.9, levers: [lever()] }}]); }});"""), self.one(".needed-table th small.faint").text)[1]
+        self.assertEqual(start("set").strip(), "0.11 → 0.046 N·m")
+        self.assertEqual(start("scale").strip(), "0.1 → 0.041 N·m")
+
     def test_other_cases_that_fail_say_whether_the_change_is_enough(self):
         self.open(pages.made_up("cases"))
         cells = self.run_script(LEVERS + """const failed = W.sets[0].requirements.find(one => one.limit !== null && !one.static_margin);
