@@ -1,4 +1,5 @@
 #include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/report/text/outcome_report.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
@@ -109,7 +110,8 @@ TEST_CASE("overtravel stands by hinge, and in the table, and is warned of withou
   const std::string text =
       "mid turns up to 28.6 deg backwards, beyond its stowed angle (overtravel); it has no stop";
   CHECK(outcome_json(scene, outcome)["warnings"] == Json::array({text}));
-  CHECK_THAT(outcome_text(scene, outcome), Catch::Contains("\nWARNING\n  " + text + "\n\nEnergy"));
+  CHECK_THAT(outcome_text(scene, outcome),
+             Catch::Contains("\nWARNING\n  " + wrapped(text, 2) + "\n\nEnergy"));
   scene.hinges[1].stop = Stop{};
   CHECK(outcome_json(scene, outcome)["warnings"] == Json::array());
   CHECK(outcome_text(scene, outcome).find("WARNING") == std::string::npos);

@@ -1,3 +1,4 @@
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/model/scene_file/scene_json.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
@@ -65,6 +66,7 @@ TEST_CASE("the table and summary.json warn of overtravel, where there is any") {
   summary.overtravels = overtravels(read_scene(test::small_scene()), results);
   const std::string text = "in 2 of 4 runs root turns up to 40 deg backwards, beyond its stowed "
                            "angle (overtravel); it has no stop";
-  CHECK_THAT(summary_table(summary, "t", ""), Catch::Contains("\nWARNING\n  " + text + "\n"));
+  CHECK_THAT(summary_table(summary, "t", ""),
+             Catch::Contains("\nWARNING\n  " + wrapped(text, 2) + "\n"));
   CHECK(summary_json(summary, nullptr)["warnings"] == Json::array({text}));
 }
