@@ -6,8 +6,8 @@ import pages
 from number_checks import parsed
 
 LEVERS = """const lever = more => ({ words: "tip latch damping", draws: ["tip_latch"], scaled: true, unit: "", now: 1.04, change: 0.4137, lower: 0.3912, upper: 0.4406,
-        least: 0.29, most: 2.67, beyond: false, of_broken: 1.31, of_others: 0.97, command: "wingspread margin results/mock/campaign.json --scale hinges.tip.latch.damping --range 0.05 1.3 --out results/margin", ...more }),
-    far = lever({ words: "root spring", draws: ["root.spring"], change: 1.7312, lower: 1.62, upper: 1.84, least: 0.88, most: 1.12, beyond: true, command: null }),
+        least: 0.29, most: 2.67, known: true, beyond_runs: 21, beyond_undeployed: 0, of_broken: 1.31, of_others: 0.97, command: "wingspread margin results/mock/campaign.json --scale hinges.tip.latch.damping --range 0.05 1.3 --out results/margin", ...more }),
+    far = lever({ words: "root spring", draws: ["root.spring"], change: 1.7312, lower: 1.62, upper: 1.84, least: 0.88, most: 1.12, known: false, upper: null, beyond_runs: 3, beyond_undeployed: 2, command: null }),
     warm = lever({ words: "temperature", draws: ["temperature"], scaled: false, now: 20, change: -7.5, lower: -9, upper: -6, least: -15, most: 15, command: null });
 """
 
@@ -29,14 +29,13 @@ class ChangeChecks:
             [{ for: "limit", runs: 1234, explained: 0.8567, levers: [lever(), warm, far] }] : []));""")
         item = self.one(".findings li")
         rows = self.run_script("return [...arguments[0].querySelectorAll('.needed-table tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))", item)
-        self.assertEqual(rows, [["tip latch damping", "× 0.41", "× 0.39 – 0.44", "× 0.29 – 2.67"],
-                                ["temperature", "20.0 → 12.5", "11.0 – 14.0", "5.00 – 35.0"],
-                                ["root spring", "× 1.73", "× 1.62 – 1.84", "× 0.88 – 1.12 †"]])
+        self.assertEqual(rows, [["tip latch damping", "× 0.41", "× 0.39 – 0.44", "× 0.29 – 2.67", "21 runs, deployed"],
+                                ["temperature", "20.0 → 12.5", "11.0 – 14.0", "5.00 – 35.0", "21 runs, deployed"],
+                                ["root spring", "not known", "beyond × 1.62", "× 0.88 – 1.12", "3 runs, 2 not deployed"]])
         self.assertEqual(self.run_script("return arguments[0].querySelector('.needed-table th span').title", item), "tip_latch")
-        for words in ("Estimated changes, each alone, not yet run:", "By a linear fit of 1,234 runs", "86 % of the spread", "† Beyond the values drawn: ask wingspread margin",
-                      "The bounds cover the runs' scatter about the fit, not a curved response."):
+        for words in ("Estimated changes, each alone, not yet run: confirm them first.", "An estimate from 1,234 runs", "86 % of the spread", "Not known: the runs are too few"):
             self.assertIn(words, item.text)
-        self.assertEqual(self.run_script("return arguments[0].querySelector('.needed details').open", item), False)
+        self.assertEqual(self.run_script("return arguments[0].querySelector('.needed details').open", item), True)
         folded = self.run_script("return arguments[0].querySelector('.needed details').textContent", item)
         self.assertIn("--scale hinges.tip.latch.damping --range 0.05 1.3", folded)
         self.assertIn("Static margins are not among them", folded)
@@ -70,7 +69,7 @@ class ChangeChecks:
         given('{ for: "limit", runs: 500, explained: 0.5, levers: [] }')
         self.assertIn("No dispersed input alone is seen to do it", self.one(".findings .needed").text)
         given('{ for: "limit", runs: 500, explained: 0.9, levers: [far] }')
-        self.assertIn("An estimated change, not yet run:", self.one(".findings .needed").text)
+        self.assertIn("An estimated change, not yet run: confirm it first.", self.one(".findings .needed").text)
 
     def test_wings_that_do_not_deploy_have_a_finding_too(self):
         """Once for each set: what the runs that did not deploy differ in."""
@@ -117,6 +116,13 @@ class ChangeChecks:
         self.assertEqual(first("damper.peak_torque", 1.4), "A stronger damper slows the deployment. Static margins count it only at a stated rate.")
         self.assertIsNone(first("damper.peak_torque", 0.7))
 
+    def test_a_value_that_draws_replace_starts_from_their_median(self):
+        """The scene's value is in no run where draws set it; where they scale it, it is the value before the change."""
+        start = lambda apply: (self.opened_with(f"""W.sets.forEach(set => {{ set.inputs.dispersions = [{{ draw: "tip_latch", words: "tip latch damping", paths: ["hinges.tip.latch.damping"], apply: "{apply}", law: "", low: 0, high: 1, median: 0.11, nominal: 0.1, nominal_unit: "N·m" }}];
+            set.requirements.forEach(one => one.changes = [{{ for: "limit", runs: 900, explained: 0.9, levers: [lever()] }}]); }});"""), self.one(".needed-table th small.faint").text)[1]
+        self.assertEqual(start("set").strip(), "0.11 → 0.046 N·m")
+        self.assertEqual(start("scale").strip(), "0.1 → 0.041 N·m")
+
     def test_other_cases_that_fail_say_whether_the_change_is_enough(self):
         self.open(pages.made_up("cases"))
         cells = self.run_script(LEVERS + """const failed = W.sets[0].requirements.find(one => one.limit !== null && !one.static_margin);
@@ -124,7 +130,7 @@ class ChangeChecks:
                 levers: [lever(), warm, far], needs: [{ draws: ["tip_latch"], change: [0, 0.6, 0.3][at] }, { draws: ["temperature"], change: [0, -9, 3][at] }, ...(at === 1 ? [{ draws: ["root.spring"], change: 1.7 }] : [])] }] }]);
             W.outcomes(); return [...document.querySelectorAll('.findings .needed-table tbody tr')].map(row => row.lastChild.textContent.replace(/\u00a0/g, " "))""")
         b, c = self.run_script("return W.sets.slice(1).map(set => set.label)")
-        self.assertEqual(cells, [f"enough for {b} too (needs × 0.60); {c} needs × 0.30", f"{b} needs 11.0; {c} needs 23.0", f"enough for {b} too (needs × 1.70); {c}: not estimated"])
+        self.assertEqual(cells, [f"enough for {b} too (needs × 0.60); {c} needs × 0.30", f"{b} needs 11.0; {c} needs 23.0", f"{b} needs × 1.70; {c}: not estimated"])
 
     def test_loads_that_no_requirement_limits_are_told_in_one_line(self):
         """The largest values are named as reached, not as limits; a mirror image too, if it reaches nearly as much."""

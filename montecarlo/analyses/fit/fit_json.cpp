@@ -18,6 +18,7 @@ Json parameters_json(const FitResult& result) {
                        {"std_ratio", each.std_ratio}};
     if (!each.unit.empty()) json[each.name]["unit"] = each.unit;
     if (!result.held.empty()) json[each.name]["std_with_held"] = each.widening * each.std;
+    if (each.held_decides) json[each.name]["held_decides"] = true;
     if (each.limit) json[each.name]["at_limit"] = *each.limit;
   }
   return json;

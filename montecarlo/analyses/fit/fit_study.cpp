@@ -278,7 +278,7 @@ private:
     }
     const std::vector<double> widening = widening_by_held(data_, modes_.front().prediction, runs,
                                                           at, fitted, covariance_of(points_));
-    for (std::size_t k = 0; k < widening.size(); ++k) result_.parameters[k].widening = widening[k];
+    for (std::size_t k = 0; k < widening.size(); ++k) result_.parameters[k].widen(widening[k]);
     result_.runs += runs.runs();
   }
 

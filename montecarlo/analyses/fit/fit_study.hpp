@@ -5,7 +5,9 @@
 #include "montecarlo/analyses/sampler/ensemble_sampler.hpp"
 #include "montecarlo/results/checkpoint/batch_log.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -27,6 +29,15 @@ struct FittedParameter {
   double prior_sigmas = 0; ///< |u| of the mode: its distance from the prior's median
   double widening = 1;     ///< factor of `std` by the spread of dispersions that are not fitted
   std::optional<double> limit{}; ///< of the prior, if the posterior lies there
+  bool held_decides = false;     ///< the factor is cut: it would be wider than the prior
+
+  /// Sets the widening to the first-order factor, cut where the standard deviation would exceed the prior's: so far out
+  /// the model is not linear, and the prior bounds the parameter anyway.
+  void widen(double factor) {
+    const double most = std::max(1.0, prior_std / std);
+    held_decides = !(factor < most);
+    widening = std::fmin(factor, most);
+  }
 };
 
 /// A dispersion that is not fitted: every test holds it at its median.

@@ -43,14 +43,16 @@ std::string outliers_text(const FittedChannel& fitted, std::string_view unit) {
                             : ". Are they bad samples? They pull the fit: leave them out");
 }
 
-/// "spring 0.035 in place of 0.0101".
+/// "spring 0.035 in place of 0.0101", or as wide as the prior.
 std::string widened_text(const FitResult& result) {
   constexpr double least = 1.05;
   std::string text;
   for (const FittedParameter& each : result.parameters)
-    if (each.widening > least)
-      text += fmt::format("{}{} {:.3g} in place of {:.3g}", text.empty() ? "" : ", ", each.name,
-                          each.widening * each.std, each.std);
+    if (each.widening > least || each.held_decides)
+      text += fmt::format("{}{} {:.3g} in place of {:.3g}{}", text.empty() ? "" : ", ", each.name,
+                          each.widening * each.std, each.std,
+                          each.held_decides ? " (as wide as the prior: the held values decide it)"
+                                            : "");
   return text;
 }
 

@@ -30,8 +30,8 @@ struct LeverChanges {
   NeededFor what = NeededFor::limit;
   long runs = 0;
   double explained = 0;
-  /// The most effective first: those within the values drawn, then by the size of the change; one for each quantity.
-  /// None where a linear fit of the limited output explains less than a quarter of its variance.
+  /// The known ones first, then by the size of the change; one for each quantity.
+  /// None where a linear fit of the limited output explains less than half of its variance.
   std::vector<LeverChange> levers;
 };
 

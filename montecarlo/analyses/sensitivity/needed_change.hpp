@@ -10,12 +10,12 @@
 ///   q, r    share of broken runs now; the share that may break, m/n
 ///   φ, Φ    density and distribution function of the standard normal law
 ///
-/// For a limit, run i stays below L up to
+/// For a limit, the change is the smallest |t| at which at most m runs are beyond,
 ///
-///   t_i = (L − y_i)/d_i                                                                       (1)
+///   #{ i : y_i(t) > L } ≤ m                                                                    (1)
 ///
-/// so the smallest |t| at which at most m runs are beyond is the order statistic m + 1 of t_i, exact where y is linear
-/// in the inputs. The runs are judged by the rule of the requirement's verdict.
+/// with y_i(t) quadratic in the change (lever_response.hpp). The runs are judged by the rule of the requirement's
+/// verdict.
 ///
 /// For deployment, let a run fail where a linear index of the draws passes a threshold. For normal draws the slope of
 /// the indicator is that of the standardised index times φ(Φ⁻¹(q)) (D. R. Brillinger, in: A Festschrift for Erich L.
@@ -23,8 +23,16 @@
 ///
 ///   t = −φ(Φ⁻¹(q)) (Φ⁻¹(q) − Φ⁻¹(r))/d̄                                                        (2)
 ///
-/// The bounds of t come from the jackknife's bounds of the slope d̄ (jackknife.hpp). The jackknife assumes neither
-/// normal residuals nor equal spread. The bounds do not include the error that a curved response causes.
+/// At this edge a new campaign of n runs passes in every second case only. If k of n runs break it here, at most m of n
+/// new runs do with probability
+///
+///   P(≤ m | k) = I_½(k + 1, m + 1)                                                             (3)
+///
+/// (negative binomial, from a flat prior of the rate). The bounds are the changes for the largest k with P at least
+/// (1 ∓ c)/2, widened by the jackknife's bounds of the slope. The far bound is the change to try.
+///
+/// A change is known only within the draws: at least 10 runs were drawn beyond the changed mean, and of those no larger
+/// share than the requirement allows did not deploy. Beyond, neither the output nor the deployment is known.
 #pragma once
 
 #include "montecarlo/results/summary/replication.hpp"
@@ -43,17 +51,20 @@ struct MovedDraws {
   bool scaled = true;               ///< the change multiplies them; else it is added to each
 };
 
-/// The change of some draws by which the requirement would pass.
+/// The change of some draws by which the requirement would pass: a factor of the draws if scaled (1 + t), else the
+/// shift t.
 struct NeededChange {
-  double now = 0;             ///< mean of the draws
-  double change = 0;          ///< factor of the draws if scaled (1 + t), else the shift t
-  Bounds bounds{};            ///< of the change
+  double now = 0;  ///< mean of the draws
+  double edge = 0; ///< at which as many runs break it as may
+  double change =
+      0; ///< at which a new campaign passes at the confidence; the edge if that is not known
+  bool known = false;         ///< whether the draws show that the change is enough
+  Bounds bounds{};            ///< of the change; without the far one if it is not known
   double least = 0, most = 0; ///< changes that keep the mean of each draw within the values drawn
+  long beyond_runs = 0,
+       beyond_undeployed = 0; ///< runs drawn beyond the changed mean; of those, not deployed
   /// Means over the runs that break the requirement and over the others, relative to `now` if scaled, else as they are.
   double of_broken = 0, of_others = 0;
-
-  /// Whether the change leads beyond the values drawn.
-  [[nodiscard]] bool is_beyond() const { return change < least || change > most; }
 };
 
 enum class NeededFor { limit, deployment };
@@ -62,7 +73,7 @@ struct NeededChanges {
   NeededFor what = NeededFor::limit;
   long runs = 0;        ///< of the estimate
   double explained = 0; ///< R² of the linear fit, adjusted for the number of draws
-  /// One for each MovedDraws. Nothing if no change of these draws is enough. Nothing also if the slope's bounds include
+  /// One for each MovedDraws. Nothing if no change within the draws is enough. Nothing also if the slope's bounds include
   /// 0 at the confidence shared over all MovedDraws (Bonferroni): otherwise the most effective of many would often be
   /// due to chance.
   std::vector<std::optional<NeededChange>> changes;

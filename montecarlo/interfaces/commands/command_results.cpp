@@ -107,18 +107,16 @@ StoredCampaign as_asked(StoredCampaign stored, const AnalyzeOptions& options) {
   return stored;
 }
 
-/// Warns that planned runs are missing. Gaps between runs are named, because no interruption leaves gaps: somebody may
-/// have selected the rows.
-void print_missing_runs(const StoredCampaign& stored, const Summary& summary, long last_run) {
+/// Warns that planned runs are missing.
+void print_missing_runs(const StoredCampaign& stored, const Results& results,
+                        const Summary& summary) {
   const RunRange planned = stored.runs();
+  if (const auto gaps = gaps_text(stored, results, summary.stopped))
+    return fmt::print(stderr, "warning: {}\n", *gaps);
   if (summary.stopped || stored.stamp.preview || summary.runs >= planned.size()) return;
-  const bool has_gaps = last_run >= planned.first + summary.runs;
-  fmt::print(
-      stderr, "warning: {}{} of {} runs{}{}\n", has_gaps ? "" : "incomplete: ", summary.runs,
-      planned.size(), stored.campaign.of_case.empty() ? "" : " of case " + stored.campaign.of_case,
-      has_gaps ? ", with gaps that no interruption leaves: if runs were selected, no verdict "
-                 "and no bound holds"
-               : "; the verdicts are not final");
+  fmt::print(stderr, "warning: incomplete: {} of {} runs{}; the verdicts are not final\n",
+             summary.runs, planned.size(),
+             stored.campaign.of_case.empty() ? "" : " of case " + stored.campaign.of_case);
 }
 
 /// Computes the statistics again and writes them to the folder `to`, which gets a copy of the campaign and its rows if
@@ -130,9 +128,8 @@ Summary summarize_again(StoredCampaign& stored, const std::filesystem::path& to)
   if (is_streaming_folder(to))
     return write_streaming_statistics(stored, read_streaming_statistics(stored).statistics, spec);
   const Results results = read_stored_results(stored).results;
-  const long last_run = results.size() == 0 ? -1 : results.runs[results.size() - 1];
   Summary summary = write_statistics(stored, results, spec);
-  print_missing_runs(stored, summary, last_run);
+  print_missing_runs(stored, results, summary);
   return summary;
 }
 

@@ -148,7 +148,7 @@ Json margin_command(const PageSource& source, const LeverChange& each) {
   if (each.lever.paths.empty() || !(each.change.change > 0)) return nullptr;
   const double t = each.change.change - 1;
   // The range goes from twice the change to half of it in the other direction.
-  const double beyond = std::max(0.05, 1 + 2 * t), before = 1 - t / 2;
+  const double beyond = std::max(0.05, 1 + 2 * t), before = std::max(0.05, 1 - t / 2);
   std::vector<std::string> paths;
   for (const std::string& path : each.lever.paths) paths.push_back(shell_word(path));
   return fmt::format("wingspread margin {} --scale {} --range {:.2g} {:.2g} --out results/margin",
@@ -166,7 +166,9 @@ Json lever_json(const PageSource& source, const LeverChange& each) {
             {"change", page_number(change.change)},
             {"least", page_number(change.least)},
             {"most", page_number(change.most)},
-            {"beyond", change.is_beyond()},
+            {"known", change.known},
+            {"beyond_runs", change.beyond_runs},
+            {"beyond_undeployed", change.beyond_undeployed},
             {"of_broken", page_number(change.of_broken)},
             {"of_others", page_number(change.of_others)},
             {"command", margin_command(source, each)}};
@@ -189,7 +191,8 @@ Json block_json(const PageSource& source, const Verdict& verdict, NeededFor what
     json["levers"].push_back(lever_json(source, each));
   for (const LeverChange& each : all)
     json["needs"].push_back(
-        {{"draws", each.lever.draws}, {"change", page_number(each.change.change)}});
+        {{"draws", each.lever.draws},
+         {"change", each.change.known ? page_number(each.change.change) : Json(nullptr)}});
   return json;
 }
 

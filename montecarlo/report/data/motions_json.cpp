@@ -220,6 +220,25 @@ Json nominal_json(const PageSource& source, std::size_t most) {
   return json;
 }
 
+/// Columns in which the recorded row of a run differs from the run made again. Last digits may differ on another machine.
+std::vector<std::string> recorded_otherwise(const PageSource& source, const ResultNames& names,
+                                            ResultRow made) {
+  const auto at = std::ranges::lower_bound(source.results.runs, made.run);
+  if (at == source.results.runs.end() || *at != made.run) return {};
+  const ResultRow recorded =
+      source.results.row(static_cast<std::size_t>(at - source.results.runs.begin()));
+  constexpr double digits = 1e-6;
+  const auto keep_near = [](const std::vector<double>& there, std::vector<double>& here) {
+    for (std::size_t i = 0; i < there.size(); ++i)
+      if (std::abs(here[i] - there[i]) <= digits * std::abs(there[i])) here[i] = there[i];
+  };
+  keep_near(recorded.draws, made.draws);
+  keep_near(recorded.outputs, made.outputs);
+  if (made.reason != recorded.reason && made.status == recorded.status)
+    made.reason = recorded.reason; // it has numbers of the run
+  return differences(names, recorded, made);
+}
+
 Json chosen_json(const PageSource& source, const RunPlan& plan, const ChosenRun& chosen,
                  std::size_t most) {
   Runner runner(plan);
@@ -234,7 +253,8 @@ Json chosen_json(const PageSource& source, const RunPlan& plan, const ChosenRun&
   Json json{{"label", chosen.label},
             {"why", chosen.why},
             {"run", chosen.run},
-            {"replay", replay_command(source.stored.folder.string(), chosen.run)}};
+            {"replay", replay_command(source.stored.folder.string(), chosen.run)},
+            {"differs", recorded_otherwise(source, plan.names(), made.row)}};
   json.update(motion_json(source.stored.campaign.scene, recorder, made.outcome, most));
   return json;
 }

@@ -1,6 +1,7 @@
 #include "montecarlo/report/data/set_json.hpp"
 
 #include "montecarlo/foundation/formats/printable.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/report/data/causes_json.hpp"
 #include "montecarlo/report/data/envelopes_json.hpp"
 #include "montecarlo/report/data/inputs_json.hpp"
@@ -201,6 +202,14 @@ Json requirement_json(const Verdict& verdict, const PageSource& source) {
 /// The summary's warnings, and one for outputs beyond the page's limit.
 std::vector<std::string> all_warnings(const PageSource& source, const PageDetail& detail) {
   std::vector<std::string> lines = warnings(source.summary);
+  if (const auto gaps = source.has_rows()
+                            ? gaps_text(source.stored, source.results, source.summary.stopped)
+                            : std::nullopt)
+    lines.insert(lines.begin(), *gaps);
+  // as `run` prints them; another tool's campaign was not run
+  if (!source.stored.foreign)
+    for (const InputWarning& warning : check_input(source.before_case, ""))
+      lines.push_back("input: " + to_string(warning));
   if (source.stored.own_requirements)
     lines.push_back("the requirements are those that `wingspread analyze` was given, not the "
                     "campaign's");
@@ -209,6 +218,14 @@ std::vector<std::string> all_warnings(const PageSource& source, const PageDetail
                                 detail.outputs, all,
                                 (source.stored.folder / summary_file).string()));
   return lines;
+}
+
+/// Moves the differences between a recorded row and its run made again to the warnings.
+void add_differences(Json& motion, Json& lines) {
+  for (const Json& difference : motion.value("differs", Json::array()))
+    lines.push_back(difference.get<std::string>() +
+                    ": was the row edited? The statistics are those of the recorded rows");
+  motion.erase("differs");
 }
 
 /// Hinges whose peak moment in the nominal run is mostly the jump of their latch's damping.
@@ -252,6 +269,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["scatters"] = scatters_json(source, detail, threads);
   json["wing"] = wing_json(nominal_scene(source.stored.campaign));
   json["motions"] = motions_json(source, detail, threads);
+  for (Json& motion : json["motions"]) add_differences(motion, json["warnings"]);
   json["envelopes"] = envelopes_json(source, detail, threads);
   json["static_margins"] = nullptr;
   json["margin"] = nullptr;

@@ -119,7 +119,7 @@
   F.nameOf = (name) => (known(name) ? F.name(known(name)) : words(name));
   F.unitOf = (name) => (known(name) || {}).unit || "";
   function words(text) {
-    return text.replace(/_/g, " ").replace(/\./g, " ");
+    return text.replace(/\bovertravel$/, "overtravel (beyond stowed)").replace(/_/g, " ").replace(/\./g, " ");
   }
   F.order = (order) =>
     order === "no latch" ? "no hinge latched" : order === "others" ? "other orders" : order.replace(/>/g, " › ");

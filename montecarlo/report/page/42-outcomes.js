@@ -170,7 +170,8 @@
 
   function warnings() {
     // The selected case first: of warnings that differ in numbers, its numbers are shown.
-    const all = [W.set(), ...W.sets.filter((set) => set !== W.set())].flatMap((set) => (set.warnings || []).map((text) => ({ set, text })));
+    const sets = [...new Set([...W.sets, ...W.studySets])],
+      all = [W.set(), ...sets.filter((set) => set !== W.set())].flatMap((set) => (set.warnings || []).map((text) => ({ set, text })));
     // Warnings that differ in numbers only are one.
     const kind = (text) => text.replace(/\d[\d.]*(e[-+]?\d+)?/g, "#");
     const texts = [...new Map(all.map((one) => [kind(one.text), one.text]).reverse()).values()].reverse();
@@ -183,12 +184,12 @@
       ...texts.map(function (text) {
         const same = all.filter((one) => one.text === text).map((one) => one.set.label),
           other = all.filter((one) => one.text !== text && kind(one.text) === kind(text)).map((one) => one.set.label),
-          where = W.sets.map((set) => set.label).filter((label) => same.includes(label) || other.includes(label));
+          where = sets.map((set) => set.label).filter((label) => same.includes(label) || other.includes(label));
         return h(
           "li",
           text,
-          W.sets.length > 1
-            ? h("span.faint", ` (${where.length === W.sets.length ? "every case" : where.join(", ")}${other.length ? `; numbers of ${same.join(", ")}` : ""})`)
+          sets.length > 1
+            ? h("span.faint", ` (${W.sets.length > 1 && where.length === W.sets.length && W.sets.every((set) => where.includes(set.label)) ? "every case" : where.join(", ")}${other.length ? `; numbers of ${same.join(", ")}` : ""})`)
             : null,
         );
       }),

@@ -1,4 +1,4 @@
-// By which changes of its inputs a failed requirement would pass: a first-order estimate from the runs.
+// By which changes of its inputs a failed requirement would pass: an estimate from the runs, only within the values drawn.
 (function () {
   "use strict";
   const W = window.wingspread;
@@ -23,6 +23,8 @@
     const shown = close ? (bound) => F.fixed(bound, needed) : text;
     return `${shown(low)} – ${shown(high)}`;
   }
+  // The bound next to no change: the only one of a change that is not known to be enough.
+  const nearest = (one) => (W.isNumber(one.lower) && (one.change >= (one.scaled ? 1 : 0) || !W.isNumber(one.upper)) ? one.lower : one.upper);
   // A change of an input: a factor, or its mean before and after in its unit.
   function texts(one) {
     const { factor, unit } = F.shown(one.unit),
@@ -32,22 +34,26 @@
           by: `× ${times(one.change)}`,
           need: `×\u00a0${times(one.change)}`,
           bounds: `× ${range(one.lower, one.upper, times)}`,
+          least: `× ${times(nearest(one))}`,
           drawn: `× ${range(one.least, one.most, times)}`,
         }
       : {
           by: `${three(at(0))} → ${three(at(one.change))} ${unit}`.trim(),
           need: `${three(at(one.change))} ${unit}`.trim(),
           bounds: range(at(one.lower), at(one.upper), three),
+          least: `${three(at(nearest(one)))} ${unit}`.trim(),
           drawn: range(at(one.least), at(one.most), three),
         };
   }
-  // The nominal value before and after a factor, "0.6 → 0.23 N·m·s/rad", where all inputs have the same one with a unit.
+  // The value before and after a factor, from the median drawn where draws replace the nominal value, "0.6 → 0.23 N·m·s/rad", where all inputs have the same one with a unit.
   function nominals(set, one) {
     const inputs = ((set.inputs || {}).dispersions || []).filter((each) => one.draws.includes(each.draw)),
-      [{ nominal, nominal_unit: unit, paths = [] } = {}] = inputs;
-    const alike = inputs.every((each) => each.nominal === nominal && (each.paths || []).length === 1);
-    if (!one.scaled || !unit || !W.isNumber(nominal) || !alike || paths.length !== 1) return null;
-    return h("small.faint", ` ${F.given(nominal)} → ${F.number(nominal * one.change, 2)} ${F.unit(unit)}`);
+      start = (each) => (each.apply === "set" ? each.median : each.nominal),
+      [{ nominal_unit: unit, paths = [] } = {}] = inputs,
+      nominal = start(inputs[0] || {});
+    const alike = inputs.every((each) => start(each) === nominal && (each.paths || []).length === 1);
+    if (!one.known || !one.scaled || !unit || !W.isNumber(nominal) || !alike || paths.length !== 1) return null;
+    return h("small.faint", ` ${inputs[0].apply === "set" ? F.number(nominal, 2) : F.given(nominal)} → ${F.number(nominal * one.change, 2)} ${F.unit(unit)}`);
   }
   const had = (one, value) => (one.scaled ? `× ${times(value)}` : three(value * F.shown(one.unit).factor));
 
@@ -127,7 +133,7 @@
   function elsewhereText(lever, others) {
     const still = lever.scaled ? 1 : 0,
       size = (change) => (lever.scaled ? Math.abs(Math.log(change)) : Math.abs(change)),
-      enough = ({ change }) => (change - still) * (lever.change - still) > 0 && size(change) <= size(lever.change),
+      enough = ({ change }) => lever.known && (change - still) * (lever.change - still) > 0 && size(change) <= size(lever.change),
       needs = ({ change }) => texts({ ...lever, change }).need;
     return others
       .map((other) =>
@@ -139,17 +145,21 @@
       )
       .join("; ");
   }
+  // The runs drawn beyond the changed mean: the evidence that such wings deploy.
+  const drawnThere = (lever) =>
+    `${F.runs(lever.beyond_runs)}${lever.beyond_undeployed ? `, ${F.count(lever.beyond_undeployed)} not deployed` : lever.beyond_runs ? ", deployed" : ""}`;
   function table(one, set, block, limited) {
     const level = `${F.given(100 * set.confidence)} % two-sided bounds`,
-      beyond = block.levers.some((lever) => lever.beyond),
+      unknown = block.levers.some((lever) => !lever.known),
       several = elsewhere(one, set, block, block.levers[0]).length > 0;
     const rows = block.levers.map(function (lever) {
       const text = texts(lever);
       return [
         h("span", { title: lever.draws.join(", ") }, lever.words, nominals(set, lever), cautions(set, lever)),
-        h("b.nowrap", text.by),
-        h("span.nowrap", text.bounds),
-        h("span.nowrap", text.drawn, lever.beyond ? h("span.beyond", { title: "beyond the values drawn" }, " †") : null),
+        lever.known ? h("b.nowrap", text.by) : h("span.nowrap", "not known"),
+        h("span.nowrap", lever.known ? text.bounds : `beyond ${text.least}`),
+        h("span.nowrap", text.drawn),
+        drawnThere(lever),
         ...(limited ? [] : [`${had(lever, lever.of_broken)} / ${had(lever, lever.of_others)}`]),
         ...(several ? [elsewhereText(lever, elsewhere(one, set, block, lever))] : []),
       ];
@@ -159,15 +169,16 @@
       number("By"),
       number(level),
       number("Drawn"),
+      "Drawn beyond it",
       ...(limited ? [] : [number("Not deployed / deployed had")]),
       ...(several ? ["Other cases that fail"] : []),
     ];
     return [
-      W.table(`What would make ${one.name || F.nameOf(one.output)} pass`, heads, rows, { class: "needed-table", stacks: true }),
+      W.table(`Estimated: what would make ${one.name || F.nameOf(one.output)} pass`, heads, rows, { class: "needed-table", stacks: true }),
       h(
         "p.note",
-        `By a linear fit of ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `, which explains ${F.share(block.explained, 0)} of the spread` : ""}. The bounds cover the runs' scatter about the fit, not a curved response. ${block.levers.some((lever) => lever.scaled) ? "× multiplies the present value. " : ""}`,
-        beyond ? "† Beyond the values drawn: ask wingspread margin. " : null,
+        `An estimate from ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `; a linear fit explains ${F.share(block.explained, 0)} of the spread, with a curve along each change` : ""}. The far bound is the change stated: a new campaign of as many runs then passes, with the failures that the requirement allows at its confidence. ${block.levers.some((lever) => lever.scaled) ? "× multiplies the present value. " : ""}`,
+        unknown ? "Not known: the runs are too few, the change leads beyond the values drawn, or wings drawn there do not deploy. " : null,
         h("a", { href: "#why" }, "More causes"),
         ".",
       ),
@@ -177,10 +188,10 @@
   function unknown(one, set, block, limited) {
     const draws = ((set.inputs || {}).dispersions || []).length;
     if (!limited && one.not_deployed === set.runs) return "No run deploys: these runs do not show what would change it.";
-    if (block.runs && limited && block.explained < 0.25)
+    if (block.runs && limited && block.explained < 0.5)
       return `These runs do not show what would change it: a linear fit explains ${F.share(block.explained, 0)} of the spread. Ask wingspread margin.`;
     return block.runs
-      ? "No dispersed input alone is seen to do it within a factor of 5."
+      ? "No dispersed input alone is seen to do it within the values drawn; beyond them it is not known. Ask wingspread margin."
       : `Too few runs to estimate what would change it: ${F.counted(draws, "dispersion")}, so at least ${F.runs(draws + 11)} with a value.`;
   }
   // The command, folded: it judges the requirements; static margins are among them only if the campaign asks for them.
@@ -188,6 +199,7 @@
     const asked = W.sets.some((set) => (set.requirements || []).some((each) => each.static_margin));
     return h(
       "details",
+      { open: true },
       h("summary", `Confirm ${first ? "the first change" : "the change"} with new runs: wingspread margin`),
       h(
         "p.note",
@@ -206,9 +218,9 @@
     const { command } = block.levers.find((lever) => lever.command) || {};
     return h(
       "div.needed",
-      h("p", aim(one, set, limited), block.levers.length > 1 ? "Estimated changes, each alone, not yet run:" : "An estimated change, not yet run:"),
-      table(one, set, block, limited),
+      h("p", aim(one, set, limited), block.levers.length > 1 ? "Estimated changes, each alone, not yet run: confirm them first." : "An estimated change, not yet run: confirm it first."),
       command ? confirmation(command, block.levers.length > 1 && block.levers[0].command) : null,
+      table(one, set, block, limited),
     );
   };
 })();

@@ -179,6 +179,7 @@ std::vector<Json> margin_sets(const std::filesystem::path& folder, const std::st
     set["margin"] =
         margin_block(search, rows == table.end() ? std::vector<RequirementScales>{} : rows->second,
                      set["confidence"]);
+    set["warnings"] = study.value("warnings", Json::array());
     sets.push_back(std::move(set));
   }
   return sets;

@@ -104,12 +104,12 @@ std::string final_state(const Scene& scene, const Outcome& outcome) {
   const Configuration& final = outcome.final;
   const bool watched = !outcome.overtravel.empty(), known = outcome.status != Status::failed;
   std::string text = fmt::format("\n{:<24}{:>14}{:>16}{}\n", "END", "angle, deg", "rate, rad/s",
-                                 watched ? "   overtravel, deg" : "");
+                                 watched ? "  beyond stowed, deg" : "");
   for (std::size_t i = 0; i < scene.hinges.size(); ++i)
     text += fmt::format(
         "  {:<22}{:>14}{:>16.6g}{}\n", scene.hinges[i].name, degrees_text(final.angles[i]),
         final.rates[i],
-        watched ? fmt::format("{:>18}", known ? degrees_text(outcome.overtravel[i]) : "–") : "");
+        watched ? fmt::format("{:>20}", known ? degrees_text(outcome.overtravel[i]) : "–") : "");
   if (scene.base.motion != BaseMotion::fixed)
     text += fmt::format("  {:<22}{:>14}{:>16.6g}\n", "base", degrees_text(final.base_angle),
                         final.base_rate);

@@ -226,6 +226,19 @@ ResultsFile read_stored_results(const StoredCampaign& stored) {
   return read;
 }
 
+std::optional<std::string> gaps_text(const StoredCampaign& stored, const Results& results,
+                                     bool stopped) {
+  const RunRange planned = stored.runs();
+  const std::string& name = stored.campaign.of_case;
+  const long made = std::ssize(results.runs);
+  if (stopped || stored.stamp.preview || made == 0 ||
+      results.runs[results.size() - 1] < planned.first + made)
+    return std::nullopt;
+  return fmt::format("{} of {} runs{}, with gaps that no interruption leaves: if runs were "
+                     "selected, no verdict and no bound holds",
+                     made, planned.size(), name.empty() ? "" : " of case " + name);
+}
+
 std::vector<StrangeDraws> strange_draws(const Campaign& campaign, const Results& results) {
   constexpr double tail = 1e-15;
   std::vector<StrangeDraws> found;

@@ -62,6 +62,12 @@ void copy_rows(const std::filesystem::path& from, const std::filesystem::path& t
 /// @pre the results are the folder's first runs
 [[nodiscard]] bool is_complete(const StoredCampaign& stored, const Results& results);
 
+/// The warning of rows that lack runs between others; nothing without such gaps. No interruption leaves gaps: somebody
+/// may have selected the rows.
+/// @param stopped by the campaign's goals, so that no run is missing
+[[nodiscard]] std::optional<std::string> gaps_text(const StoredCampaign& stored,
+                                                   const Results& results, bool stopped);
+
 /// Reads campaign.json. @throws SpecError if it is missing, broken, or does not match its hash
 [[nodiscard]] StoredCampaign read_stored_campaign(const std::filesystem::path& folder);
 

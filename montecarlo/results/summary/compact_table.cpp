@@ -87,6 +87,7 @@ std::string compact_outputs(CompactCases all, CompactCases cases) {
                         : fmt::format("OUTPUT, {} and {}", compact_quantile_name(quantiles[0].p),
                                       compact_quantile_name(quantiles[last].p)),
       cases);
+  bool explained = false; // whether it needs the note
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const auto of = [i](const CaseSummary& each) -> const OutputSummary& {
       return each.summary.outputs[i];
@@ -102,7 +103,9 @@ std::string compact_outputs(CompactCases all, CompactCases cases) {
           return last == 0 ? low
                            : low + right_aligned(four_digits(quantile_of(of(each), last)), 10);
         });
+    explained = explained || outputs[i].name.ends_with(".overtravel");
   }
+  if (explained) text += fmt::format("  {}\n", overtravel_note);
   return text;
 }
 
@@ -153,7 +156,7 @@ std::string described_quiet(const std::vector<std::pair<std::string, Reach>>& qu
   std::string text;
   const auto add = [&](const std::string& sentence) { text += "  " + wrapped(sentence, 2) + '\n'; };
   if (!hinges.empty())
-    add(fmt::format("overtravel of {}: {}", fmt::join(hinges, ", "),
+    add(fmt::format("overtravel (backwards, beyond stowed) of {}: {}", fmt::join(hinges, ", "),
                     largest == 0 ? "none" : fmt::format("at most {} deg", degrees_text(largest))));
   if (!constants.empty()) add(fmt::format("the same in every run: {}", fmt::join(constants, ", ")));
   return text;

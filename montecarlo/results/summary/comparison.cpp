@@ -103,8 +103,9 @@ std::string outcome_lines(Cases cases) {
 /// The mean, the first and the last quantile; a quantile that does not exist also among the runs with a value.
 std::string output_lines(const OutputSummary& output, std::size_t index, Cases cases) {
   std::string text =
-      fmt::format("{}{}{}\n", output.name, *parse_output_name(output.name).unit ? ", " : "",
-                  parse_output_name(output.name).unit);
+      fmt::format("{}{}{}{}\n", output.name, *parse_output_name(output.name).unit ? ", " : "",
+                  parse_output_name(output.name).unit,
+                  output.name.ends_with(".overtravel") ? " (backwards, beyond stowed)" : "");
   const auto of = [index](const CaseSummary& each) -> const OutputSummary& {
     return each.summary.outputs[index];
   };

@@ -41,8 +41,9 @@ std::vector<Overtravel> overtravels(const Scene& scene, const Outcome& outcome) 
 }
 
 std::string warning(const Overtravel& overtravel) {
-  return fmt::format("{} turns up to {:.3g} deg beyond its stowed angle; it has no stop",
-                     overtravel.hinge, overtravel.largest * 180 / std::numbers::pi);
+  return fmt::format(
+      "{} turns up to {:.3g} deg backwards, beyond its stowed angle (overtravel); it has no stop",
+      overtravel.hinge, overtravel.largest * 180 / std::numbers::pi);
 }
 
 std::string warning(const Overtravel& overtravel, long of_runs) {

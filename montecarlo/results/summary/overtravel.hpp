@@ -20,6 +20,9 @@ struct Overtravel {
   double largest = 0; ///< largest overtravel of all runs, rad
 };
 
+/// Explains the name in tables: in other fields it is the rotation beyond the latched angle.
+inline constexpr const char* overtravel_note = "overtravel: backwards, beyond the stowed angle";
+
 /// The hinges without a stop that exceed most_overtravel in any run, in the scene's order. Cost O(N) per hinge.
 [[nodiscard]] std::vector<Overtravel> overtravels(const Scene& scene, const Results& results);
 [[nodiscard]] std::vector<Overtravel> overtravels(const Scene& scene, const Outcome& outcome);

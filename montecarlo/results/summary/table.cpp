@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/results/summary/compact_table.hpp"
+#include "montecarlo/results/summary/overtravel.hpp"
 #include "montecarlo/results/summary/warnings.hpp"
 
 #include <fmt/format.h>
@@ -149,14 +150,17 @@ std::string output_block(const Summary& summary, std::span<const NumberColumn> c
   std::string text = fmt::format("\n{:<{}}{:<6}{:>9}", "OUTPUT", label_width, "unit", "runs");
   for (const NumberColumn& column : columns) text += right_aligned(column.heading, number_width);
   text += '\n';
+  bool explained = false; // whether it needs the note
   for (const char* previous = nullptr; const OutputSummary& output : summary.outputs) {
     if (!all && is_quiet(output)) continue;
     const std::string hinge = parse_output_name(output.name).hinge;
     if (!previous || hinge != parse_output_name(previous).hinge)
       text += fmt::format("{}\n", hinge.empty() ? "wing" : hinge);
     text += output_line(output, columns);
+    explained = explained || output.name.ends_with(".overtravel");
     previous = output.name.c_str();
   }
+  if (explained) text += fmt::format("  {}\n", overtravel_note);
   return text;
 }
 

@@ -67,6 +67,26 @@ TEST_CASE("a dispersion that is not fitted is named, and its spread widens what 
   CHECK(fitted(campaign, both).held.empty());
 }
 
+TEST_CASE("what is held widens a standard deviation at most to the prior's, and then says so") {
+  FitResult result;
+  result.finished = true;
+  result.held.push_back({"mass", 1, 1, 0.005});
+  FittedParameter& spring = result.parameters.emplace_back();
+  spring.name = "spring", spring.prior_std = 0.1, spring.std = 0.008;
+  const auto finding = [&](double factor) {
+    spring.widen(factor);
+    return fit_findings(result, FitSpec()).back();
+  };
+  CHECK_THAT(finding(365), Catch::Contains("spring 0.1 in place of 0.008 (as wide as the prior: "
+                                           "the held values decide it)"));
+  CHECK(spring.widening * spring.std == Approx(0.1));
+  CHECK_THAT(finding(2), Catch::Contains("spring 0.016 in place of 0.008") &&
+                             !Catch::Contains("as wide as the prior"));
+  spring.std = 0.12; // another mode: wider than the prior without what is held
+  CHECK_THAT(finding(3), Catch::Contains("spring 0.12 in place of 0.12 (as wide as the prior"));
+  CHECK_THAT(finding(std::nan("")), Catch::Contains("as wide as the prior"));
+}
+
 TEST_CASE("one bad sample is named with its time, not the whole trace") {
   const Folder folder;
   std::string text = "t,th\n";

@@ -62,8 +62,7 @@ const MovedDraws a_shifted{{0}, false}, a_scaled{{0}, true}, both_scaled{{0, 1},
 
 } // namespace
 
-TEST_CASE("of a linear output the change is the one at which the requirement just passes",
-          "[needed]") {
+TEST_CASE("of a linear output the edge is where the requirement just passes", "[needed]") {
   const bool upwards = GENERATE(true, false);
   const double sign = upwards ? 1 : -1;
   const auto output = [sign](double a, double b, double) { return sign * (3 * a - 0.5 * b); };
@@ -75,8 +74,8 @@ TEST_CASE("of a linear output the change is the one at which the requirement jus
     const auto change =
         needed_of(NeededFor::limit, requirement, sample.results(), {moved}).front().value();
     for (const auto& [beyond, decision] :
-         {std::pair(1 + 1e-9, Decision::pass), std::pair(1 - 1e-6, Decision::fail)}) {
-      const double base = moved.scaled ? 1 : 0, made = base + beyond * (change.change - base);
+         {std::pair(1 + 1e-6, Decision::pass), std::pair(1 - 1e-6, Decision::fail)}) {
+      const double base = moved.scaled ? 1 : 0, made = base + beyond * (change.edge - base);
       const auto moved_to = [&](double x) { return moved.scaled ? x * made : x + made; };
       InventedRuns after = sample;
       for (std::size_t i = 0; i < after.y.size(); ++i)
@@ -87,48 +86,74 @@ TEST_CASE("of a linear output the change is the one at which the requirement jus
   }
 }
 
-TEST_CASE("the change of a linear output with noise is that of its normal law", "[needed]") {
-  // y = 3 a − 2 b + 0.3 z: 99 % stay below 1 + 2.326 √(0.3² + 0.4² + 0.3²) = 2.356, so a must fall by (2.356 − 2)/3
-  const int n = 200'000;
-  const InventedRuns sample(n, 2,
-                            [](double a, double b, double z) { return 3 * a - 2 * b + 0.3 * z; });
-  const double spread = std::sqrt(0.34), z = normal_quantile(0.99);
-  // the order statistic lies within the binomial band of 1 % and the verdict's own confidence
-  const double density = std::exp(-z * z / 2) / std::sqrt(2 * 3.14159265358979),
-               band_of_t = 7 * spread * std::sqrt(0.01 * 0.99 / n) / density / 3;
-  const auto found =
-      needed_of(NeededFor::limit, limited(2), sample.results(), {a_shifted, a_scaled}).front();
-  REQUIRE(found);
-  const double expected = (2 - (1 + z * spread)) / 3;
-  CHECK(found->change == Approx(expected).margin(band_of_t));
-  CHECK(*found->bounds.lower < found->change);
-  CHECK(*found->bounds.upper > found->change);
-  CHECK(*found->bounds.upper - *found->bounds.lower < 0.05 * std::abs(expected));
-  CHECK(found->now == Approx(1).margin(1e-3));
-  CHECK(!found->is_beyond());
-  CHECK(found->of_broken > found->of_others); // runs beyond the limit have a larger a
+namespace {
+
+/// Outputs whose slope with a falls off, stays and grows towards smaller a, and whose spread depends on a.
+double curved(int kind, double a, double b, double z) {
+  const double x = a - 1;
+  switch (kind) {
+  case 0:
+    return 3 * x + 8 * x * x - 0.5 * b + 0.05 * z; // flat at a = 0.81
+  case 1:
+    return 3 * x - 0.5 * b + 0.05 * z;
+  case 2:
+    return 3 * x - 6 * x * x - 0.5 * b + 0.05 * z;
+  default:
+    return (1 + 2 * x) * (2 - b) + 0.02 * z;
+  }
 }
 
-TEST_CASE("the bounds of a slope cover it, and a draw without effect has no change", "[needed]") {
-  int covered = 0, seen = 0;
+} // namespace
+
+TEST_CASE("a change that is called known passes in new runs, whatever the curve", "[needed]") {
+  const int kind = GENERATE(0, 1, 2, 3);
+  constexpr int samples = 40;
+  int known = 0, passed = 0;
+  for (int s = 0; s < samples; ++s) {
+    const auto seed = static_cast<std::uint64_t>(1000 * kind + 2 * s);
+    const auto output = [&](double a, double b, double z) { return curved(kind, a, b, z); };
+    const InventedRuns sample(2000, seed, output);
+    std::vector<double> sorted = sample.y;
+    std::ranges::sort(sorted);
+    const Requirement requirement = limited(sorted[1930]); // 69 runs break it
+    const auto found =
+        needed_of(NeededFor::limit, requirement, sample.results(), {a_scaled}).front();
+    if (!found || !found->known) continue;
+    ++known;
+    CHECK(*found->bounds.lower == found->change); // downwards
+    CHECK(*found->bounds.upper >= found->edge);
+    CHECK(found->edge >= found->change);
+    const InventedRuns after(2000, seed + 1, [&](double a, double b, double z) {
+      return curved(kind, found->change * a, b, z);
+    });
+    passed += judge(requirement, after.results()).decision == Decision::pass ? 1 : 0;
+  }
+  INFO("of kind " << kind << ": " << passed << " of " << known);
+  if (kind > 0) CHECK(known > samples / 2);
+  CHECK(passed >= 0.975 * known - 4 * std::sqrt(0.025 * 0.975 * known));
+}
+
+TEST_CASE("the bounds hold the edge, and a draw without effect has no change", "[needed]") {
+  int covered = 0, seen = 0, found_edges = 0;
   constexpr int samples = 200;
   for (int s = 0; s < samples; ++s) {
-    const InventedRuns sample(300, static_cast<std::uint64_t>(100 + s),
+    const InventedRuns sample(600, static_cast<std::uint64_t>(100 + s),
                               [](double a, double, double z) { return a + 0.1 * z; });
-    const auto found = needed_of(NeededFor::limit, limited(1.2), sample.results(),
+    const auto found = needed_of(NeededFor::limit, limited(1.15, 0.95), sample.results(),
                                  {a_shifted, MovedDraws{{1}, false}});
-    REQUIRE(found[0]);
-    // with slope 1 the change is the limit less the order statistic, which the estimate scales by 1/b
-    std::vector<double> y = sample.y;
-    std::ranges::sort(y, std::ranges::greater{});
-    const long may = judge(limited(1.2), sample.results()).allowed.value();
-    const double exact = 1.2 - y[static_cast<std::size_t>(may)];
-    covered += *found[0]->bounds.lower <= exact && exact <= *found[0]->bounds.upper ? 1 : 0;
     seen += found[1] ? 1 : 0;
+    if (!found[0] || !found[0]->known) continue;
+    ++found_edges;
+    // a + t + 0.1 z ≤ 1.15 in the share m/n of new runs
+    const double share =
+                     static_cast<double>(*judge(limited(1.15, 0.95), sample.results()).allowed) /
+                     600,
+                 exact = 0.15 - std::sqrt(0.02) * normal_quantile(1 - share);
+    covered += *found[0]->bounds.lower <= exact && exact <= *found[0]->bounds.upper ? 1 : 0;
   }
-  CHECK(covered / static_cast<double>(samples) == Approx(0.95).margin(band(0.95, samples)));
-  CHECK(seen / static_cast<double>(samples) ==
-        Approx(0.025).margin(band(0.025, samples))); // two of them
+  CHECK(found_edges > samples / 2);
+  CHECK(covered >= 0.95 * found_edges);
+  CHECK(seen <= samples * (0.025 + band(0.025, samples))); // two of them share 5 %
 }
 
 TEST_CASE("a wing that deploys above a threshold needs the shift of its normal law", "[needed]") {
@@ -144,25 +169,52 @@ TEST_CASE("a wing that deploys above a threshold needs the shift of its normal l
   for (const auto& [place, slope] : {std::pair(0, 2.0), std::pair(1, -1.0)}) {
     REQUIRE(found[place]);
     const double expected = (0.3 * normal_quantile(0.98) - 0.4) / slope;
-    CHECK(found[place]->change == Approx(expected).epsilon(0.1));
-    CHECK(found[place]->bounds.lower < found[place]->bounds.upper);
+    CHECK(found[place]->edge == Approx(expected).epsilon(0.1));
+    CHECK(std::abs(found[place]->change) >= std::abs(found[place]->edge));
   }
-  CHECK(found[2]->change - 1 == Approx(found[0]->change).epsilon(0.01)); // the mean of a is 1
+  CHECK(found[2]->edge - 1 == Approx(found[0]->edge).epsilon(0.01)); // the mean of a is 1
   CHECK(found[0]->of_broken < found[0]->of_others);
   CHECK(found[1]->of_broken > found[1]->of_others);
 }
 
-TEST_CASE("a change beyond the values drawn says so", "[needed]") {
-  const InventedRuns sample(2000, 4, [](double a, double b, double) { return 3 * a - 2 * b; });
-  const auto near = needed_of(NeededFor::limit, limited(1.7), sample.results(), {a_scaled}).front(),
-             far = needed_of(NeededFor::limit, limited(-1), sample.results(), {a_scaled}).front();
+TEST_CASE("beyond the values drawn, and where wings drawn there stall, no change is known",
+          "[needed]") {
+  const auto output = [](double a, double b, double) { return 3 * a - 2 * b; };
+  InventedRuns sample(4000, 4, output);
+  const auto change = [&](double max) {
+    return needed_of(NeededFor::limit, limited(max), sample.results(), {a_scaled}).front();
+  };
+  const auto near = change(2);
+  REQUIRE(near);
+  CHECK(near->known);
+  CHECK(near->beyond_runs >= 10);
+  CHECK(near->beyond_undeployed == 0);
   const auto [low, high] = std::ranges::minmax(sample.a);
-  double mean = 0;
-  for (const double a : sample.a) mean += a / 2000;
-  CHECK(near->least == Approx(low / mean));
-  CHECK(near->most == Approx(high / mean));
-  CHECK(!near->is_beyond());
-  CHECK(far->is_beyond());
+  CHECK(near->least == Approx(low / near->now));
+  CHECK(near->most == Approx(high / near->now));
+  CHECK(near->change > near->least);
+  CHECK(!change(-1)); // every a that was drawn is too large
+  for (std::size_t i = 0; i < sample.a.size(); ++i)
+    if (sample.a[i] < 0.84) sample.status[i] = Status::stalled; // the limit counts 5 % more then
+  const Results results = sample.results();
+  const auto stalling = needed_of(NeededFor::limit, limited(2, 0.9), results, {a_scaled}).front();
+  if (stalling && stalling->change < 0.84) {
+    CHECK(stalling->beyond_undeployed > 0);
+    CHECK_FALSE(stalling->known);
+  }
+  const auto far = needed_of(NeededFor::limit, limited(1.75, 0.9), results, {a_scaled}).front();
+  REQUIRE(far);
+  CHECK_FALSE(far->known);
+  CHECK_FALSE(far->bounds.lower);
+  CHECK(far->bounds.upper);
+}
+
+TEST_CASE("too few runs never promise a change", "[needed]") {
+  // of 300 runs none may break 99 % at 90 %, so no number of seen ones is few enough
+  const InventedRuns sample(300, 9, [](double a, double, double z) { return a + 0.1 * z; });
+  const auto found =
+      needed_of(NeededFor::limit, limited(1.3), sample.results(), {a_scaled}).front();
+  CHECK_FALSE((found && found->known));
 }
 
 TEST_CASE("there is no estimate of too few runs, of entangled draws, or where every run stalls",

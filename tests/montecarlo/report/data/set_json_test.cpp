@@ -1,4 +1,5 @@
 // What the page says of a set of runs, key by key against the set's summary.
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/set_json.hpp"
 #include "tests/montecarlo/report/data/page_support.hpp"
@@ -125,4 +126,57 @@ TEST_CASE("a set has each requirement with its verdict, and the runs that break 
   CHECK(all[1]["worst"]["run"] == last - times.begin());
   CHECK(all[1]["worst"]["value"] == page_number(*last));
   CHECK(all[2]["worst"]["run"] == std::ranges::min_element(times) - times.begin());
+}
+
+TEST_CASE("the page warns of gaps between the runs, as analyze does", "[page]") {
+  const Campaign campaign = campaign_of(quick_campaign(20));
+  const RunPlan plan(campaign);
+  const Results whole = rows_of(plan, {0, 20});
+  const auto warned = [&](auto keeps) {
+    Results some(plan.names());
+    for (std::size_t row = 0; row < whole.size(); ++row)
+      if (keeps(whole.runs[row])) some.append(whole.row(row));
+    const std::string lines =
+        set_json(*source_of(campaign, std::move(some)), {}, 1)["warnings"].dump();
+    return lines.find("19 of 20 runs, with gaps that no interruption leaves") != std::string::npos;
+  };
+  CHECK(warned([](long run) { return run != 7; }));
+  CHECK_FALSE(warned([](long run) { return run != 19; })); // an interruption
+  CHECK_FALSE(warned([](long) { return true; }));
+}
+
+TEST_CASE("the page warns of a recorded row that its run made again contradicts", "[page]") {
+  const auto source = made(quick_campaign(20));
+  const auto said = [&] {
+    const Json json = set_json(*source, {}, 1);
+    for (const Json& motion : json["motions"]) CHECK_FALSE(motion.contains("differs"));
+    return json["warnings"].dump();
+  };
+  CHECK(said().find("recorded as") == std::string::npos);
+  const auto column = std::ranges::find(source->results.outputs, "deployment_time", &Column::name);
+  REQUIRE(column != source->results.outputs.end());
+  const auto edited = [&](double factor) {
+    Results rows(RunPlan(source->stored.campaign).names());
+    for (std::size_t row = 0; row < source->results.size(); ++row) {
+      ResultRow each = source->results.row(row);
+      const auto place = static_cast<std::size_t>(column - source->results.outputs.begin());
+      if (row == 3) each.outputs[place] *= factor; // then the slowest run, which the page shows
+      rows.append(each);
+    }
+    return set_json(*source_of(source->stored.campaign, std::move(rows)), {}, 1)["warnings"].dump();
+  };
+  CHECK(edited(1e3).find("run 3, column deployment_time: recorded as") != std::string::npos);
+  CHECK(edited(1 + 1e-12).find("recorded as") == std::string::npos); // of another machine
+}
+
+TEST_CASE("the page has the warnings of the input checks", "[page]") {
+  Json json = quick_campaign(20);
+  const auto said = [&] { return set_json(*made(json), {}, 1)["warnings"].dump(); };
+  CHECK(said().find("latch/stiffness") == std::string::npos);
+  json["scene"]["hinges"][0]["latch"]["stiffness"] = 0;
+  const Campaign campaign = campaign_of(json);
+  const auto warnings = check_input(campaign, "");
+  REQUIRE_FALSE(warnings.empty());
+  for (const InputWarning& each : warnings)
+    CHECK(said().find("input: " + each.pointer + ": ") != std::string::npos);
 }

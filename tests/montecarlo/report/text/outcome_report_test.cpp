@@ -1,4 +1,5 @@
 #include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/report/text/outcome_report.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
@@ -106,16 +107,18 @@ TEST_CASE("overtravel stands by hinge, and in the table, and is warned of withou
   outcome.peaks_final = true;
   outcome.overtravel = {0, 0.5, 0.25};
   scene.hinges[2].stop = Stop{100, 0, 0};
-  const std::string text = "mid turns up to 28.6 deg beyond its stowed angle; it has no stop";
+  const std::string text =
+      "mid turns up to 28.6 deg backwards, beyond its stowed angle (overtravel); it has no stop";
   CHECK(outcome_json(scene, outcome)["warnings"] == Json::array({text}));
-  CHECK_THAT(outcome_text(scene, outcome), Catch::Contains("\nWARNING\n  " + text + "\n\nEnergy"));
+  CHECK_THAT(outcome_text(scene, outcome),
+             Catch::Contains("\nWARNING\n  " + wrapped(text, 2) + "\n\nEnergy"));
   scene.hinges[1].stop = Stop{};
   CHECK(outcome_json(scene, outcome)["warnings"] == Json::array());
   CHECK(outcome_text(scene, outcome).find("WARNING") == std::string::npos);
   CHECK(outcome_json(scene, outcome)["overtravel"].dump() ==
         R"({"root":0.0,"mid":0.5,"tip":0.25})");
-  CHECK_THAT(outcome_text(scene, outcome),
-             Catch::Contains("rate, rad/s   overtravel, deg\n") && Catch::Contains("28.65\n  tip"));
+  CHECK_THAT(outcome_text(scene, outcome), Catch::Contains("rate, rad/s  beyond stowed, deg\n") &&
+                                               Catch::Contains("28.65\n  tip"));
 }
 
 TEST_CASE("what did not happen, or is not known, is null") {

@@ -45,7 +45,7 @@ TEST_CASE("cases have a line for each output, with its outermost quantiles, and 
         "\nREQUIREMENT, broken / allowed                            hot                cold\n"
         "  T-1: root.latch_time ≤ 8 s, 80 % at 90 %\n"
         "                                                  pass 0 / 1         fail 20 / 1\n"
-        "\n  overtravel of root: at most 0.0573 deg\n"
+        "\n  overtravel (backwards, beyond stowed) of root: at most 0.0573 deg\n"
         "  the same in every run: root.peak_moment = 100 N·m\n"
         "\nFILES  out: cases.json, and a results folder for each case; --all prints every "
         "statistic\n");

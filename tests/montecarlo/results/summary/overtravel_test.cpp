@@ -1,3 +1,4 @@
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/model/scene_file/scene_json.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
@@ -33,8 +34,8 @@ TEST_CASE("hinges without a stop that turn through their stowed angle are found"
   CHECK(found[0].hinge == "root");
   CHECK(found[0].runs == 2);
   CHECK(found[0].largest == 40 * degree);
-  CHECK(warning(found[0], 4) ==
-        "in 2 of 4 runs root turns up to 40 deg beyond its stowed angle; it has no stop");
+  CHECK(warning(found[0], 4) == "in 2 of 4 runs root turns up to 40 deg backwards, beyond its "
+                                "stowed angle (overtravel); it has no stop");
 }
 
 TEST_CASE("a hinge with a stop is not warned of, nor one whose overtravel is not recorded") {
@@ -51,7 +52,8 @@ TEST_CASE("one run's overtravel is warned of") {
   outcome.overtravel = {0.5 * degree, 31.44 * degree};
   const std::vector<Overtravel> found = overtravels(scene, outcome);
   REQUIRE(found.size() == 1);
-  CHECK(warning(found[0]) == "mid turns up to 31.4 deg beyond its stowed angle; it has no stop");
+  CHECK(warning(found[0]) ==
+        "mid turns up to 31.4 deg backwards, beyond its stowed angle (overtravel); it has no stop");
   scene.hinges[1].stop = Stop{};
   CHECK(overtravels(scene, outcome).empty());
 }
@@ -62,8 +64,9 @@ TEST_CASE("the table and summary.json warn of overtravel, where there is any") {
   CHECK(summary_table(summary, "t", "").find("WARNING") == std::string::npos);
   CHECK_FALSE(summary_json(summary, nullptr).contains("warnings"));
   summary.overtravels = overtravels(read_scene(test::small_scene()), results);
-  const std::string text =
-      "in 2 of 4 runs root turns up to 40 deg beyond its stowed angle; it has no stop";
-  CHECK_THAT(summary_table(summary, "t", ""), Catch::Contains("\nWARNING\n  " + text + "\n"));
+  const std::string text = "in 2 of 4 runs root turns up to 40 deg backwards, beyond its stowed "
+                           "angle (overtravel); it has no stop";
+  CHECK_THAT(summary_table(summary, "t", ""),
+             Catch::Contains("\nWARNING\n  " + wrapped(text, 2) + "\n"));
   CHECK(summary_json(summary, nullptr)["warnings"] == Json::array({text}));
 }

@@ -334,7 +334,8 @@ TEST_CASE("outcomes that no run has share a line, and outputs that never vary") 
   const std::string table = summary_table(summary, "t", "");
   CHECK(contains(table, "\n  stalled, timed out, invalid, failed" + std::string(22, ' ') +
                             "0     0.000 %"));
-  CHECK(contains(table, "\n  overtravel of root, tip: at most 0.0573 deg\n"));
+  CHECK(contains(table,
+                 "\n  overtravel (backwards, beyond stowed) of root, tip: at most 0.0573 deg\n"));
   CHECK(contains(table, "\n  the same in every run: tip.peak_moment = 7 N·m\n"));
   CHECK_FALSE(contains(table, "\ntip\n"));
   const std::string all = summary_table(summary, "t", "", true);
