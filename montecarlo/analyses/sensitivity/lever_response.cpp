@@ -12,15 +12,15 @@
 namespace wingspread {
 namespace {
 
-constexpr int size = 7; // 1, the five terms of (1), the residual
-using Sums = Eigen::Matrix<double, size, size>;
+constexpr int sums_size = 7; // 1, the five terms of (1), the residual
+using Sums = Eigen::Matrix<double, sums_size, sums_size>;
 
 /// The coefficients of (1) from sums of products, of draws divided by `scale`. Terms that others give, as r without
 /// other draws, share the smallest coefficients.
 std::array<double, 5> solved(const Sums& sums, double scale) {
   const double n = sums(0, 0);
   std::array<double, 5> curve{};
-  if (!(n > size + 10)) return curve; // heuristic: fewer runs do not show a curve
+  if (!(n > sums_size + 10)) return curve; // heuristic: fewer runs do not show a curve
   const Eigen::Matrix<double, 6, 1> mean = sums.block<6, 1>(1, 0) / n;
   const Eigen::Matrix<double, 6, 6> c = sums.block<6, 6>(1, 1) / n - mean * mean.transpose();
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, 5, 5>> factors;
@@ -44,7 +44,7 @@ LeverResponse::LeverResponse(LeverRuns runs) : runs_(std::move(runs)) {
   }
   for (std::size_t i = 0; i < runs_.fitted; ++i) {
     const double u = runs_.u[i] / scale, r = runs_.r[i] / scale;
-    Eigen::Matrix<double, size, 1> z;
+    Eigen::Matrix<double, sums_size, 1> z;
     z << 1, u, r, u * u, u * r, r * r, runs_.residual[i] / scale;
     of_group[static_cast<std::size_t>(runs_.group[i])] += z * z.transpose();
   }
