@@ -144,7 +144,8 @@ class FitChecks:
             self.run_script("const s = document.getElementById('angles'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", unit)
             for row, (name, one) in zip(self.table("Prediction: median (5 % … 95 %)"), varies.items(), strict=True):
                 hinge, _, quantity = name.rpartition(".")
-                self.assertEqual(row[0], f"{hinge} {quantity.replace('_', ' ')}".strip())
+                label = quantity.replace("_", " ") + (" (beyond stowed)" if quantity == "overtravel" else "")
+                self.assertEqual(row[0], f"{hinge} {label}".strip())
                 scale = factor if quantity in ("latch_rate", "overtravel") else 1
                 self.assertEqual(row[1], {"latch_rate": f"{unit}/s", "overtravel": unit, "peak_moment": "N·m", "peak_force": "N"}.get(quantity, "s"), name)
                 for cell, when in zip(row[2:], ("before", "after"), strict=True):

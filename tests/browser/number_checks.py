@@ -142,6 +142,18 @@ class Numbers:
             return one["margin"]
         return (one["limit"] - one["observed_value"]) * (1 if one["upper"] else -1)
 
+    def used_share(self, one, one_set):
+        """The share of the allowed failures that is used up."""
+        allowed = one.get("allowed")
+        allowed = one_set["runs"] * (1 - one["probability"]) if allowed is None else allowed
+        return one["broken"] / allowed if allowed else math.inf if one["broken"] else 0
+
+    def relative_margin(self, one):
+        margin = self.margin(one)
+        if margin is not None:
+            return margin / abs(one["limit"] or 1)
+        return ((one["observed"] if one["guaranteed"] is None else one["guaranteed"]) - one["probability"]) / (1 - one["probability"])
+
     def words(self, one):
         """A requirement as the page states it: in words, and in degrees where they make the shorter number."""
         name = " ".join(word for word in (one.get("id"), one.get("name")) if word)
@@ -209,8 +221,8 @@ class Numbers:
                 self.assertAlmostEqual(found[len(parts)], one["worst"]["value"] * factor, delta=abs(one["worst"]["value"] * factor) * 1e-3)
             margin = self.margin(one) if values else one["guaranteed"] - one["probability"]
             self.assertEqual(row[4].startswith("+"), margin is not None and margin > 0, one["text"])
-        strain = lambda one: -self.margin(one) / abs(one["limit"]) if one["limit"] and self.margin(one) is not None else one["broken"] / one_set["runs"] - (1 - one["probability"])
-        ranked = [(("failed", "open", "passed").index(one["verdict"]), -strain(one)) for one in self.run_script("return W.verdicts.judged().map(row => row.requirement)")]
+        ranked = [(("failed", "open", "passed").index(one["verdict"]), -self.used_share(one, one_set), self.relative_margin(one))
+                  for one in self.run_script("return W.verdicts.judged().map(row => row.requirement)")]
         self.assertEqual(ranked, sorted(ranked))
         badges = self.run_script("return [...document.querySelectorAll('.outputs tbody tr')].map(row => row.querySelector('th .badge')?.title)")
         for badge, output in zip(badges, one_set["outputs"], strict=True):
