@@ -156,9 +156,9 @@ void name_held_hinges(const Scene& scene, Outcome& outcome) {
   for (const int hinge : outcome.never_released)
     outcome.reason +=
         (outcome.reason.empty() ? "" : "; ") + scene.hinges[hinge].name + " was never released" +
-        (std::ranges::find(outcome.released_later, hinge) == outcome.released_later.end()
+        (std::ranges::find(outcome.may_release_later, hinge) == outcome.may_release_later.end()
              ? ""
-             : ": t_end came before its release");
+             : " up to t_end; its hold may let go later");
 }
 
 } // namespace

@@ -127,9 +127,9 @@ struct Outcome {
   std::vector<HingeEvent> releases; ///< holds that let go, in order of time
   /// Hinges that are still held at the end of a stalled run, without those that wait for another held hinge.
   std::vector<int> never_released;
-  std::vector<int> released_later; ///< held hinges whose hold may let go after t_end
-  std::vector<Peak> peak_moment;   ///< N·m; empty when not asked for
-  std::vector<Peak> peak_force;    ///< N; empty when not asked for
+  std::vector<int> may_release_later; ///< held hinges whose hold may let go after t_end
+  std::vector<Peak> peak_moment;      ///< N·m; empty when not asked for
+  std::vector<Peak> peak_force;       ///< N; empty when not asked for
   /// The largest moment that each hinge's hold bore, N·m; empty when not asked for, or where no hinge is held.
   std::vector<Peak> hold_moment;
   std::vector<double>

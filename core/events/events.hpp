@@ -16,7 +16,7 @@ namespace wingspread {
 
 /// `rest`: a sliding hinge stops. `graze`: the load of a stuck hinge comes so near its limit that only a step of the
 /// method can decide. `edge`: a real hinge reaches an angle at which its law changes. `kink`: a law bends
-/// (kinks.hpp), and the equations stay as they are. `let_go`: an engaged latch does. `seen`: another hinge reaches the
+/// (kinks.hpp), and the equations stay as they are. `let_go`: an engaged latch lets go. `seen`: another hinge reaches the
 /// angle for which a hold waits.
 enum class Event { latch, rest, release, graze, edge, kink, let_go, seen };
 

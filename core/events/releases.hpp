@@ -91,7 +91,7 @@ public:
 
   /// Whether a hold may still let go, before t_end or after, where no open hinge will latch any more.
   /// @param rests whether no hinge will move any more
-  [[nodiscard]] bool may_come(bool rests) const {
+  [[nodiscard]] bool may_let_go(bool rests) const {
     for (int i = 1; held_ > 0 && i < size(); ++i)
       if (is_held(i) && (due_[i] < T(never) || (watches(i) && !rests && moves(i)))) return true;
     return false;
@@ -120,11 +120,12 @@ public:
   }
 
   /// The held hinges, in the scene's numbering, whose hold may let go after t_end.
-  /// @param no_latch whether no open hinge will latch any more @param rests as of may_come
-  [[nodiscard]] std::vector<int> released_later(bool no_latch, bool rests) const {
+  /// @param no_latch whether no open hinge will latch any more @param rests as of may_let_go
+  [[nodiscard]] std::vector<int> may_release_later(bool no_latch, bool rests) const {
     std::vector<int> later;
     for (int i = 1; held_ > 0 && i < size(); ++i)
-      if (is_held(i) && !lasts(i, no_latch, rests)) later.push_back(system_.wing().hinge_of[i]);
+      if (is_held(i) && !never_lets_go(i, no_latch, rests))
+        later.push_back(system_.wing().hinge_of[i]);
     return later;
   }
 
@@ -142,8 +143,8 @@ private:
     return hold.event == Release::Event::time ||
            (hold.event == Release::Event::released && !(due_[hold.after] > T(0)));
   }
-  /// Whether the hold of hinge i, which is held, never lets go. A hold that waits for a held hinge lasts as long as that.
-  [[nodiscard]] bool lasts(int i, bool no_latch, bool rests) const {
+  /// Whether the hold of hinge i, which is held, never lets go. If it waits for a held hinge, that hinge's hold decides.
+  [[nodiscard]] bool never_lets_go(int i, bool no_latch, bool rests) const {
     for (int passed = 0; passed < size(); ++passed) {
       const ReleaseTerms<T>& hold = terms(i);
       if (hold.fails != T(0)) return true;

@@ -63,7 +63,7 @@ template <BaseMotion M, class T, class Topology, class Frames>
   tree.outward([&](int i) __attribute__((always_inline)) { place<M>(wing, tree, frames, i); });
 }
 
-/// Sets the rates of a placed system on a free base anew, where only they have changed: as place_base and place_bodies.
+/// Updates the rates of placed frames on a free base: cheaper than placing them again, if only rates of x have changed.
 template <class T, class Topology, class Frames>
 [[gnu::always_inline]] inline void set_rates(const Layout& at, const Topology& tree, Frames& frames,
                                              const State<T>& x) {
@@ -117,7 +117,7 @@ void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<Bo
   });
 }
 
-/// The same of placed bodies, and of the base if it is free. Cost O(n).
+/// Mass properties and motion of all placed bodies, and of a free base. Cost O(n).
 template <BaseMotion M, class T, class Topology>
 [[nodiscard]] TotalMotion<T> total_motion_of(const Wing<T>& wing, const Topology& tree,
                                              const std::vector<BodyFrame<T>>& frames) {

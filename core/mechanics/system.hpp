@@ -93,7 +93,7 @@ public:
   /// Sets dxdt. With want_forces(true), the workspace has the hinge forces at x afterwards.
   void operator()(const State<T>& x, State<T>& dxdt, const T& t) { evaluate<true>(x, dxdt, t); }
 
-  /// Sets dxdt at the end x of a step, as operator() does. If the workspace says so, first gives x the conserved momenta.
+  /// Sets dxdt at the end x of a step, as operator() does. Restores the conserved momenta in x first, if work.keeps_momenta.
   void end_step(State<T>& x, State<T>& dxdt, const T& t) {
     if constexpr (M == BaseMotion::free)
       if (work_.keeps_momenta) {

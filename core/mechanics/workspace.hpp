@@ -62,8 +62,8 @@ template <class T> struct Workspace {
   int stuck = 0;          ///< number of locked hinges, of all lanes together
   std::vector<Crossing<T>> crossings; ///< 0 … n: of the last evaluation while hinges are locked
   Conserved<T> conserved{};           ///< of a free base whose momenta every step keeps
-  bool keeps_momenta = false;         ///< every step does, on a free base without air
-  T least_motion = T(0); ///< atol of the run, rad and rad/s: smaller motion is not resolved
+  bool keeps_momenta = false; ///< whether every step restores `conserved`: a free base without air
+  T least_motion = T(0);      ///< atol of the run, rad and rad/s: smaller motion is not resolved
   long evaluations = 0;
 
   /// Makes room for a wing of n bodies. @param real, plates, motored sizes of the wing's lists

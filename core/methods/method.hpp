@@ -45,7 +45,7 @@ template <class T> struct Start {
   const State<T>&x, &dxdt;
 };
 
-/// Sets dxdt1 at the end x1 of a step. A system that keeps invariants first gives them to x1.
+/// Sets dxdt1 at the end x1 of a step. A system that keeps invariants first restores them in x1.
 template <class T, class AnySystem>
 void evaluate_end(AnySystem& system, State<T>& x1, State<T>& dxdt1, const T& t) {
   if constexpr (requires { system.end_step(x1, dxdt1, t); })

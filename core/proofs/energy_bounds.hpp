@@ -30,8 +30,8 @@
 /// A body that only held hinges tie to a base that is fixed or driven does not move as seen from the base: ω = 0, and its
 /// hinges' moments accelerate nothing.
 ///
-/// |ω| ≤ √(2E/J), and |r| more on a free base, bounds γ along each path, and (3) bounds L. On a base that is driven, positions and
-/// velocities are as seen from the base, and γ − f replaces γ, f the apparent force of
+/// √(2E/J) bounds |ω|; on a free base √(2E'/J) + |r| does too. These bound γ along each path, and (3) bounds L. On a base
+/// that is driven, positions and velocities are as seen from the base, and γ − f replaces γ, f the apparent force of
 /// apparent_load.hpp.
 #pragma once
 

@@ -90,13 +90,13 @@ template <class T>
 
 /// Says which attempts also ask for the energy's box, after all cheaper bounds have refused: that box costs several times as
 /// much as they do. Heuristic: the first two refusals do not lead to it, because the cheaper bounds often prove the peaks at
-/// the third attempt. Where its bounds exceed a peak r times, it is asked for again once the energy has fallen to 1/r, or after
-/// as many refusals as before: loads fall no faster than the energy, and with its root where they are linear. A run may
-/// therefore end some attempts late; of the outputs only `peaks_final` depends on that.
+/// the third attempt. If its bounds exceed a peak by the factor r, it is asked for again when the energy has fallen to 1/r:
+/// loads fall no faster than the energy. It is also asked for when the number of refusals has doubled, because loads may
+/// fall while the energy stays. A run may end some attempts late; of the outputs only `peaks_final` depends on that.
 template <class T> class ThoroughAttempts {
 public:
   /// Counts an attempt that the cheaper bounds refused. @return whether to ask for the energy's box
-  /// @param energy E' of remaining_energy.hpp (4): what turns a free base never falls
+  /// @param energy E' of remaining_energy.hpp (4): E has the rigid turning of a free base, which never decays
   [[nodiscard]] bool is_due(const T& energy) {
     constexpr int before_first = 2;
     ++refusals_;

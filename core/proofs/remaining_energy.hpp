@@ -14,13 +14,12 @@
 /// of mass: its energy is constant.) A hinge that cannot reach its latch goes no further than E takes
 /// it.
 ///
-/// A free base that turns keeps its angular momentum H. Its bodies turn together by r = H/I, I their inertia about the
-/// common centre, and as the hinges move them beside that: T = T' + ½H²/I. Of E no more than
+/// A free base that turns keeps its angular momentum H. I is the inertia of all bodies about the common centre. The
+/// motion is a rigid turning at r = H/I and a motion relative to it: T = T' + ½H²/I. As I ≤ I_max, the hinges get at most
 ///
 ///     E' = E − ½H²/I_max,     I_max = Σ_(k<l) m_k m_l d_kl²/m + Σ J_k,     |r| ≤ 2E/|H|              (4)
 ///
-/// goes to the hinges, d_kl the length of the path along the bodies from the centre of body k to that of body l. It
-/// stands for E in what follows.
+/// d_kl is the length of the path along the bodies between the centres of k and l. E' stands for E below.
 ///
 /// On a driven base T is taken as seen from the base, and by (3) of apparent_load.hpp
 ///
@@ -53,18 +52,18 @@
 
 namespace wingspread {
 
-/// What is left of energy, J.
+/// Bounds from the energy that is left.
 template <class T> struct EnergyLeft {
-  T whole;    ///< E, or Ē of (3)
-  T within;   ///< E' of (4); on a base that is not free the same
-  T whirl{0}; ///< bounds |r| of a free base, rad/s
+  T whole;    ///< E, or Ē of (3), J
+  T within;   ///< E' of (4), what the hinges may get, J; on a base that is not free E
+  T whirl{0}; ///< largest |r| of a free base, rad/s
 };
 
 template <class T> class RemainingEnergy {
 public:
   using Numbers = Eigen::Matrix<T, Eigen::Dynamic, 1>; ///< 0 … n, as the bodies are numbered
 
-  /// Finds what depends on the wing alone. Cost O(n) times the tree's depth.
+  /// Computes the terms that depend on the wing alone. Cost O(n) times the tree's depth; on a free base O(n²) times it.
   /// @pre no hinge will latch any more, and no motor's command will change
   template <class AnySystem> void prepare(const AnySystem& system) {
     const int n = system.layout().bodies;
@@ -278,7 +277,7 @@ private:
     return products / mass + inertia;
   }
 
-  /// The length of the path along the bodies between the centres of two, m: no two points of it are further apart.
+  /// The length of the path along the bodies between the centres of k and l, m: it bounds their distance for ever.
   template <class AnySystem>
   [[nodiscard]] static T path_between(const AnySystem& system, int k, int l) {
     const Wing<T>& wing = system.wing();

@@ -79,10 +79,10 @@ template <class AnySystem, class T>
 
 } // namespace detail
 
-/// Whether (1) holds of this wing in its present state: not with a driven base, smoothed latches, real hinges, elastic
-/// holds or the wind, which may bring energy in.
+/// Whether (1) holds for this wing now. It does not with a driven base, smoothed latches, real hinges, elastic holds, or
+/// plates on a free base: these may add energy.
 template <class T, class Topology, BaseMotion M>
-[[nodiscard]] bool energy_tells(const System<T, Topology, M>& system) {
+[[nodiscard]] bool energy_bound_holds(const System<T, Topology, M>& system) {
   if (M == BaseMotion::prescribed || system.layout().smoothed || system.wing().is_real())
     return false;
   for (int i = 1; i <= system.layout().bodies; ++i)
@@ -98,7 +98,7 @@ template <class T, class Topology, BaseMotion M>
 [[nodiscard]] std::optional<T> energy_missing(System<T, Topology, M>& system, const State<T>& x,
                                               const T& t) {
   const Layout& at = system.layout();
-  if (!energy_tells(system)) return std::nullopt;
+  if (!energy_bound_holds(system)) return std::nullopt;
   if (detail::springs_reach_a_latch(system, x)) return std::nullopt; // most attempts end here
   using std::abs;
   const TotalMotion<T> now = total_motion(system, x, t);

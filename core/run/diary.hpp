@@ -88,7 +88,7 @@ public:
     out.t_end = static_cast<double>(run_.step.t);
     out.latches = std::move(latches_);
     out.missed = missed_, out.let_go = let_go_, out.releases = releases_;
-    out.never_released.clear(), out.released_later.clear();
+    out.never_released.clear(), out.may_release_later.clear();
     if (run_.goal.peak_moment) out.peak_moment = in_scene_order(wing, peaks.moments());
     if (run_.goal.peak_force) out.peak_force = in_scene_order(wing, peaks.forces());
     if (run_.goal.hold_moment && !wing.releases.empty())
@@ -117,8 +117,8 @@ public:
   [[nodiscard]] Outcome&& outcome() { return std::move(outcome_); }
 
   /// Notes the held hinges that stall the run. @pre closed
-  void blame(const std::vector<int>& never_released, const std::vector<int>& released_later) {
-    outcome_.never_released = never_released, outcome_.released_later = released_later;
+  void blame(const std::vector<int>& never_released, const std::vector<int>& may_release_later) {
+    outcome_.never_released = never_released, outcome_.may_release_later = may_release_later;
   }
 
 private:

@@ -43,7 +43,7 @@ struct End {
   Status status = Status::timed_out;
   std::string reason; ///< of a stall
   Finality final{};   ///< of the peaks that were asked for, and of the latches
-  std::vector<int> never_released{}, released_later{}; ///< of a stall, as in Outcome
+  std::vector<int> never_released{}, may_release_later{}; ///< of a stall, as in Outcome
 };
 
 /// Decides whether a run ends at its present state.
@@ -102,7 +102,7 @@ public:
     if (!is_cut_short && (no_latch || releases.held() > 0)) {
       end.status = Status::stalled, end.reason = stall_.value_or("");
       end.never_released = releases.never_released();
-      end.released_later = releases.released_later(no_latch, is_stuck());
+      end.may_release_later = releases.may_release_later(no_latch, is_stuck());
     } else if (!latches_left())
       end.status = diary_.any_latch() ? Status::deployed : Status::timed_out;
     if (end.status == Status::deployed && !is_cut_short) end.final.latches = latches_stay();
@@ -112,8 +112,8 @@ public:
 
   /// Steps that may be accepted before one at whose end a proof is attempted.
   [[nodiscard]] long steps_to_attempt() const {
-    return seeks_proof() && !is_stall_vain() ? schedule_.steps_to_attempt()
-                                             : std::numeric_limits<long>::max();
+    return seeks_proof() && !cannot_prove_stall() ? schedule_.steps_to_attempt()
+                                                  : std::numeric_limits<long>::max();
   }
   /// Counts steps that a lane has made. @pre no more than `steps_to_attempt`
   void count_lane_steps(long steps) {
@@ -139,7 +139,7 @@ private:
   /// Whether all latches are engaged, and a hold may still let go. Where latches are left, the proof of a stall asks.
   [[nodiscard]] bool may_release() const {
     return !latches_left() &&
-           events_.releases().may_come(is_stuck_for_good(run_.system, run_.step.x));
+           events_.releases().may_let_go(is_stuck_for_good(run_.system, run_.step.x));
   }
   /// Whether any motion changes an output. @see motor_energy.hpp for what counts as a motor's energy
   [[nodiscard]] bool waits_for_rest() const {
@@ -152,7 +152,7 @@ private:
   }
 
   [[nodiscard]] bool is_stuck() const {
-    return is_stuck_for_good(run_.system, run_.step.x) && !events_.releases().may_come(true);
+    return is_stuck_for_good(run_.system, run_.step.x) && !events_.releases().may_let_go(true);
   }
 
   /// Whether an engaged latch may let go, as far as its holding moment tells.
@@ -205,13 +205,13 @@ private:
     return final_peaks_.lacks_modes() ? SoughtProof::peaks_by_energy : SoughtProof::peaks_by_modes;
   }
 
-  /// Whether no attempt before the next event can prove a stall: a hold may let go, or the energy tells nothing of this
+  /// Whether no attempt before the next event can prove a stall: a hold may let go, or no energy bound holds for this
   /// wing.
-  [[nodiscard]] bool is_stall_vain() const {
+  [[nodiscard]] bool cannot_prove_stall() const {
     if (stall_ || !latches_left()) return false;
-    if (events_.releases().may_come(is_stuck())) return true;
+    if (events_.releases().may_let_go(is_stuck())) return true;
     return !is_stuck() && events_.latches_left() != events_.releases().latches_held() &&
-           !energy_tells(run_.system);
+           !energy_bound_holds(run_.system);
   }
 
   /// Proves that no open hinge will latch, and keeps the reason. @return whether that is proven
@@ -220,7 +220,7 @@ private:
     const auto from = [](const T& t) {
       return ", from t = " + in_words(static_cast<double>(t)) + " s on";
     };
-    if (is_stall_vain()) return false;
+    if (cannot_prove_stall()) return false;
     if (is_stuck())
       stall_ = "every hinge sticks, and the load on them stays as it is" + from(*standstill_);
     else if (!latches_stay())

@@ -341,7 +341,7 @@ private:
 
   void end(const End& how) {
     diary_.close(how.status, how.reason, stepping_.work(), peaks_, how.final);
-    if (how.status == Status::stalled) diary_.blame(how.never_released, how.released_later);
+    if (how.status == Status::stalled) diary_.blame(how.never_released, how.may_release_later);
     ended_ = true;
   }
 

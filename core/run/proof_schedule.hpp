@@ -30,7 +30,8 @@ public:
     return due;
   }
 
-  /// Counts steps that an engine of packs has made. Attempts that were due at their ends count as made.
+  /// Counts steps that an engine of packs has made. Attempts at a stall proof that were due count as made: none could
+  /// have succeeded.
   void skip_steps(long steps, SoughtProof sought) {
     steps_ += steps;
     while (sought == SoughtProof::stall && next_attempt_ <= steps_)

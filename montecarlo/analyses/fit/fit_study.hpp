@@ -29,13 +29,13 @@ struct FittedParameter {
   double prior_sigmas = 0; ///< |u| of the mode: its distance from the prior's median
   double widening = 1;     ///< factor of `std` by the spread of dispersions that are not fitted
   std::optional<double> limit{}; ///< of the prior, if the posterior lies there
-  bool held_decides = false;     ///< the factor is cut: it would be wider than the prior
+  bool held_decides = false;     ///< `widening` is cut, because `std` would exceed the prior's
 
   /// Sets the widening to the first-order factor, cut where the standard deviation would exceed the prior's: so far out
   /// the model is not linear, and the prior bounds the parameter anyway.
   void widen(double factor) {
     const double most = std::max(1.0, prior_std / std);
-    held_decides = !(factor < most);
+    held_decides = !(factor <= most);
     widening = std::fmin(factor, most);
   }
 };

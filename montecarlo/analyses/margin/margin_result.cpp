@@ -10,7 +10,7 @@
 namespace wingspread {
 namespace {
 
-/// The number of draws that break the condition at a of the scales but not at the scale before it.
+/// The number of draws that break the condition at one of the scales but not at the scale before it, summed over them.
 long relapses(const std::vector<const ScaleResult*>& scales, const MarginCondition& condition) {
   std::set<long> relapsed;
   for (std::size_t k = 1; k < scales.size(); ++k) {

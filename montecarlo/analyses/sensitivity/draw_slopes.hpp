@@ -23,7 +23,7 @@ struct OutputValues {
 };
 
 /// Least squares of the values on all draws that vary, and again without each group of runs. Cost O(n k²).
-/// @pre values and results outlive it
+/// @pre values, results and replication outlive it
 class DrawSlopes {
 public:
   DrawSlopes(const OutputValues& values, const Results& results, const Replication& replication)
@@ -51,12 +51,12 @@ public:
   [[nodiscard]] bool known() const { return all_.size() > 0; }
   [[nodiscard]] double explained() const { return explained_; }
   [[nodiscard]] long runs() const { return static_cast<long>(fitted_); }
-  /// The group of a run of the values.
+  /// The jackknife's group of run i of the values.
   [[nodiscard]] int group(std::size_t i) const {
     return replication_.replicates > 0 ? replication_.of_row[values_.rows[i]]
                                        : static_cast<int>(values_.rows[i] % jackknife_groups);
   }
-  /// b of a column of the draws; 0 of a constant one.
+  /// The slope b of the output with this column of draws; 0 if the column is constant.
   [[nodiscard]] double of(std::size_t column) const { return slope(all_, column); }
   /// For each group, Σ weight · b over the columns with the group left out; NaN if that has no slopes.
   [[nodiscard]] std::vector<double> without(std::span<const std::size_t> columns,

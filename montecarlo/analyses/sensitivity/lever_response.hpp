@@ -37,8 +37,8 @@ public:
   /// Cost O(n).
   explicit LeverResponse(LeverRuns runs);
 
-  /// The smallest |t| from 0 to `end` at which at most `most` runs are beyond the limit, by bisection; nothing if more
-  /// are beyond at the end. Cost O(n) for each of 50 steps.
+  /// A t between 0 and `end`, of its sign, at which at most `most` runs are beyond the limit: the nearest to 0 if their
+  /// number falls steadily. Nothing if more are beyond it at `end`. Cost O(n) for each of about 44 bisections.
   [[nodiscard]] std::optional<double> change(double limit, long most, double end) const;
 
   /// By how much the runs beyond the limit fall on average for a change t, and the jackknife's bounds of it.

@@ -1,4 +1,5 @@
-/// How far dispersed inputs would have to move for a requirement to pass: a first-order estimate from rows.
+/// Estimates from rows how far dispersed inputs must move for a requirement to pass: quadratic for a limit, first-order
+/// for deployment.
 ///
 ///   symbol  meaning
 ///   x_ij    draw j of run i

@@ -1,4 +1,4 @@
-/// What outputs there are, and their names: "root.latch_time", "root.rate_at.tip", "deployment_time".
+/// The outputs and their names: "root.latch_time", "root.rate_at.tip", "deployment_time".
 #pragma once
 
 #include <array>
@@ -27,16 +27,16 @@ enum class OutputQuantity {
   deployment_time
 };
 
-/// What an output belongs to. Its name begins with that; an output of the wing is its own name.
+/// The owner of an output. The name begins with the owner's; an output of the wing has no owner.
 enum class OutputOwner { hinge, two_hinges, body, base, mode, wing };
 
 /// t_end may cut a peak; its largest value is then unknown. Moments include those in flexible bodies.
 enum class PeakKind { none, moment, force };
 
-/// What holds for every output of a quantity.
+/// Properties of all outputs of a quantity.
 struct OutputKind {
   OutputQuantity quantity;
-  std::string_view name; ///< behind the owner's
+  std::string_view name; ///< the part after the owner's name
   OutputOwner owner;
   const char* unit; ///< "" of a number
   bool has_sign;    ///< false: no value is below 0
@@ -101,7 +101,7 @@ struct OutputName {
   std::string hinge;    ///< or the body, the mode, "base"; empty for an output of the whole wing
   std::string quantity; ///< "latch_time"; the whole name if unknown
   std::string other;    ///< of a `rate_at`, the hinge that latches; else empty
-  const char* unit;     ///< "s", "rad/s", "N·m", "N", "rad"; "" when unknown
+  const char* unit;     ///< SI unit; "" of a number or an unknown output
   const OutputKind* kind = nullptr; ///< null when unknown
 };
 

@@ -14,14 +14,14 @@ struct Tally {
   long invalid = 0; ///< runs with an unphysical draw
   long failed = 0;  ///< runs whose integration failed
   long stalled = 0, timed_out = 0;
-  long analysis = 0, analyses = 0; ///< interim analysis under way, and how many there will be
+  long analysis = 0, analyses = 0; ///< analysis under way, and how many there will be
   bool at_most = false;            ///< `analyses` and `total` are upper bounds, which may shrink
 };
 
-/// Progress of a study whose interim analyses depend on earlier results.
+/// Progress of a study that chooses its next runs by earlier results.
 struct StudyProgress {
   long analysis = 0,
-       most_analyses = 0;       ///< interim analysis under way, from 1; upper bound of their number
+       most_analyses = 0;       ///< analysis under way, from 1; upper bound of their number
   long runs = 0, most_runs = 0; ///< runs made; upper bound of their number
 };
 

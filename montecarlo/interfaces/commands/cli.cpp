@@ -145,7 +145,7 @@ int run_action(const Action& action) {
     return action();
   } catch (const MachineError& error) {
     return print_error(error.what(), exit_code::machine_refused);
-  } catch (const std::filesystem::filesystem_error& error) { // a path at which nobody may look
+  } catch (const std::filesystem::filesystem_error& error) { // a path without permission
     return run_action([&]() -> int {
       refuse_path(error.path1(), error.code().value(), "a path that can be opened");
     });

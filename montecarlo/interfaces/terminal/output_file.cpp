@@ -44,7 +44,7 @@ constexpr std::array<std::string_view, 10> marks{
     summary_file,   cases_file,  statistics_file, checkpoint_file, margin_json_file,
     rare_json_file, design_file, shard_file,      fit_json_file,   sensitivity_json_file};
 
-/// Whether the path exists; false where nobody may look, because the file cannot be written there either.
+/// Whether the path exists; false if the system denies access: then the file cannot be written either.
 bool is_there(const fs::path& path) {
   std::error_code unknown;
   return fs::exists(path, unknown);
@@ -152,7 +152,7 @@ void refuse_overwriting(const fs::path& out, const std::vector<fs::path>& read,
       refuse("a file of the results folder");
   }
   if (belongs_to_results(out)) refuse("a file of a results folder");
-  std::error_code unknown; // a file at which nobody may look cannot be written either
+  std::error_code unknown; // a file without permission to read cannot be written either
   if (!fs::is_regular_file(out, unknown)) return;
   for (const fs::path& each : read)
     if (is_named_in(each, out)) refuse("which this command reads");

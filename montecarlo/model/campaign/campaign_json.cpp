@@ -31,10 +31,10 @@ void refuse_dependent_draws(const JsonCursor& at, const char* what, DesignKind d
             "the design \"random\": these statistics hold for independent draws only");
 }
 
-/// Refuses goals to stop at in an extended campaign: its interim analyses were fixed before the first run.
+/// Refuses goals to stop at in an extended campaign: they need interim analyses that are fixed before the first run.
 void refuse_extended_rule(const JsonCursor& at) {
-  at.refuse("goals to stop at", "no goals: the campaign was extended, and its interim analyses "
-                                "were fixed before the first run");
+  at.refuse("goals to stop at", "no goals: they need interim analyses that are fixed before the "
+                                "first run, and the campaign was extended");
 }
 
 std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs) {

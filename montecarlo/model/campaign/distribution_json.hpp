@@ -31,8 +31,8 @@ namespace wingspread {
 /// @param scene null if the scene has problems
 [[nodiscard]] std::optional<std::string_view> unit_of_draws(const Json& spec, const Scene* scene);
 
-/// Drops refusals of strings that begin with a number, from the problem `before` on: for values of an unknown unit,
-/// which another problem already explains. @return whether there was any
+/// Removes the problems from index `before` on that refuse a string which begins with a number: the unit is unknown, which
+/// another problem already explains. @return whether there was any
 bool drop_quantities(std::size_t before, std::vector<Problem>& problems);
 
 /// Reads one column of a CSV file with a header; notes a problem at `at`, if no file can be read, or in the file.

@@ -13,7 +13,7 @@ namespace {
 
 using Quantity = OutputQuantity;
 
-static_assert(std::ranges::all_of(output_families, [](const FamilyOfOutputs& each) {
+static_assert(std::ranges::all_of(output_families, [](const OutputFamilyInfo& each) {
   return &about(each.family) == &each;
 }));
 
@@ -129,7 +129,7 @@ static_assert(std::ranges::all_of(sources, [](const Source& source) {
 
 const Source& source_of(Quantity quantity) { return sources[static_cast<std::size_t>(quantity)]; }
 
-bool is_default(const FamilyOfOutputs& family, const Scene* scene) {
+bool is_default(const OutputFamilyInfo& family, const Scene* scene) {
   if (family.by_default != ByDefault::with_its_feature) return family.by_default == ByDefault::yes;
   return scene && std::ranges::any_of(sources, [&](const Source& source) {
            return source.family == family.family && source.has &&
@@ -139,7 +139,7 @@ bool is_default(const FamilyOfOutputs& family, const Scene* scene) {
 
 Outputs default_outputs(const Scene* scene) {
   Outputs outputs;
-  for (const FamilyOfOutputs& each : output_families)
+  for (const OutputFamilyInfo& each : output_families)
     if (is_default(each, scene)) outputs.insert(each.family);
   return outputs;
 }
@@ -178,7 +178,7 @@ void match_peaks_final(Outputs& outputs) {
 
 Outputs all_outputs() {
   Outputs outputs;
-  for (const FamilyOfOutputs& each : output_families) outputs.insert(each.family);
+  for (const OutputFamilyInfo& each : output_families) outputs.insert(each.family);
   outputs.erase(OutputFamily::peaks_final);
   return outputs;
 }

@@ -45,38 +45,38 @@ enum class OutputFamily {
 enum class ByDefault {
   yes,
   with_its_feature, ///< if a hinge of the scene has it
-  no ///< it lets runs last longer, costs a decomposition, or is quadratic in the number of hinges
+  no ///< longer runs, a decomposition, many columns; and peaks_final, which follows the peaks
 };
 
-struct FamilyOfOutputs {
+struct OutputFamilyInfo {
   OutputFamily family;
   std::string_view name;
   ByDefault by_default;
-  std::string_view wings; ///< which wings have such outputs; "" of every wing with a latch
+  std::string_view wings; ///< which wings have such outputs, for the input check; "": no check
 };
 
 /// All families, in the order of OutputFamily.
 inline constexpr std::array output_families{
-    FamilyOfOutputs{OutputFamily::latch_time, "latch_time", ByDefault::yes, ""},
-    FamilyOfOutputs{OutputFamily::latch_rate, "latch_rate", ByDefault::yes, ""},
-    FamilyOfOutputs{OutputFamily::peak_moment, "peak_moment", ByDefault::yes, ""},
-    FamilyOfOutputs{OutputFamily::peak_force, "peak_force", ByDefault::yes, ""},
-    FamilyOfOutputs{OutputFamily::rate_at, "rate_at", ByDefault::no,
-                    "a wing of two hinges or more, with latches"},
-    FamilyOfOutputs{OutputFamily::overtravel, "overtravel", ByDefault::yes, ""},
-    FamilyOfOutputs{OutputFamily::peaks_final, "peaks_final", ByDefault::no, ""},
-    FamilyOfOutputs{OutputFamily::base_motion, "base_motion", ByDefault::no,
-                    "a wing on a free base"},
-    FamilyOfOutputs{OutputFamily::frequency, "frequency", ByDefault::no, ""},
-    FamilyOfOutputs{OutputFamily::hold_moment, "hold_moment", ByDefault::with_its_feature,
-                    "a wing with a hinge that has a \"release\""},
-    FamilyOfOutputs{OutputFamily::captures, "captures", ByDefault::with_its_feature,
-                    "a wing with a latch that has a \"capture_rate\" or a \"holding_moment\""},
-    FamilyOfOutputs{OutputFamily::held, "held", ByDefault::with_its_feature,
-                    "a wing with a latch that has a \"capture_rate\" or a \"holding_moment\""},
-    FamilyOfOutputs{OutputFamily::final_angle, "final_angle", ByDefault::no, ""},
-    FamilyOfOutputs{OutputFamily::motor_energy, "motor_energy", ByDefault::with_its_feature,
-                    "a wing with a hinge that has a \"motor\""}};
+    OutputFamilyInfo{OutputFamily::latch_time, "latch_time", ByDefault::yes, ""},
+    OutputFamilyInfo{OutputFamily::latch_rate, "latch_rate", ByDefault::yes, ""},
+    OutputFamilyInfo{OutputFamily::peak_moment, "peak_moment", ByDefault::yes, ""},
+    OutputFamilyInfo{OutputFamily::peak_force, "peak_force", ByDefault::yes, ""},
+    OutputFamilyInfo{OutputFamily::rate_at, "rate_at", ByDefault::no,
+                     "a wing of two hinges or more, with latches"},
+    OutputFamilyInfo{OutputFamily::overtravel, "overtravel", ByDefault::yes, ""},
+    OutputFamilyInfo{OutputFamily::peaks_final, "peaks_final", ByDefault::no, ""},
+    OutputFamilyInfo{OutputFamily::base_motion, "base_motion", ByDefault::no,
+                     "a wing on a free base"},
+    OutputFamilyInfo{OutputFamily::frequency, "frequency", ByDefault::no, ""},
+    OutputFamilyInfo{OutputFamily::hold_moment, "hold_moment", ByDefault::with_its_feature,
+                     "a wing with a hinge that has a \"release\""},
+    OutputFamilyInfo{OutputFamily::captures, "captures", ByDefault::with_its_feature,
+                     "a wing with a latch that has a \"capture_rate\" or a \"holding_moment\""},
+    OutputFamilyInfo{OutputFamily::held, "held", ByDefault::with_its_feature,
+                     "a wing with a latch that has a \"capture_rate\" or a \"holding_moment\""},
+    OutputFamilyInfo{OutputFamily::final_angle, "final_angle", ByDefault::no, ""},
+    OutputFamilyInfo{OutputFamily::motor_energy, "motor_energy", ByDefault::with_its_feature,
+                     "a wing with a hinge that has a \"motor\""}};
 inline constexpr auto output_family_names = [] {
   std::array<std::string_view, output_families.size()> names;
   for (std::size_t i = 0; i < names.size(); ++i) names[i] = output_families[i].name;
@@ -85,7 +85,7 @@ inline constexpr auto output_family_names = [] {
 inline constexpr int most_mode_outputs = 10; ///< mode_1.frequency … mode_10.frequency
 using Outputs = std::set<OutputFamily>;
 
-[[nodiscard]] constexpr const FamilyOfOutputs& about(OutputFamily family) {
+[[nodiscard]] constexpr const OutputFamilyInfo& about(OutputFamily family) {
   return output_families[static_cast<std::size_t>(family)];
 }
 

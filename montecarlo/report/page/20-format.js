@@ -82,7 +82,7 @@
   };
   // A limit as its author wrote it: in degrees where that is the shorter number, "5 deg/s". The displayed unit follows in
   // brackets if it is another.
-  // A number that a conversion to SI gave more than ten digits has six: 56.4924 N·m of "500 in*lbf".
+  // A number with more than ten digits comes from a conversion to SI and is shown with six: 56.4924 N·m of "500 in*lbf".
   const givenDigits = (value) => F.given(String(value).replace(/\D/g, "").length > 10 ? Number(value.toPrecision(6)) : value);
   F.written = function (value, unit) {
     if (!F.angular(unit)) return `${givenDigits(value)} ${F.unit(unit)}`.trim();

@@ -27,12 +27,12 @@
     return one.upper ? one.limit - one.observed_value : one.observed_value - one.limit;
   }
 
-  // Broken runs as a share of those that may break the requirement; without enough runs for that number, of those expected.
+  // Broken runs divided by the allowed number; if the runs are too few for a pass, by N (1 − p).
   function usedShare({ requirement: one, set }) {
     const allowed = W.isNumber(one.allowed) ? one.allowed : set.runs * (1 - one.probability);
     return one.broken === 0 ? 0 : allowed > 0 ? one.broken / allowed : Infinity;
   }
-  // The distance to the limit by the limit, or, of a share, by the share that may break the requirement: less is worse.
+  // The margin divided by the limit; of a share, divided by 1 − p. Less is worse.
   function relativeMargin({ requirement: one }) {
     const margin = marginOf(one);
     if (margin !== null) return one.limit !== 0 ? margin / Math.abs(one.limit) : margin;

@@ -23,7 +23,7 @@
     const shown = close ? (bound) => F.fixed(bound, needed) : text;
     return `${shown(low)} – ${shown(high)}`;
   }
-  // The bound next to no change: the only one of a change that is not known to be enough.
+  // The bound nearest to no change. A change that is not known has only this one.
   const nearest = (one) => (W.isNumber(one.lower) && (one.change >= (one.scaled ? 1 : 0) || !W.isNumber(one.upper)) ? one.lower : one.upper);
   // A change of an input: a factor, or its mean before and after in its unit.
   function texts(one) {
@@ -177,7 +177,7 @@
       W.table(`Estimated: what would make ${one.name || F.nameOf(one.output)} pass`, heads, rows, { class: "needed-table", stacks: true }),
       h(
         "p.note",
-        `An estimate from ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `; a linear fit explains ${F.share(block.explained, 0)} of the spread, with a curve along each change` : ""}. The far bound is the change stated: a new campaign of as many runs then passes, with the failures that the requirement allows at its confidence. ${block.levers.some((lever) => lever.scaled) ? "× multiplies the present value. " : ""}`,
+        `An estimate from ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `: a linear fit, which explains ${F.share(block.explained, 0)} of the spread, and a quadratic along each change` : ""}. The stated change is the far bound. There, by this estimate, a new campaign of as many runs passes with ${F.given(Number((50 * (1 + set.confidence)).toPrecision(6)))} % probability. ${block.levers.some((lever) => lever.scaled) ? "× multiplies the present value. " : ""}`,
         unknown ? "Not known: the runs are too few, the change leads beyond the values drawn, or wings drawn there do not deploy. " : null,
         h("a", { href: "#why" }, "More causes"),
         ".",
@@ -194,7 +194,7 @@
       ? "No dispersed input alone is seen to do it within the values drawn; beyond them it is not known. Ask wingspread margin."
       : `Too few runs to estimate what would change it: ${F.counted(draws, "dispersion")}, so at least ${F.runs(draws + 11)} with a value.`;
   }
-  // The command, folded: it judges the requirements; static margins are among them only if the campaign asks for them.
+  // The command, unfolded. `margin` judges the requirements; static margins only if the campaign asks for them.
   function confirmation(command, first) {
     const asked = W.sets.some((set) => (set.requirements || []).some((each) => each.static_margin));
     return h(

@@ -26,8 +26,8 @@ constexpr int name_width = 46, case_width = 13;
 
 using Cases = std::span<const CaseSummary>;
 
-/// Broken runs as a share of those that may break the requirement; without enough runs for that number, of those
-/// expected. The report's page ranks by the same share (40-verdicts.js).
+/// Broken runs divided by the allowed number; if the runs are too few for a pass, by N (1 − p). The report's page ranks
+/// by the same share (40-verdicts.js).
 double used_share(const Verdict& verdict) {
   if (verdict.failures() == 0) return 0;
   const double allowed =

@@ -81,7 +81,7 @@ TEST_CASE("The wing of these tests has every output") {
 TEST_CASE("An output's family has it, and no other family has") {
   const Scene scene = scene_of_all();
   for (const OutputColumn& column : output_columns(scene, all_outputs()))
-    for (const FamilyOfOutputs& each : output_families) {
+    for (const OutputFamilyInfo& each : output_families) {
       CAPTURE(column.name, each.name);
       const auto columns = output_columns(scene, {each.family});
       const bool has =
