@@ -147,20 +147,6 @@ template <class Value> void keep_first(std::vector<Value>& all, std::size_t coun
   };
 }
 
-[[nodiscard]] bool may_miss(const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); }
-
-/// Says in words which hinges were never released.
-void name_held_hinges(const Scene& scene, Outcome& outcome) {
-  if (outcome.never_released.empty()) return;
-  outcome.reason.clear();
-  for (const int hinge : outcome.never_released)
-    outcome.reason +=
-        (outcome.reason.empty() ? "" : "; ") + scene.hinges[hinge].name + " was never released" +
-        (std::ranges::find(outcome.may_release_later, hinge) == outcome.may_release_later.end()
-             ? ""
-             : " up to t_end; its hold may let go later");
-}
-
 } // namespace
 
 Outcome Deployment::run(const Scene& scene, const Integration& integration, const Goal& goal,
@@ -178,9 +164,9 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
     return without_joints(
         made, run(made.scene, integration, goal, without_joints(scene.hinges.size(), observer)));
   }
-  if (integration.smoothing && std::any_of(scene.hinges.begin(), scene.hinges.end(), may_miss)) {
+  if (integration.smoothing && has_latch_that_may_miss(scene)) {
     Outcome out; // status failed
-    out.reason = "a latch with a capture rate or a holding moment needs event latches";
+    out.reason = needs_event_latches;
     return out;
   }
   std::vector<std::pair<int, int>> tree(scene.hinges.size());

@@ -40,4 +40,21 @@ std::string methods_used(const Outcome& outcome) {
   return text;
 }
 
+void name_held_hinges(const Scene& scene, Outcome& outcome) {
+  if (outcome.never_released.empty()) return;
+  outcome.reason.clear();
+  const std::vector<int>& later = outcome.may_release_later;
+  for (const int hinge : outcome.never_released) {
+    if (!outcome.reason.empty()) outcome.reason += "; ";
+    outcome.reason += scene.hinges[hinge].name + " was never released";
+    if (std::find(later.begin(), later.end(), hinge) != later.end())
+      outcome.reason += " up to t_end; its hold may let go later";
+  }
+}
+
+bool has_latch_that_may_miss(const Scene& scene) {
+  return std::any_of(scene.hinges.begin(), scene.hinges.end(),
+                     [](const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); });
+}
+
 } // namespace wingspread

@@ -164,6 +164,14 @@ struct Outcome {
 /// The engagement of the hinge that holds at the end of the run; null without one.
 [[nodiscard]] const LatchEvent* holding_latch(const Outcome& outcome, int hinge);
 
+/// Says in words which hinges were never released, of a run that stalled for that.
+void name_held_hinges(const Scene& scene, Outcome& outcome);
+
+/// Whether a latch of the scene may miss or let go. A smoothed latch does neither: such a run fails with this reason.
+[[nodiscard]] bool has_latch_that_may_miss(const Scene& scene);
+inline constexpr const char* needs_event_latches =
+    "a latch with a capture rate or a holding moment needs event latches";
+
 /// Names the methods of an outcome's phases, each once, in order of first use: "dopri5, rosenbrock_w".
 [[nodiscard]] std::string methods_used(const Outcome& outcome);
 

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace wingspread;
@@ -108,6 +109,10 @@ TEST_CASE("rare says how likely, by which levels, and whether counting would hav
   const auto again = with({"--out", kept});
   CHECK(again.code == 2);
   CHECK_THAT(again.error, Catch::Contains("a new or an empty folder"));
+  std::vector<std::string> other = asked; // a limit that has the same text in six digits
+  std::ranges::replace(other, "6", "6.0000001");
+  other.insert(other.end(), {"--out", kept, "--resume"});
+  CHECK(run_program(folder, other).code == 2);
   CHECK(run_program(folder, {"report", kept}).code == 0);
   CHECK(read_text(folder.path() / "rare" / "report.html").value().find("root.latch_time > 6") !=
         std::string::npos);

@@ -84,6 +84,7 @@ void warn_if_doubtful(const RareResult& result) {
 Json about_study(const RareOptions& options, const Campaign& campaign) {
   return {{stamp_key, stamp_json(stamp_of(campaign, {}))},
           {"event", describe(options.event)},
+          {"limit", options.event.limit}, // in full, where the event's text has six digits
           {"confidence", options.confidence},
           {"samples", options.samples},
           {"repeats", options.repeats}};

@@ -52,6 +52,8 @@ struct Target {
   [[nodiscard]] bool is_spring() const {
     return path.find(".spring.") != std::string::npos && !path.ends_with("offset");
   }
+  /// Whether it is the rate that a motor is commanded to, or the scale of that.
+  [[nodiscard]] bool is_command() const { return path.find(".motor.rate") != std::string::npos; }
   /// "2 N·m"; a number without a dimension alone.
   [[nodiscard]] std::string text(double value) const {
     return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
@@ -161,10 +163,10 @@ private:
     if (target_.nominal == 0) return false;
     const double probability = probability_of_other_side();
     if (probability < least_probability) return false;
-    const bool spring = target_.is_spring();
-    if (!spring && !is_physical_size()) return false;
+    const bool drives = target_.is_spring() || target_.is_command();
+    if (!drives && !is_physical_size()) return false;
     return warn(fmt::format("a draw that {1} {2} with a probability of {0:.3g}", probability,
-                            spring ? "changes the sign of" : "makes negative", target_.path),
+                            drives ? "changes the sign of" : "makes negative", target_.path),
                 fmt::format("a probability below {} (a lognormal law, or \"truncate\")",
                             least_probability));
   }

@@ -56,6 +56,8 @@ void check_angles(const std::string& at, const Hinge& hinge, InputWarnings& warn
       check_angle(fmt::format("{}/damper/window/{}", at, end), (*hinge.damper->window)[end],
                   warnings);
   if (hinge.stop) check_play(at + "/stop/gap", hinge.stop->gap, hinge, warnings);
+  if (hinge.far_stop)
+    check_play(at + (hinge.stop ? "/stop" : "/stop/gap"), hinge.far_stop->gap, hinge, warnings);
   if (hinge.latch) check_play(at + "/latch/backlash", hinge.latch->backlash, hinge, warnings);
 }
 

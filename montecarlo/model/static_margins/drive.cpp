@@ -131,7 +131,7 @@ bool has_spring(const Hinge& hinge) {
          spring.offset != 0;
 }
 
-bool has_drive(const Hinge& hinge) { return hinge.latch || has_spring(hinge); }
+bool has_drive(const Hinge& hinge) { return hinge.latch || hinge.motor || has_spring(hinge); }
 
 /// The hinges coupled to this one by loops, directly or through others, and itself; ascending.
 std::vector<int> connected_with(const Scene& scene, int hinge) {

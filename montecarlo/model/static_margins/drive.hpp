@@ -33,7 +33,7 @@ struct HingeDrive {
   std::vector<Link> links; ///< one for each hinge after the first
 };
 
-/// The drives with a spring or a latch, in the order of their first hinges in the scene. A drive is led by a hinge that
+/// The drives with a spring, a motor or a latch, in the order of their first hinges in the scene. A drive is led by a hinge that
 /// is no loop's second hinge; if there is none, by its first hinge in the scene.
 [[nodiscard]] std::vector<HingeDrive> drives_of(const Scene& scene);
 

@@ -28,15 +28,16 @@ void refuse_unknown_hinge(const JsonObject& object, const Scene& scene,
   if (margin.hinge == every_hinge)
     return void(object.at()
                     .member("motorization")
-                    .refuse(needs_spring ? "a wing with a hinge that has a spring"
-                                         : "a wing with a hinge that has a spring or a latch"));
+                    .refuse(needs_spring
+                                ? "a wing with a hinge that has a spring"
+                                : "a wing with a hinge that has a spring, a motor or a latch"));
   std::vector<std::string> names;
   for (const HingeDrive& drive : required_drives(scene, {margin.kind, std::string(every_hinge)}))
     for (const int hinge : drive.hinges) names.push_back(scene.hinges[hinge].name);
   object.at().member("hinge").refuse(
       (needs_spring
            ? "the name of a hinge that a spring drives, its own or through loops, or \"*\" for all"
-           : "the name of a hinge with a spring or a latch, or \"*\" for all") +
+           : "the name of a hinge with a spring, a motor or a latch, or \"*\" for all") +
       did_you_mean(margin.hinge, names));
 }
 

@@ -58,7 +58,7 @@ struct StaticMarginStudy {
   long invalid = 0;                 ///< unphysical draws; they have no margins
 };
 
-/// Computes the margins of all hinges with a spring or a latch, without time integration.
+/// Computes the margins of all hinges with a spring, a motor or a latch, without time integration.
 /// Cost: visits the draws twice for each drive; more often if the margins of all places would take more than 256 MiB.
 /// Memory: the margins held at once, or 40 bytes per draw.
 /// @param nominal       the wing without dispersion

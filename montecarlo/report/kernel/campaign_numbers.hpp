@@ -84,7 +84,8 @@ public:
       halves(*large);
     integration(campaign.integration);
     Goal& goal = campaign.goal;
-    for (bool* flag : {&goal.peak_moment, &goal.peak_force, &goal.overtravel, &goal.base_motion})
+    for (bool* flag : {&goal.peak_moment, &goal.peak_force, &goal.overtravel, &goal.base_motion,
+                       &goal.hold_moment, &goal.motor_energy, &goal.final_angle, &goal.to_rest})
       whole(*flag);
   }
 

@@ -105,6 +105,10 @@ Outcome integrate(const Scene& scene, const Integration& how, const Goal& goal,
                     ", expected " + fault.expected;
     return out;
   }
+  if (how.smoothing && has_latch_that_may_miss(scene)) {
+    out.reason = needs_event_latches; // status failed
+    return out;
+  }
   Wing<double> wing = make_wing<double>(scene, outward_order(scene));
   set_parameters(wing, scene);
   if (scene.base.motion == BaseMotion::free)
@@ -152,8 +156,9 @@ public:
     for (int i = 0; i < count; ++i)
       *places_[static_cast<std::size_t>(changes[2 * i])] *= changes[2 * i + 1];
     MotionRecorder recorder(campaign_.scene.hinges.size());
-    const Outcome outcome =
+    Outcome outcome =
         integrate(campaign_.scene, campaign_.integration, campaign_.goal, recorder.observer());
+    name_held_hinges(campaign_.scene, outcome);
     reason = outcome.reason;
     keep_result(outcome);
     keep_samples(recorder, outcome);

@@ -40,7 +40,7 @@ Scene looped() {
 
 } // namespace
 
-TEST_CASE("hinges without loops drive alone, and those without spring and latch not at all",
+TEST_CASE("hinges without loops drive alone; those without spring, motor and latch not at all",
           "[motorization]") {
   Scene scene = looped();
   scene.synchronisations.clear();
@@ -49,6 +49,8 @@ TEST_CASE("hinges without loops drive alone, and those without spring and latch 
   REQUIRE(drives.size() == 2);
   CHECK(name_of(drives[0], scene) == "root");
   CHECK(name_of(drives[1], scene) == "tip");
+  scene.hinges[1].motor = Motor{.rate = 0.1, .gain = 1, .torque_limit = 0.02};
+  CHECK(drives_of(scene).size() == 3); // a motor alone is to be strong enough too
 }
 
 // For a radian of the root mid and tip turn two: T = 3 + 2·0 + 2·0.5, FR = 0.5 + 2·0.2 + 2·0.1 N·m.

@@ -100,6 +100,24 @@ TEST_CASE("the kernel's numbers hold every part of a scene and every law", "[pag
   CHECK(campaigns > 3);
 }
 
+TEST_CASE("the kernel's runs have the goal of the campaign's, whatever the outputs", "[page]") {
+  for (const OutputFamilyInfo& family : output_families) {
+    CAPTURE(family.name);
+    Json json = quick_campaign(5);
+    json["outputs"] = {family.name};
+    const Campaign campaign = campaign_of(json);
+    NumbersIn reading(kernel_json(campaign)["numbers"]);
+    NumberedCampaign read;
+    CampaignNumbers<NumbersIn> visit(reading);
+    visit.scene(read.scene), visit.rest(read);
+    const Goal own = goal_of(campaign.outputs);
+    for (bool Goal::*flag :
+         {&Goal::peak_moment, &Goal::peak_force, &Goal::overtravel, &Goal::hold_moment,
+          &Goal::base_motion, &Goal::motor_energy, &Goal::final_angle, &Goal::to_rest})
+      CHECK(read.goal.*flag == own.*flag);
+  }
+}
+
 TEST_CASE("the kernel's effects change the scene as a run's draws do", "[page]") {
   Json specimen = campaign_specimens().front();
   std::erase_if(specimen["dispersions"].get_ref<Json::array_t&>(),
