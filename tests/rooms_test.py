@@ -26,6 +26,7 @@ FAULTS = {
     "a file without a room": ({"core/attic/a.hpp": ""}, "core/attic/a.hpp: stands in no room"),
     "an include without a room": ({"core/run/run.hpp": '#include "core/attic/a.hpp"\n'}, "which stands in no room"),
     "a long file": ({"core/run/run.hpp": "//\n" * 401}, "core/run/run.hpp: 401 lines, at most 400"),
+    "a test whose name is an option": ({"tests/core/run_test.cpp": 'TEST_CASE("--out is refused") {}\n'}, 'begins with "-": --out'),
     "a full room": ({f"core/run/unit_{k}.hpp": "" for k in range(15)}, "core/run: 16 units, at most 15"),
 }
 

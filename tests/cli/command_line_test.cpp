@@ -138,7 +138,7 @@ TEST_CASE("an empty argument is refused, wherever it stands") {
 }
 
 // A number's limits are in its line of --help: "from 1 to 1024", "> 0 and < 1", "at least 0".
-TEST_CASE("--help says the limits of every number") {
+TEST_CASE("the help of a command says the limits of every number") {
   const Folder folder;
   const std::regex number(R"(  --(\S+) (N|K|L|R|S|INT|UINT|FLOAT|SCALE)( |$).*)"),
       wrapped(R"(\n {28,})"), limits(R"(from \S+ to |at least |> 0|≥ 0|1, 2, 4 or 8|each > 0)");

@@ -37,7 +37,7 @@ Json campaign_of_tables() {
 
 } // namespace
 
-TEST_CASE("--out names no file that the command reads, by any path and under any key") {
+TEST_CASE("the file of --out is none that the command reads, by any path and under any key") {
   const Folder folder;
   const std::string meas = folder.write("meas.csv", "x\n1\n1.01\n0.99\n");
   const std::string rows = folder.write("posterior.csv", "a,b\n1,1\n1.01,0.99\n0.99,1.02\n");
@@ -60,7 +60,8 @@ TEST_CASE("--out names no file that the command reads, by any path and under any
   CHECK(run_program(folder, {"sample", campaign, "--out", folder.path() / "new.csv"}).code == 0);
 }
 
-TEST_CASE("--out names no file of a results folder, whether the command reads the folder or not") {
+TEST_CASE(
+    "the file of --out is none of a results folder, whether the command reads the folder or not") {
   const RunCampaign done(quick_campaign(4));
   const std::string scene = three_panel_file(), link = done.folder.path() / "link.csv";
   const std::string campaign = done.folder.write("other.json", quick_campaign(2).dump());
@@ -87,7 +88,7 @@ TEST_CASE("--out names no file of a results folder, whether the command reads th
   CHECK(done.program({"simulate", scene, "--out", done.folder.path() / "runs.csv"}).code == 0);
 }
 
-TEST_CASE("--out by a path that leads nowhere is refused by name") {
+TEST_CASE("a file of --out by a path that leads nowhere is refused by name") {
   const RunCampaign done(quick_campaign(2));
   const std::string loop = done.folder.path() / "loop", out = loop + "/t.csv";
   std::filesystem::create_symlink("loop",

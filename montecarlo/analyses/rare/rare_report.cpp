@@ -25,15 +25,6 @@ std::string with_unit(const RareEvent& event) {
   return describe(event) + (unit.empty() ? "" : ' ' + unit);
 }
 
-/// The event as data, so that a reader of the file may use another unit. Null for "not deployed".
-Json event_json(const RareEvent& event) {
-  if (event.output.empty()) return nullptr;
-  return {{"output", event.output},
-          {"above", event.above},
-          {"limit", json_number(event.limit)},
-          {"unit", unit_of(event)}};
-}
-
 Json estimate_json(const SubsetEstimate& estimate, const RareEvent& event) {
   Json levels = Json::array();
   for (const SubsetLevel& level : estimate.levels)
@@ -237,6 +228,14 @@ std::string unseen_text(const std::string& name, double draws) {
 }
 
 } // namespace
+
+Json event_json(const RareEvent& event) {
+  if (event.output.empty()) return nullptr;
+  return {{"output", event.output},
+          {"above", event.above},
+          {"limit", json_number(event.limit)},
+          {"unit", unit_of(event)}};
+}
 
 std::vector<std::string> doubts_of(const RareResult& result) {
   std::vector<std::string> doubts;

@@ -17,6 +17,9 @@ inline constexpr const char* rare_json_file = "rare.json";
 [[nodiscard]] Json rare_json(const RareResult& result, const RareOptions& options,
                              const Campaign& campaign, const Json& about);
 
+/// The event as data, so that a reader of the file may use another unit. Null for "not deployed".
+[[nodiscard]] Json event_json(const RareEvent& event);
+
 /// Reasons to doubt the estimate, a sentence each.
 [[nodiscard]] std::vector<std::string> doubts_of(const RareResult& result);
 

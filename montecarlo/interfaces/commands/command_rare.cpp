@@ -82,12 +82,13 @@ void warn_if_doubtful(const RareResult& result) {
 
 /// The values that identify the study. A folder with other values is refused.
 Json about_study(const RareOptions& options, const Campaign& campaign) {
-  return {{stamp_key, stamp_json(stamp_of(campaign, {}))},
-          {"event", describe(options.event)},
-          {"limit", options.event.limit}, // in full, where the event's text has six digits
-          {"confidence", options.confidence},
-          {"samples", options.samples},
-          {"repeats", options.repeats}};
+  return {
+      {stamp_key, stamp_json(stamp_of(campaign, {}))},
+      {"event", describe(options.event)},
+      {"beyond", event_json(options.event)}, // the limit in full; the event's text has six digits
+      {"confidence", options.confidence},
+      {"samples", options.samples},
+      {"repeats", options.repeats}};
 }
 
 /// Opens the study's folder. @return null without --out

@@ -104,6 +104,7 @@ TEST_CASE("the kernel's runs have the goal of the campaign's, whatever the outpu
   for (const OutputFamilyInfo& family : output_families) {
     CAPTURE(family.name);
     Json json = quick_campaign(5);
+    json["scene"]["base"] = {{"motion", "free"}, {"mass", 500}, {"inertia", 300}};
     json["outputs"] = {family.name};
     const Campaign campaign = campaign_of(json);
     NumbersIn reading(kernel_json(campaign)["numbers"]);
