@@ -80,7 +80,7 @@ def main():
         if len(rooms) > MOST_ROOMS:
             faults.append(f"{name}: {len(rooms)} rooms, at most {MOST_ROOMS}")
     for file in sorted(pathlib.Path("tests").rglob("*.cpp")):  # Catch2 takes such a name for an option: the test never runs
-        for found in re.finditer(r'TEST_CASE\(\s*"(-[^"]*)', file.read_text()):
+        for found in re.finditer(r'TEST_CASE\(\s*"(-[^"]*)', file.read_text(encoding="utf-8")):
             faults.append(f'{file}: a test\'s name begins with "-": {found[1]}')
     if "--draw" in sys.argv:
         shown = ""
