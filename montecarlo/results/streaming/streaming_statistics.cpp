@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace wingspread {
@@ -78,6 +79,8 @@ StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultN
     const auto found = std::ranges::find_if(required_, [&](const RequiredOutput& each) {
       return each.output == requirement.output && each.absolute == requirement.absolute;
     });
+    if (found == required_.end() && requirement.output != deployed_output)
+      throw std::logic_error("a requirement on an output without a column: " + requirement.output);
     population_of_.push_back(static_cast<std::size_t>(found - required_.begin()));
     requirement_counts_.push_back({0, 0, 0, 0, Extremes(Extremes::End::highest, most_broken)});
   }

@@ -2,6 +2,7 @@
 #include "montecarlo/analyses/rare/limit_state.hpp"
 #include "montecarlo/engine/runs/run_plan.hpp"
 #include "montecarlo/model/campaign/outputs.hpp"
+#include "montecarlo/results/streaming/streaming_statistics.hpp"
 #include "montecarlo/results/summary/judge_campaign.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
+#include <vector>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -148,4 +151,17 @@ TEST_CASE("margin: with the springs as they are, the runs of `run` break each ou
     split += own.broken.size() == 4 ? 1 : 0;
   }
   CHECK(split > verdicts.size() / 2);
+}
+
+TEST_CASE("no requirement is judged without its column, from rows or from streaming statistics") {
+  Json json = campaign_of_all(8);
+  json["requirements"] = parse_json(
+      R"([{ "output": "base.peak_rate", "max": 1, "probability": 0.9, "confidence": 0.9 }])");
+  const Campaign campaign = campaign_of(json);
+  ResultNames names = RunPlan(campaign).names();
+  CHECK_NOTHROW(StreamingStatistics(campaign, names, Results(names)));
+  CHECK_NOTHROW(judge(campaign.requirements[0], Results(names)));
+  std::erase(names.outputs, "base.peak_rate");
+  CHECK_THROWS_AS(StreamingStatistics(campaign, names, Results(names)), std::logic_error);
+  CHECK_THROWS_AS(judge(campaign.requirements[0], Results(names)), std::logic_error);
 }
