@@ -115,6 +115,8 @@ class ChangeChecks:
         self.assertRegex(first("harness.scale", 2), "^A stiffer harness would lower the static margins")
         self.assertEqual(first("damper.peak_torque", 1.4), "A stronger damper slows the deployment. Static margins count it only at a stated rate.")
         self.assertIsNone(first("damper.peak_torque", 0.7))
+        self.assertRegex(first("motor.torque_limit", 0.5), "^A slower or weaker motor can lower the static margins .* and keep the wing from deploying")
+        self.assertIsNone(first("motor.torque_limit", 1.5))
 
     def test_a_value_that_draws_replace_starts_from_their_median(self):
         """The scene's value is in no run where draws set it; where they scale it, it is the value before the change."""

@@ -107,7 +107,7 @@ class SequencePageChecks:
         self.assertEqual(heads(), ["Hinge", "Event", "cold s", "hot s"])
         told = lambda hinge: next(row[1] for row in self.table(caption) if row[0] == hinge and row[1].startswith("hold"))
         for changed, words in (({"event": "released", "after": 2, "delay": 0}, "when the hold of tip lets go"), ({"event": "released", "after": 2, "delay": 0.125}, "0.125 s after the hold of tip lets go"),
-                               ({"event": "time", "time": 2.5, "delay": 0.5}, "at 2.5 s, and 0.5 s"), ({"event": "latched", "after": 1, "delay": 0.2}, "0.2 s after mid latches"),
+                               ({"event": "time", "time": 2.5, "delay": 0.5}, "at 2.5 s, and 0.5 s"), ({"event": "latched", "after": 1, "delay": 0.2}, "0.2 s after mid latches"), ({"fails": 1}, "never"), ({"fails": 0}, "0.2 s after mid latches"),
                                ({"event": "passed", "after": 1, "angle": 0.5, "delay": 0}, "when mid has turned by 28.6479 deg")):
             self.run_script("Object.assign(W.set().envelopes.sequence[0].release, arguments[0]); W.wing()", changed)
             self.assertEqual(told("root"), KINDS["released"] + words)

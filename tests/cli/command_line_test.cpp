@@ -77,6 +77,13 @@ TEST_CASE("a command line that makes no sense is refused") {
       {{"run", "c.json", "--out", "r", "--runs", "1e3"},
        "error: --runs: found 1e3, expected a whole number from 1 to 2147483647\n"
        "error: see wingspread run --help\n"},
+      {{"simulate", "s.json", "--rtol", "1e-8x"},
+       "error: --rtol: found \"1e-8x\", expected a number\nerror: see wingspread simulate "
+       "--help\n"},
+      {{"margin", "c.json", "--out", "m", "--range", "1", "two"},
+       "error: --range: found \"1,two\", expected numbers\nerror: see wingspread margin --help\n"},
+      {{"simulate", "s.json", "--dt"},
+       "error: --dt: found no value, expected S\nerror: see wingspread simulate --help\n"},
       {{"replay", "r", "--run", "1.5"},
        "error: --run: found 1.5, expected a whole number at least 0\n"
        "error: see wingspread replay --help\n"},

@@ -235,6 +235,11 @@ std::string why_withheld(const MarginSearch& search) {
 
 std::vector<std::string> margin_warnings(const MarginResult& result) {
   std::vector<std::string> lines;
+  if (std::ranges::any_of(result.campaigns, [](const Campaign& campaign) {
+        return campaign.scene.base.motion == BaseMotion::prescribed;
+      }))
+    lines.emplace_back("the static margins leave out the loads of the moving base; give them as "
+                       "\"inertia\" in the margin's \"torques\"");
   for (const MarginSearch& search : result.searches) {
     for (const CutPeaks& each : cut_peaks(result, search)) lines.push_back(warn_of(each, result));
     if (const auto open = open_latches(search)) lines.push_back(*open);

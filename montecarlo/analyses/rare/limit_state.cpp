@@ -4,6 +4,7 @@
 #include "montecarlo/engine/runs/finality.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/spec_error.hpp"
+#include "montecarlo/model/static_margins/motor_command.hpp"
 
 #include <fmt/format.h>
 
@@ -43,9 +44,10 @@ double positive_part(double share) {
   return share > knee ? share : knee * std::exp(share / knee - 1);
 }
 
-/// The hinge's drive minus its static friction at the stowed angle, N·m.
+/// The hinge's drive minus its static friction at the stowed angle, N·m; with a motor, under its fastest command.
 double release_reserve(const Hinge& hinge) {
-  return torque_at(hinge.spring, hinge, 0) - torque_at(hinge.harness, hinge, 0) -
+  const double motor = hinge.motor ? stall_torque_at(hinge, 0) : 0;
+  return torque_at(hinge.spring, hinge, 0) + motor - torque_at(hinge.harness, hinge, 0) -
          static_level_at(hinge, 0);
 }
 

@@ -239,6 +239,9 @@ Json event_json(const RareEvent& event) {
 
 std::vector<std::string> doubts_of(const RareResult& result) {
   std::vector<std::string> doubts;
+  if (const long invalid = result.statuses[static_cast<std::size_t>(Status::invalid)]; invalid > 0)
+    doubts.push_back(fmt::format("{} of {} runs have an unphysical draw and count as the event",
+                                 invalid, result.estimate.evaluations));
   if (result.cut > 0) doubts.push_back(cut_text(result));
   if (result.open_latches > 0)
     doubts.push_back(warn_of_open_latches(result.open_latches, result.estimate.evaluations));

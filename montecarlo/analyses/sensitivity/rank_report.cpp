@@ -53,6 +53,7 @@ Json sensitivity_json(const RankSensitivity& all, const Json& about) {
       {stamp_key, about},
       {"method", "rank correlation"},
       {"runs", all.runs},
+      {"warnings", warnings(all)},
       {"confidence", all.confidence},
       {"definitions",
        {{"spearman", "Pearson's of the mid-ranks, over the runs that have the output"},

@@ -57,6 +57,7 @@ Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
       {"samples", all.rows},
       {"runs", all.runs},
       {"partial", all.runs < all.total},
+      {"warnings", warnings(all)},
       {"confidence", all.bounds.confidence},
       {"definitions",
        {{"first", "Saltelli 2010: mean of f_B (f_ABi - f_A) over the variance"},

@@ -17,6 +17,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <new>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -130,12 +131,24 @@ std::string unknown_text(const CLI::App& app, std::span<const Command> commands)
                      is_command ? did_you_mean(left.front(), names_of(commands)) : repeated);
 }
 
+/// The error of an option's value in this program's form; other errors in the library's words.
+std::string error_text(const CLI::ParseError& error) {
+  const std::string words = error.what();
+  std::smatch found;
+  if (std::regex_match(words, found, std::regex("Could not convert: (.+?) = (.*)")))
+    return fmt::format("{}: found \"{}\", expected {}", found.str(1), found.str(2),
+                       found.str(2).find(',') == std::string::npos ? "a number" : "numbers");
+  if (std::regex_match(words, found, std::regex("(.+): 1 required (.+) missing")))
+    return fmt::format("{}: found no value, expected {}", found.str(1), found.str(2));
+  return words;
+}
+
 /// A line for each problem of the command line. A misspelt option comes before a missing one: they may be the same.
 std::string text_of(const CLI::ParseError& error, const CLI::App& app,
                     std::span<const Command> commands) {
   const std::string unknown = unknown_text(app, commands);
   const bool is_all = !unknown.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-  return is_all ? unknown : unknown + error.what() + '\n';
+  return is_all ? unknown : unknown + error_text(error) + '\n';
 }
 
 } // namespace

@@ -44,12 +44,7 @@ void write_recommended(const Campaign& campaign, const MarginResult& result,
 }
 
 /// Prints warnings, and names the searches without a confirmed scale. @return the exit status
-int print_verdict(const Campaign& campaign, const MarginResult& result) {
-  const Base& base = campaign.scene.base;
-  if (base.motion == BaseMotion::prescribed)
-    fmt::print(stderr,
-               "warning: the static motorization margins leave out the loads of the moving base; "
-               "give them as \"inertia\" in the margin's \"torques\"\n");
+int print_verdict(const MarginResult& result) {
   for (const std::string& line : margin_warnings(result)) fmt::print(stderr, "warning: {}\n", line);
   for (const MarginSearch& search : result.searches)
     if (!is_confirmed(search))
@@ -179,7 +174,7 @@ int run_margin_study(const MarginOptions& options) {
   const std::string json = write_files(campaign, result, report, options.out);
   folder.finish();
   fmt::print("{}", options.json ? json : margin_text(report));
-  return print_verdict(campaign, result);
+  return print_verdict(result);
 }
 
 int margin(const MarginOptions& options) {

@@ -66,18 +66,8 @@ std::string refuse_odd_samples(const std::string& text) {
   return text.ends_with('0') ? "" : fmt::format("found {}, expected a multiple of 10", text);
 }
 
-/// Warns of invalid and failed runs. @return the exit status
-int report_broken_runs(const RareResult& result) {
-  const long invalid = result.statuses[static_cast<std::size_t>(Status::invalid)];
-  const long failed = result.statuses[static_cast<std::size_t>(Status::failed)];
-  if (invalid > 0)
-    fmt::print(stderr, "warning: {} of {} runs have an unphysical draw and count as the event\n",
-               invalid, result.estimate.evaluations);
-  return report_failed(failed, result.estimate.evaluations, ", and count as the event");
-}
-
-void warn_if_doubtful(const RareResult& result) {
-  for (const std::string& doubt : doubts_of(result)) fmt::print(stderr, "warning: {}\n", doubt);
+void warn(const std::vector<std::string>& doubts) {
+  for (const std::string& doubt : doubts) fmt::print(stderr, "warning: {}\n", doubt);
 }
 
 /// The values that identify the study. A folder with other values is refused.
@@ -102,8 +92,9 @@ std::unique_ptr<StudyFolder> open_folder(const RareCommandOptions& given,
                                        given.resume);
 }
 
-/// Reports failed runs of a study that an earlier session finished. @return the exit status
+/// Repeats the warnings of a study that an earlier session finished. @return the exit status
 int report_finished_rare(const Json& study) {
+  warn(study.value("warnings", std::vector<std::string>{}));
   return report_failed(study["statuses"].value("failed", 0L), study.value("runs", 0L),
                        ", and count as the event");
 }
@@ -129,8 +120,9 @@ int write_result(const RareResult& result, const RareOptions& options, const Cam
     folder->finish();
   }
   fmt::print("{}", given.json ? json : rare_text(result, options, campaign));
-  warn_if_doubtful(result);
-  return report_broken_runs(result);
+  warn(doubts_of(result));
+  return report_failed(result.statuses[static_cast<std::size_t>(Status::failed)],
+                       result.estimate.evaluations, ", and count as the event");
 }
 
 int rare(const RareCommandOptions& given) {

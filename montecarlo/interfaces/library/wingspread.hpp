@@ -177,7 +177,8 @@ struct Fit {
 class Model {
 public:
   /// @param paths   the components of x: parameters as dispersions name them; "hinges.*.spring.scale" sets several
-  /// @param outputs the components of y: columns of runs.csv; empty: all except `rate_at` and `base_motion`
+  /// @param outputs the components of y: columns of runs.csv; empty: all except
+  ///   `rate_at`, `base_motion`, `frequency` and `final_angle`
   /// @throws SpecError, MachineError
   Model(const Input& input, const std::vector<std::string>& paths,
         std::vector<std::string> outputs = {}, const Settings& settings = {});

@@ -73,8 +73,9 @@ void print_notes(const Summary& summary) {
     fmt::print(
         stderr,
         "note: adding runs until a requirement passes inflates the risk. To decide it, use "
-        "--until \"requirement {}\", or another --seed and a number of runs fixed beforehand\n",
-        name_of(std::ranges::find_if(summary.requirements, is_open)->requirement));
+        "--until {}, or another --seed and a number of runs fixed beforehand\n",
+        shell_word("requirement " +
+                   name_of(std::ranges::find_if(summary.requirements, is_open)->requirement)));
 }
 
 /// Prints each requirement that some case does not meet, with its worst case, and the notes once.

@@ -165,8 +165,28 @@ std::string describe_outputs(const Outputs& outputs) {
 
 std::string describe_statistics(const StatisticsSpec& statistics) {
   const int* bins = std::get_if<int>(&statistics.bins);
-  return fmt::format("quantiles {}, confidence {}, bins {}", fmt::join(statistics.quantiles, " "),
-                     statistics.confidence, bins ? std::to_string(*bins) : "auto");
+  const std::string accuracy = !statistics.accuracy_runs ? ""
+                               : *statistics.accuracy_runs == 0
+                                   ? ", integration error not measured"
+                                   : fmt::format(", integration error from {}",
+                                                 counted(*statistics.accuracy_runs, "run", "runs"));
+  return fmt::format("quantiles {}, confidence {}, bins {}{}", fmt::join(statistics.quantiles, " "),
+                     statistics.confidence, bins ? std::to_string(*bins) : "auto", accuracy);
+}
+
+/// What the campaign's static margins have in place of the defaults, "ecss/friction 1.5, points 11"; or empty.
+std::string describe_static_margins(const StaticMarginSpec& spec, const Scene& scene) {
+  const StaticMarginSpec usual = default_static_margins(scene);
+  std::string text;
+  const auto add = [&](const std::string& key, const std::string& value) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key, value);
+  };
+  for (const Json& change :
+       Json::diff(write_static_margins(usual, scene), write_static_margins(spec, scene)))
+    add(change.at("path").get<std::string>().substr(1), change.at("value").dump());
+  if (spec.springs_per_hinge != usual.springs_per_hinge)
+    add("springs_per_hinge", std::to_string(spec.springs_per_hinge));
+  return text;
 }
 
 /// The requirement, and how many failures the campaign's runs allow.
@@ -204,6 +224,9 @@ std::string describe_guarantees(const Campaign& campaign) {
     text += (std::holds_alternative<WidthGoal>(goal) ? "stop at an interval's width of: "
                                                      : "stop when decided: ") +
             to_string(goal) + "\n";
+  if (const auto changed = describe_static_margins(campaign.motorization, campaign.scene);
+      !changed.empty())
+    text += "motorization: " + changed + "\n";
   if (campaign.margin)
     text += "margin: " + describe_margin(*campaign.margin, campaign.scene) + "\n";
   return text;

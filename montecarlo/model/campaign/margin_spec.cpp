@@ -11,7 +11,7 @@ namespace wingspread {
 namespace {
 
 constexpr std::array<std::string_view, 2> case_names{"nominal", "one_spring_out"};
-constexpr const char* expected_range = "an array of two numbers > 0, the first below the second";
+constexpr const char* expected_range = "two numbers > 0, the first below the second";
 constexpr const char* expected_widest = "an array of two numbers > 0 that enclose \"range\"";
 /// Default of `widest`: the range widened by three octaves on either side. Heuristic: the study does not find the edges
 /// of a window that lie beyond.

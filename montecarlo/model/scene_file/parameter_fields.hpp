@@ -55,7 +55,7 @@ inline bool has_law(const Hinge& hinge, DamperLaw law) {
 }
 inline bool has_eddy_current(const Hinge& hinge) { return has_law(hinge, DamperLaw::eddy_current); }
 inline bool has_power_law(const Hinge& hinge) { return has_law(hinge, DamperLaw::power); }
-inline bool has_coefficient(const Hinge& hinge) { return hinge.damper && !has_eddy_current(hinge); }
+inline bool has_viscous_damper(const Hinge& hinge) { return has_law(hinge, DamperLaw::viscous); }
 inline bool has_window(const Hinge& hinge) { return hinge.damper && hinge.damper->window; }
 inline bool has_stop(const Hinge& hinge) { return hinge.stop.has_value(); }
 inline bool has_far_stop(const Hinge& hinge) { return hinge.far_stop.has_value(); }
@@ -176,7 +176,8 @@ inline constexpr std::array hinge_fields{
     Field<Hinge>{"friction.regularization_rate", "rad/s", [](auto& h) -> auto& { return h.friction.regularization_rate; }, is_regularized, needs_regularized},
     Field<Hinge>{"friction.static", "N·m", [](auto& h) -> auto& { return *h.friction.static_level; }, has_static, needs_static},
     Field<Hinge>{"friction.scale", "", [](auto& h) -> auto& { return h.friction.scale; }, has_laws, needs_laws},
-    Field<Hinge>{"damper.coefficient", "N·m·(s/rad)^p", [](auto& h) -> auto& { return h.damper->coefficient; }, has_coefficient, needs_coefficient},
+    Field<Hinge>{"damper.coefficient", "N·m·s/rad", [](auto& h) -> auto& { return h.damper->coefficient; }, has_viscous_damper, needs_coefficient},
+    Field<Hinge>{"damper.coefficient", "N·m·(s/rad)^p", [](auto& h) -> auto& { return h.damper->coefficient; }, has_power_law, needs_coefficient},
     Field<Hinge>{"damper.exponent", "", [](auto& h) -> auto& { return h.damper->exponent; }, has_power_law, needs_power_law},
     Field<Hinge>{"damper.regularization_rate", "rad/s", [](auto& h) -> auto& { return h.damper->regularization_rate; }, has_power_law, needs_power_law},
     Field<Hinge>{"damper.peak_torque", "N·m", [](auto& h) -> auto& { return h.damper->peak_torque; }, has_eddy_current, needs_eddy_current},

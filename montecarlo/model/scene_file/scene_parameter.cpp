@@ -79,18 +79,17 @@ bool is_like(std::string_view name, std::string_view pattern) {
 template <class Named, std::size_t n>
 void match(Owner kind, std::span<const Named> owners, const std::array<Field<Named>, n>& fields,
            const Path& path, ParameterMatches& found) {
-  const auto of_path = [&](const Field<Named>& field) { return field.path == path.field; };
-  const auto field = std::ranges::find_if(fields, of_path);
-  if (field == fields.end()) return;
   for (std::size_t i = 0; i < owners.size(); ++i) {
     std::string name;
     if constexpr (requires { owners[i].name; }) name = owners[i].name;
     if (!is_like(name, path.name)) continue;
-    if (field->in(owners[i]))
-      found.matches.push_back(
-          {{kind, static_cast<int>(i), static_cast<int>(field - fields.begin())}, name});
-    else
-      found.expected = field->needs;
+    for (std::size_t k = 0; k < n; ++k) { // fields with one path differ in who has them
+      if (fields[k].path != path.field) continue;
+      if (fields[k].in(owners[i]))
+        found.matches.push_back({{kind, static_cast<int>(i), static_cast<int>(k)}, name});
+      else
+        found.expected = fields[k].needs;
+    }
   }
 }
 

@@ -266,6 +266,12 @@ Json correlations_json(const PageSource& source, const PageDetail& detail) {
   return json;
 }
 
+/// The warnings, without idle dispersions: these have a list of their own.
+std::vector<std::string> further_warnings(RankSensitivity all) {
+  all.idle.clear();
+  return warnings(all);
+}
+
 Json effects_json(const PageSource& source, const PageDetail& detail) {
   if (!source.has_rows() || source.results.draws.empty() || source.summary.runs < fewest_runs)
     return nullptr;
@@ -279,8 +285,12 @@ Json effects_json(const PageSource& source, const PageDetail& detail) {
   for (const OutputRanks& output : std::span(all.outputs).first(shown))
     add_effects(all, output, detail.effects, effects);
   if (effects.empty()) return nullptr;
-  return {{"kind", "rank"},   {"runs", all.runs},          {"confidence", all.confidence},
-          {"idle", all.idle}, {"warnings", warnings(all)}, {"effects", std::move(effects)}};
+  return {{"kind", "rank"},
+          {"runs", all.runs},
+          {"confidence", all.confidence},
+          {"idle", all.idle},
+          {"warnings", further_warnings(all)},
+          {"effects", std::move(effects)}};
 }
 
 std::vector<Pair> strongest_pairs(const PageSource& source, std::size_t most) {

@@ -203,7 +203,8 @@ Json release_json(const Hinge& hinge) {
           {"time", page_number(release.time)},
           {"after", release.after},
           {"angle", page_number(release.angle)},
-          {"delay", page_number(release.delay)}};
+          {"delay", page_number(release.delay)},
+          {"fails", release.fails}};
 }
 
 /// Null for a wing without holds whose latches cannot miss: its sequence is in the latch times.

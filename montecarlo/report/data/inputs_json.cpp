@@ -107,6 +107,8 @@ Json settings_json(const Campaign& campaign) {
   add("relative tolerance", fmt::format("{:g}", how.rtol));
   add("absolute tolerance", fmt::format("{:g}", how.atol));
   add("latch", how.smoothing ? fmt::format("smoothed over {:g} rad", *how.smoothing) : "event");
+  if (has_fixed_step(how.method)) add("step", fmt::format("{:g} s", how.step));
+  add("trial steps of a run, at most", std::to_string(how.max_steps));
   add("end of a run, at the latest", fmt::format("{:g} s", how.t_end));
   add("design", std::string(design_names[static_cast<std::size_t>(sampling.design)]));
   add("runs", std::to_string(sampling.runs));

@@ -58,10 +58,10 @@ extern "C" double fma(double a, double b, double c) {
 namespace {
 
 /// Fills a campaign from the numbers.
-class Reading {
+class NumberReader {
 public:
   static constexpr bool reads = true;
-  explicit Reading(const double* next) : next_(next) {}
+  explicit NumberReader(const double* next) : next_(next) {}
 
   void number(double& value) {
     places.push_back(&value);
@@ -122,8 +122,8 @@ Outcome integrate(const Scene& scene, const Integration& how, const Goal& goal,
 class Kernel {
 public:
   explicit Kernel(std::vector<double> numbers) {
-    Reading reading(numbers.data());
-    CampaignNumbers<Reading> visit(reading);
+    NumberReader reading(numbers.data());
+    CampaignNumbers<NumberReader> visit(reading);
     visit.scene(campaign_.scene);
     places_ = reading.places; // vectors of the scene keep their size: the addresses stay
     visit.rest(campaign_);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_numbers = 40'000; // of one set: some 400 kB
 
 /// Lists the numbers of what it visits.
-class Writing {
+class NumberWriter {
 public:
   static constexpr bool reads = false;
 
@@ -48,7 +48,7 @@ private:
   Json json_ = Json::array();
 };
 
-void add_effects(const Dispersion& dispersion, Scene& scene, const Writing& writing,
+void add_effects(const Dispersion& dispersion, Scene& scene, const NumberWriter& writing,
                  NumberedDispersion& numbered) {
   for_each_effect(dispersion, [&](Apply how, const auto& targets, const Curve* table) {
     for (const SceneParameter& target : targets) {
@@ -64,7 +64,7 @@ void add_effects(const Dispersion& dispersion, Scene& scene, const Writing& writ
 }
 
 /// The places that the sliders change, by hinge; null where the hinge has no such part.
-Json sliders_of(Scene& scene, const Writing& writing) {
+Json sliders_of(Scene& scene, const NumberWriter& writing) {
   Json json = Json::array();
   for (Hinge& hinge : scene.hinges) {
     json.push_back({{"spring", writing.place_of(hinge.spring.scale)},
@@ -89,8 +89,8 @@ Json kernel_json(const Campaign& campaign) {
                             design_of(campaign.sampling),
                             campaign.integration,
                             goal_of(campaign.outputs)};
-  Writing writing;
-  CampaignNumbers<Writing> visit(writing);
+  NumberWriter writing;
+  CampaignNumbers<NumberWriter> visit(writing);
   visit.scene(numbered.scene);
   Json draws = Json::array();
   for (const Dispersion& dispersion : campaign.dispersions) {

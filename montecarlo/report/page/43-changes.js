@@ -80,7 +80,7 @@
     const all = (set.inputs || {}).dispersions || [];
     return lever.draws
       .flatMap((draw) => (all.find((one) => one.draw === draw) || {}).paths || [])
-      .map((path) => /^hinges\.(.+?)\.((?:spring|friction|harness|damper|latch)\..+)$/.exec(path))
+      .map((path) => /^hinges\.(.+?)\.((?:spring|friction|harness|damper|motor|latch)\..+)$/.exec(path))
       .filter(Boolean)
       .map(([, hinge, quantity]) => ({ hinge, quantity }));
   }
@@ -106,6 +106,7 @@
     if (kinds.has("spring") && lever.scaled && !grows) return `Weaker springs ${lower}`;
     if (kinds.has("friction") && grows) return `More friction would ${lower}`;
     if (kinds.has("harness") && grows && lever.scaled) return `A stiffer harness would ${lower}`;
+    if (kinds.has("motor") && !grows) return `A slower or weaker motor can ${lower.replace(" and can", " and")}`;
     if (kinds.has("damper") && grows) return "A stronger damper slows the deployment. Static margins count it only at a stated rate.";
     return null;
   }

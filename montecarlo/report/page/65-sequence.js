@@ -23,6 +23,7 @@
       drawn = ((set.inputs || {}).dispersions || []).find((one) => one.apply === "set" && (one.paths || []).includes(path));
     const other = release.after >= 0 ? wing.hinges[release.after].name : "",
       { factor, unit } = F.shown("rad");
+    if (release.fails) return "never";
     const event = {
       time: drawn ? `at ${drawn.draw}` : `at ${F.given(release.time)} s`,
       latched: `${other} latches`,

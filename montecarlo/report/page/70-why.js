@@ -166,6 +166,12 @@
       : null;
   }
 
+  // What limits the effects as read from these runs; those of Sobol' indices are among the first page's warnings.
+  function limits(set) {
+    const { kind, warnings = [] } = set.sensitivity || {};
+    return kind === "rank" ? warnings.map((text) => h("p.note.limit", h("b", "Warning: "), `${text}.`)) : [];
+  }
+
   const tornadoHost = h("div");
   W.tornado = tornado;
   // The outputs with known effects.
@@ -219,6 +225,7 @@
       W.section("why"),
       chooserHost,
       tornadoHost,
+      limits(set),
       idle(set),
       pairs.length
         ? [

@@ -215,6 +215,7 @@ Json sobol_set(const std::filesystem::path& folder, const std::string& label) {
   const Json sensitivity = parse_json_file(folder / sensitivity_json_file);
   Json set = empty_set(folder, label, stamp_json(stamp_of(design)));
   add_campaign(design.campaign, set);
+  set["warnings"] = sensitivity.value("warnings", Json::array()); // older versions have none
   set["sensitivity"] = {{"kind", "sobol"}, {"effects", sobol_effects(sensitivity, most_effects)}};
   return set;
 }

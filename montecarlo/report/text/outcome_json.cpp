@@ -117,6 +117,13 @@ Json final_json(const Scene& scene, const Configuration& final) {
             {"rate", json_number(final.base_rate)}}}};
 }
 
+/// The largest changes of a free base's angle and rate.
+Json base_peaks_json(const Outcome& outcome) {
+  if (!outcome.base_peaks || outcome.status == Status::failed) return nullptr;
+  return {{"peak_angle", json_number(outcome.base_peaks->angle)},
+          {"peak_rate", json_number(outcome.base_peaks->rate)}};
+}
+
 Json energy_json(const EnergyAudit& energy) {
   return {{"initial", json_number(energy.initial)},
           {"final", json_number(energy.final)},
@@ -204,6 +211,7 @@ Json outcome_json(const Scene& scene, const Outcome& outcome) {
               {"rhs_evaluations", outcome.work.rhs_evaluations}}}};
   if (std::ranges::any_of(scene.bodies, [](const Body& body) { return body.flexible.has_value(); }))
     json["peak_bending_moment"] = bending_json(scene, outcome);
+  if (scene.base.motion == BaseMotion::free) json["base_motion"] = base_peaks_json(outcome);
   add_sequence(scene, outcome, json);
   return json;
 }

@@ -116,6 +116,13 @@ std::string final_state(const Scene& scene, const Outcome& outcome) {
   return text;
 }
 
+std::string base_peaks(const Outcome& outcome) {
+  if (!outcome.base_peaks || outcome.status == Status::failed) return "";
+  return fmt::format("\n{:<24}{:>14}{:>16}\n  {:<22}{:>14}{:>16.6g}\n", "LARGEST CHANGE",
+                     "angle, deg", "rate, rad/s", "base", degrees_text(outcome.base_peaks->angle),
+                     outcome.base_peaks->rate);
+}
+
 std::string warnings(const Scene& scene, const Outcome& outcome) {
   std::string text;
   for (const std::string& line : outcome_warnings(scene, outcome))
@@ -177,7 +184,7 @@ std::string outcome_text(const Scene& scene, const Outcome& outcome) {
          latches(scene, outcome) + hinge_events("PASSED, TOO FAST", scene, outcome.missed) +
          hinge_events("LET GO", scene, outcome.let_go) + peaks(scene, outcome) +
          holds(scene, outcome) + motors(scene, outcome) + final_state(scene, outcome) +
-         warnings(scene, outcome) + effort(scene, outcome);
+         base_peaks(outcome) + warnings(scene, outcome) + effort(scene, outcome);
 }
 
 } // namespace wingspread

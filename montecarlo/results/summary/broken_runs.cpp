@@ -20,11 +20,12 @@ void keep_first(std::vector<Element>& kept, const Element& added, std::size_t mo
   if (kept.size() > most) kept.pop_back();
 }
 
-template <class Wanted>
-std::vector<LatchedRun> fewest_latched_of(const Results& results, std::size_t most, Wanted wanted) {
+template <class IsCounted>
+std::vector<LatchedRun> fewest_latched_of(const Results& results, std::size_t most,
+                                          IsCounted is_counted) {
   std::vector<LatchedRun> fewest;
   for (std::size_t row = 0; row < results.size(); ++row)
-    if (wanted(results.status[row]))
+    if (is_counted(results.status[row]))
       keep_first(fewest, LatchedRun{results.runs[row], hinges_in(results.latch_order[row])}, most,
                  [](const LatchedRun& a, const LatchedRun& b) { return a.latched < b.latched; });
   return fewest;

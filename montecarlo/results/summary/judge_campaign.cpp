@@ -9,7 +9,7 @@ namespace wingspread {
 namespace {
 
 /// One required static margin and its column.
-struct Wanted {
+struct MarginColumn {
   RequiredMargin margin;
   std::vector<HingeDrive> drives;
   Column column;
@@ -27,35 +27,35 @@ bool have_one_result(const Summary& summary) {
          std::ranges::all_of(summary.outputs, is_constant);
 }
 
-std::vector<Wanted> wanted_of(const Campaign& campaign) {
-  std::vector<Wanted> wanted;
+std::vector<MarginColumn> margin_columns(const Campaign& campaign) {
+  std::vector<MarginColumn> found;
   for (const Requirement& requirement : campaign.requirements) {
     if (!requirement.static_margin) continue;
     const RequiredMargin& margin = *requirement.static_margin;
-    if (std::ranges::find(wanted, margin, &Wanted::margin) == wanted.end())
-      wanted.push_back({margin, required_drives(campaign.scene, margin), {requirement.output, {}}});
+    if (std::ranges::find(found, margin, &MarginColumn::margin) == found.end())
+      found.push_back({margin, required_drives(campaign.scene, margin), {requirement.output, {}}});
   }
-  return wanted;
+  return found;
 }
 
 } // namespace
 
 std::vector<Column> static_margin_columns(const Campaign& campaign, const Results& results) {
   assert(results.draws.size() == campaign.dispersions.size());
-  std::vector<Wanted> wanted = wanted_of(campaign);
+  std::vector<MarginColumn> found = margin_columns(campaign);
   std::vector<Column> columns;
-  if (wanted.empty()) return columns;
+  if (found.empty()) return columns;
   std::vector<double> draws(results.draws.size());
   Scene scene = campaign.scene;
   for (std::size_t row = 0; row < results.size(); ++row) {
     for (std::size_t i = 0; i < draws.size(); ++i) draws[i] = results.draws[i].values[row];
     apply(campaign, draws, campaign.scene, scene);
-    for (Wanted& each : wanted)
+    for (MarginColumn& each : found)
       each.column.values.push_back(
           least_margin(scene, each.drives, each.margin.kind, campaign.motorization));
   }
   results.release();
-  for (Wanted& each : wanted) columns.push_back(std::move(each.column));
+  for (MarginColumn& each : found) columns.push_back(std::move(each.column));
   return columns;
 }
 

@@ -42,19 +42,19 @@ const Column* column_of(const Results& results, std::span<const Column> besides,
   return nullptr;
 }
 
-/// How an output's values are read before they are compared with a limit.
-struct Reading {
+/// How an output's values are compared with a limit.
+struct HowJudged {
   bool absolute = false;
   PeakKind peak = PeakKind::none; ///< of which a value cut by t_end is read as infinite
 };
 
-Reading reading_of(const Column* column, bool absolute) {
+HowJudged how_judged(const Column* column, bool absolute) {
   return {absolute, column ? peak_kind(column->name) : PeakKind::none};
 }
 
 /// The value if the run deployed and the value counts; else infinite.
 double value_or_infinite(const Results& results, std::size_t row, double value,
-                         const Reading& how) {
+                         const HowJudged& how) {
   if (results.status[row] != Status::deployed || std::isnan(value) || results.is_cut(row, how.peak))
     return infinity;
   return how.absolute ? std::abs(value) : value;
@@ -64,7 +64,7 @@ double value_or_infinite(const Results& results, std::size_t row, double value,
 void add_breaking(const Results& results, const Column* column, Verdict& verdict) {
   const Requirement& requirement = verdict.requirement;
   const double sign = sign_of(requirement), limit = limit_of(requirement);
-  const Reading how = reading_of(column, requirement.absolute);
+  const HowJudged how = how_judged(column, requirement.absolute);
   Spilled<long>& broken = verdict.broken; // begins with the runs that are worse than any number
   std::vector<BreakingRun> beyond;
   for (std::size_t row = 0; row < results.size(); ++row) {
@@ -185,7 +185,7 @@ std::optional<std::array<double, 2>> beyond_zero(double least, double largest,
 
 RankedOutput::RankedOutput(const Results& results, const Column& output, bool absolute) {
   const std::size_t runs = results.size();
-  const Reading how = reading_of(&output, absolute);
+  const HowJudged how = how_judged(&output, absolute);
   values_.reserve(runs);
   for (std::size_t row = 0; row < runs; ++row) {
     const double value = value_or_infinite(results, row, output.values[row], how);

@@ -194,7 +194,7 @@ class Model:
     """A wing as a function of some of its parameters: model(x[n, d]) → y[n, m]. Read once, called often.
 
     paths: the d parameters, as dispersions name them; "hinges.*.spring.scale" sets all springs. outputs: the m columns of
-    runs.csv; default: all except rate_at and base_motion. The other arguments are those of simulate.
+    runs.csv; default: all except rate_at, base_motion, frequency and final_angle. The other arguments are those of simulate.
     """
 
     def __init__(self, scene: Source, paths: typing.Sequence[str], outputs: typing.Sequence[str] = (), *,

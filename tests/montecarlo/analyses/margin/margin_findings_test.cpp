@@ -133,7 +133,12 @@ TEST_CASE("a warning of open latches, or of a cut peak, names the scale with mos
                  {0.8, scale_with(0, 0)},
                  {1.5, scale_with(0, 0)},
                  {4, scale_with(0, 0)}};
+  result.campaigns.resize(1);
   CHECK(margin_warnings(result).empty());
+  result.campaigns[0].scene.base.motion = BaseMotion::prescribed;
+  CHECK_THAT(margin_warnings(result).at(0), Catch::Contains("the loads of the moving base"));
+  CHECK(margin_warnings(result).size() == 1);
+  result.campaigns[0].scene.base.motion = BaseMotion::fixed;
   for (const auto& [scale, open] : {std::pair{0.5, 2L}, {1.5, 7L}, {4.0, 3L}})
     search.seen[scale][0].open_latches = open;
   CHECK(margin_warnings(result) ==

@@ -128,6 +128,21 @@ TEST_CASE("a wing that its spring barely breaks loose is near to staying stowed"
   CHECK(at(2.01) == -1);
 }
 
+TEST_CASE("a motor helps to break the wing loose, with its torque at rest") {
+  Campaign campaign = campaign_of(one_panel(0.5));
+  Motor& motor = campaign.scene.hinges[0].motor.emplace();
+  motor.rate = 0.5, motor.gain = 10, motor.torque_limit = 1.25; // at rest 1.25 N·m
+  const LimitState limit_state(campaign, {});
+  const auto at = [&](double level) {
+    Scene scene = campaign.scene;
+    scene.hinges[0].friction.static_level = level;
+    return limit_state.of(scene, Deployment().run(scene, campaign.integration, limit_state.goal()));
+  };
+  CHECK(at(2.7) == Approx(0.2)); // 0.55 of the 2.75 N·m that spring and motor have left
+  CHECK(at(3.24) > 0);
+  CHECK(at(3.26) == -1);
+}
+
 TEST_CASE("peaks that t_end cut count as the event, as they break a requirement, and are counted") {
   const RareOptions options{
       .event = {"root.peak_moment", 20, true}, .samples = 100, .repeats = 2, .confidence = 0.9};

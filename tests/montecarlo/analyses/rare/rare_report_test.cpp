@@ -71,6 +71,16 @@ TEST_CASE("the text of a rare event has each sentence where the estimate is such
         }
 }
 
+TEST_CASE("unphysical draws are among the warnings, of the file as of the terminal", "[rare]") {
+  RareResult result = result_of({repeat_of(true)});
+  CHECK(doubts_of(result).empty());
+  result.statuses[static_cast<std::size_t>(Status::invalid)] = 3;
+  const std::vector<std::string> said = doubts_of(result);
+  REQUIRE(said.size() == 1);
+  CHECK(said[0].starts_with("3 of 2000 runs have an unphysical draw"));
+  CHECK(rare_json(result, {}, campaign_with(1), {})["warnings"] == Json(said));
+}
+
 TEST_CASE("the text of an event that is not rare counts, and has no bias", "[rare]") {
   RareResult result = result_of({repeat_of(true)});
   result.estimate.reached = result.estimate.plain = true;

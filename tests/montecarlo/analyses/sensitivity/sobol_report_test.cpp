@@ -26,6 +26,7 @@ TEST_CASE("Sobol' indices as JSON, CSV and a table; what changes nothing is name
   CHECK(read["runs"] == runs);
   CHECK(read["partial"] == false);
   CHECK(read["moves_nothing"] == Json::array({"none"}));
+  CHECK(read["warnings"] == Json(warnings(all)));
   const Json& effects = read["outputs"]["root.latch_time"]["dispersions"];
   CHECK(effects["none"]["total"]["value"] == 0);
   CHECK(effects["root_spring"]["total"]["value"] > effects["none"]["total"]["value"]);

@@ -79,6 +79,22 @@ TEST_CASE("What a campaign sets otherwise is described too", "[describe]") {
                        Catch::Contains("outputs: overtravel\n") && Catch::Contains("bins 8\n"));
 }
 
+TEST_CASE("Settings of the error block and of static margins are described where they are given",
+          "[describe]") {
+  Json document = test::small_campaign();
+  const auto described = [&] { return describe(read_campaign(document.dump(), "")); };
+  CHECK_THAT(described(),
+             !Catch::Contains("integration error") && !Catch::Contains("motorization"));
+  document["statistics"]["accuracy_runs"] = 24;
+  CHECK_THAT(described(), Catch::Contains(", integration error from 24 runs\n"));
+  document["statistics"]["accuracy_runs"] = 0;
+  CHECK_THAT(described(), Catch::Contains(", integration error not measured\n"));
+  document["motorization"] = parse_json(
+      R"({ "ecss": { "friction": 2.5 }, "rates": { "root": 0.125 }, "springs_per_hinge": 3 })");
+  CHECK_THAT(described(), Catch::Contains("motorization: ecss/friction 2.5, rates/root 0.125, "
+                                          "springs_per_hinge 3\n"));
+}
+
 TEST_CASE("What a campaign asks for is described with what its runs can show", "[describe]") {
   Json document = test::small_campaign();
   document["sampling"] = {{"runs", 1000}};

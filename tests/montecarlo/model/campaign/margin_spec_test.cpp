@@ -105,16 +105,16 @@ TEST_CASE("Each fault of a margin is told", "[margin]") {
         "/margin/scale/1: found hinges.mid.spring.torque_stowed a second time, expected each "
         "parameter once"},
        {"/range", "",
-        "/margin/range: found nothing, expected an array of two numbers > 0, the first below the "
+        "/margin/range: found nothing, expected two numbers > 0, the first below the "
         "second"},
        {"/range", "[2, 0.5]",
-        "/margin/range: found 2 and 0.5, expected an array of two numbers > 0, the first below the "
+        "/margin/range: found 2 and 0.5, expected two numbers > 0, the first below the "
         "second"},
        {"/range", "[0, 1]",
-        "/margin/range: found 0 and 1, expected an array of two numbers > 0, the first below the "
+        "/margin/range: found 0 and 1, expected two numbers > 0, the first below the "
         "second"},
        {"/range", "[1]",
-        "/margin/range: found an array of 1, expected an array of two numbers > 0, the first "
+        "/margin/range: found an array of 1, expected two numbers > 0, the first "
         "below the second"},
        {"/widest", "[0.6, 16]",
         "/margin/widest: found 0.6 and 16, expected an array of two numbers > 0, about "

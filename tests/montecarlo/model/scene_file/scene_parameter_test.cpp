@@ -98,6 +98,20 @@ TEST_CASE("A path leads to every parameter of a real hinge", "[parameter]") {
   CHECK(unit_of(found.matches[0].parameter) == unit);
 }
 
+TEST_CASE("a damper's coefficient has the unit of its law, also where a star finds both laws",
+          "[parameter]") {
+  Scene scene = read_scene(test::real_scene());
+  scene.hinges[1].damper = Damper{};
+  scene.hinges[1].damper->law = DamperLaw::viscous;
+  scene.hinges[1].damper->coefficient = 0.25;
+  const ParameterMatches found = resolve(scene, "hinges.*.damper.coefficient");
+  REQUIRE(found.matches.size() == 2);
+  CHECK(unit_of(found.matches[0].parameter) == "N·m·(s/rad)^p");
+  CHECK(unit_of(found.matches[1].parameter) == "N·m·s/rad");
+  CHECK(found.matches[1].parameter.in(scene) == 0.25);
+  CHECK(path_of(scene, found.matches[1].parameter) == "hinges.mid.damper.coefficient");
+}
+
 TEST_CASE("the path of a stop at the wrong side names the stop of the other side", "[parameter]") {
   Scene scene = read_scene(test::small_scene());
   scene.hinges[0].far_stop = Stop{};

@@ -70,6 +70,7 @@ TEST_CASE("a sequence has the events of every hinge, and only a wing with holds 
   CHECK(sequence[0]["release"].is_null());
   CHECK(sequence[2]["release"]["event"] == "latched");
   CHECK(sequence[2]["release"]["after"] == 0);
+  CHECK(sequence[2]["release"]["fails"] == 0);
   for (std::size_t h = 0; h < 3; ++h) {
     const std::string name = source->stored.campaign.scene.hinges[h].name + ".latch_time";
     std::vector<double> times; // of the rows
@@ -88,4 +89,6 @@ TEST_CASE("a sequence has the events of every hinge, and only a wing with holds 
   }
   const double first = sequence[0]["latched"]["times"].front().get<double>();
   CHECK(sequence[2]["released"]["times"].front().get<double>() == Approx(first + 0.25));
+  campaign["scene"]["hinges"][2]["release"]["fails"] = 1;
+  CHECK(envelopes_json(*made(campaign), {}, 2)["sequence"][2]["release"]["fails"] == 1);
 }

@@ -48,6 +48,24 @@ TEST_CASE("inputs say what a case changes, of the scene and of laws", "[page]") 
   CHECK(entry(inputs["settings"], "label", "seed")["value"] == "7");
 }
 
+TEST_CASE("the settings are those of the runs; a step only where the method has one", "[page]") {
+  Json json = quick_campaign(5);
+  const auto setting = [&](const std::string& label) -> std::string {
+    const auto source = source_of(campaign_of(json), rows_of(RunPlan(campaign_of(json)), {0, 2}));
+    const Json inputs = inputs_json(*source, {});
+    for (const Json& each : inputs["settings"])
+      if (each["label"] == label) return each["value"];
+    return "";
+  };
+  json["integration"]["max_steps"] = 54321;
+  CHECK(setting("trial steps of a run, at most") == "54321");
+  CHECK(setting("step").empty());
+  json["integration"]["method"] = "runge_kutta4";
+  json["integration"]["step"] = 0.002;
+  CHECK(setting("method") == "runge_kutta4");
+  CHECK(setting("step") == "0.002 s");
+}
+
 TEST_CASE("inputs have words for dispersions, and what a draw does through its tables in each case",
           "[page]") {
   Json json = quick_campaign(5);

@@ -4,7 +4,10 @@
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 using namespace wingspread;
@@ -244,6 +247,36 @@ TEST_CASE("a run at its limit of steps says what the limit counts") {
   REQUIRE(outcome.status == Status::failed);
   CHECK_THAT(outcome_text(scene, outcome), Catch::Contains("max_steps counts every trial step"));
   CHECK_THAT(outcome_text(scene, simulate(scene, 10)), !Catch::Contains("max_steps"));
+}
+
+TEST_CASE("a free base's largest changes are those that its motion shows") {
+  const Scene scene = read_scene_file(three_panel_file().parent_path() / "two_wing_release.json");
+  Integration integration;
+  integration.t_end = 12;
+  Goal goal;
+  goal.to_t_end = true;
+  double angle = 0, rate = 0;
+  const Outcome outcome = Deployment().run(scene, integration, goal, [&](const Sample& sample) {
+    angle = std::max(angle, std::abs(sample.base_angle - scene.base.angle));
+    rate = std::max(rate, std::abs(sample.base_rate - scene.base.rate));
+  });
+  REQUIRE(angle > 0.01);
+  const Json json = outcome_json(scene, outcome)["base_motion"];
+  // Between two steps the changes are a little larger than at their ends.
+  CHECK(json["peak_angle"].get<double>() >= angle);
+  CHECK(json["peak_angle"].get<double>() == Approx(angle).epsilon(1e-3));
+  CHECK(json["peak_rate"].get<double>() >= rate);
+  CHECK(json["peak_rate"].get<double>() == Approx(rate).epsilon(1e-2));
+  const std::string text = outcome_text(scene, outcome);
+  const auto row = text.find("LARGEST CHANGE");
+  REQUIRE(row != std::string::npos);
+  CHECK_THAT(text.substr(row),
+             Catch::Contains(degrees_text(json["peak_angle"].get<double>())) &&
+                 Catch::Contains(fmt::format("{:.6g}\n", json["peak_rate"].get<double>())));
+  Outcome failed = outcome;
+  failed.status = Status::failed;
+  CHECK(outcome_json(scene, failed)["base_motion"].is_null());
+  CHECK(outcome_text(scene, failed).find("LARGEST CHANGE") == std::string::npos);
 }
 
 TEST_CASE("each table of loads stands where its loads are known, and none of a run that failed") {
