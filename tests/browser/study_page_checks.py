@@ -100,6 +100,9 @@ class StudyPageChecks:
         self.assertTrue(links and all(hidden[name] == gone for name, gone in links), links)
         text = self.one("#verdicts").text
         self.assertIn("margin, sobol, rare: see “Causes”.", text)
+        self.assertIn("None.", self.one("#verdicts .warnings.none").text)
+        self.run_script("W.studySets[1].warnings = ['one replicate, so no bounds']; W.outcomes()")
+        self.assertEqual([one.text for one in self.all("#verdicts .warnings li")], ["one replicate, so no bounds (sobol)"])
 
     def test_the_page_opens_on_the_worst_case(self):
         self.open(pages.made_up("cases"))

@@ -98,6 +98,10 @@ class WordChecks:
             self.verdicts("Object.assign(W.set(), arguments[0]); W.set().warnings = []", change)
             self.assertEqual(listed(), ["mock_wing holds 1,000 of 4,000 planned runs."] if partial else [])
         self.assertIn("None.", self.one("#verdicts .warnings.none").text)
+        limits = lambda kind: (self.run_script("Object.assign(W.set().sensitivity, { kind: arguments[0], warnings: ['the draws of \"a\" do not vary'] }); W.why()", kind), [one.text for one in self.all("#why .of-effects")])[1]
+        self.assertEqual(limits("rank"), ["Warning: the draws of \"a\" do not vary."])
+        self.assertEqual(limits("sobol"), [])  # those of indices are among the first page's warnings
+        self.run_script("W.set().sensitivity.kind = 'rank'; W.set().sensitivity.warnings = []; W.why()")
         reasons = [("stalled", "energy: no hinge can reach its latch, lacks 3 … 5 J"), ("timed_out", ""), ("stalled", "every hinge sticks, and what loads it stays as it is"), ("failed", "mid … is stuck, lacks 2 J"), ("invalid", "e")]
         told = lambda count: self.run_script("W.set().reasons = arguments[0]; W.outcomes(); const one = [...document.querySelectorAll('#verdicts details')].find(each => /Why runs/.test(each.textContent)); return one ? [one.open, [...one.querySelectorAll('li')].map(li => li.textContent)] : null",
                                              [{"status": status, "reason": reason, "count": 1000 + at} for at, (status, reason) in enumerate(reasons[:count])])

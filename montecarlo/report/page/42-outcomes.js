@@ -317,6 +317,7 @@
           "p",
           `${labels.join(", ")}: see “Causes”. Add a results folder of wingspread run to this report for verdicts and distributions.`,
         ),
+        warnings(),
         again(),
       );
       return;

@@ -169,7 +169,7 @@
   // What limits the effects as read from these runs; those of Sobol' indices are among the first page's warnings.
   function limits(set) {
     const { kind, warnings = [] } = set.sensitivity || {};
-    return kind === "rank" ? warnings.map((text) => h("p.note.limit", h("b", "Warning: "), `${text}.`)) : [];
+    return kind === "rank" ? warnings.map((text) => h("p.note.of-effects", h("b", "Warning: "), `${text}.`)) : [];
   }
 
   const tornadoHost = h("div");
