@@ -4,10 +4,11 @@
 /// |--------|-----------------------------------------------------------------------------|--------|
 /// | t_k    | knots, ascending                                                            | s      |
 /// | a      | acceleration of the base's origin, inertial axes                            | m/s²   |
-/// | α, Ω   | angular acceleration; rate                                                  | rad/s² |
+/// | α      | angular acceleration                                                        | rad/s² |
+/// | Ω      | rate                                                                        | rad/s  |
 ///
 /// Each column is a curve [curve.hpp] between its knots, and constant beyond its ends. A table gives
-/// α, or Ω, whose slope then is α, or neither. Velocity, rate and angle are the exact integrals of
+/// α, or Ω (then α is the slope of Ω), or neither. Velocity, rate and angle are the exact integrals of
 /// the curves from t = 0 on. Each piece of the table stores their values at its start.
 #pragma once
 

@@ -36,7 +36,7 @@ std::vector<double> monotone_slopes(const std::vector<double>& h, const std::vec
   return slopes;
 }
 
-/// a·b + c with one rounding on every processor.
+/// Slope of a piece at u beyond its knot. std::fma, because Curve::slope_at promises one rounding on every processor.
 double slope_of(const Curve::Piece& piece, double u) {
   return std::fma(u, std::fma(u, 3 * piece.c[3], 2 * piece.c[2]), piece.c[1]);
 }
