@@ -44,8 +44,8 @@ template <class T, class AnySystem>
   return resting;
 }
 
-/// The stuck hinges whose friction exceeds `slack` times the limit by more than the margin, with the sense in which
-/// they set out.
+/// The stuck hinges whose friction exceeds `slack` times its limit by more than release_margin, with the sense in which
+/// they start to slide.
 /// @param let_go a hinge that is released whatever its friction; 0: none
 template <class T, class AnySystem>
 [[nodiscard]] Contacts too_weakly_held(const AnySystem& system, const State<T>& x, const T& slack,
@@ -61,7 +61,7 @@ template <class T, class AnySystem>
   return moves;
 }
 
-/// The released hinges that accelerate against the sense in which they were let slide.
+/// The hinges at rest that were set sliding, and accelerate against their sense of sliding.
 template <class T, class AnySystem>
 [[nodiscard]] Contacts running_against_friction(const AnySystem& system, const State<T>& x,
                                                 const State<T>& dxdt,
