@@ -20,7 +20,7 @@ template <class T, class AnySystem> class Diary {
 public:
   Diary(Underway<T, AnySystem>& run, const Observer& observer) : run_(run), observer_(observer) {}
 
-  /// A run begins. The outcome of the last run stays until `close`.
+  /// A run begins. Takes the storage of the last outcome's latches and phases, unless the caller has moved it out.
   void start() {
     keep_storage(outcome_.latches, latches_);
     keep_storage(outcome_.phases, phases_);

@@ -2,10 +2,11 @@
 ///
 /// | where is …                           | file                                                        |
 /// |--------------------------------------|-------------------------------------------------------------|
-/// | the loop                             | `run`, `make_step` below: request a step, make it, judge it |
+/// | the loop                             | `run`, `make_step` below: makes a step, judges it, plans on |
 /// | the next step's size and method      | stepping.hpp                                                |
 /// | a step that ends at an event         | landing.hpp                                                 |
-/// | the instant at which a latch engages | `finish_step` below: apply_events; events/latches.hpp       |
+/// | the instant of an event              | `judge_step` below: cut_at_event; events/events.hpp         |
+/// | where a latch engages                | `finish_step` below: apply_events; events/latches.hpp       |
 /// | a peak inside a step                 | peak_search.hpp, and the room peaks/                        |
 /// | an early end, and its proof          | ending.hpp, and the room proofs/                            |
 /// | the record of the run                | diary.hpp                                                   |
@@ -322,7 +323,7 @@ private:
     end_or_plan();
   }
 
-  /// The base's motion enters another piece of its table.
+  /// The base's motion, or a motor's command, enters another piece of its table.
   void pass_knot() {
     begin_anew(0);
     stepping_.restart_at_knot();

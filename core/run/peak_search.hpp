@@ -69,13 +69,13 @@ public:
     if (run_.goal.peak_force) forces_.start(run_.system, force_worth_a_step());
   }
 
-  /// Takes the peaks at t⁺. @pre the right-hand side has changed, and was last evaluated there
+  /// Raises the peaks to the loads just after an event. @pre the changed right-hand side was last evaluated there
   void include_start() {
     include_moments(run_.step.x, run_.step.t);
     if (run_.goal.peak_force) forces_.sample(run_.system, run_.step.t);
   }
 
-  /// What a lane has found of the peaks of a step.
+  /// A lane's findings about the peaks of a step.
   struct LaneSearch {
     bool done = false;           ///< it has written moments_may_rise
     bool forces_may_rise = true; ///< if done
@@ -100,7 +100,7 @@ public:
     return next_doubt();
   }
 
-  /// Uses the state inside that the method has stepped to. @return the next doubt
+  /// Settles the present doubt: the method has made a step to it, which ends at the run's x. @return the next doubt
   [[nodiscard]] std::optional<T> resolve_doubt() {
     if (borne_at_)
       confirm_hold();
