@@ -161,15 +161,15 @@ public:
     const bool passes = due && due->event == Event::edge && due->edge == Edge::pass;
     const int latching = passes ? due->hinge : hinge_of(Event::latch);
     const int resting = hinge_of(Event::rest);
-    const bool engaged = latches_.engage_those_there(latching, step, record);
-    const bool rested = rest_those_there(system_, resting, step);
+    const bool engaged = latches_.engage_simultaneous(latching, step, record);
+    const bool rested = stop_simultaneous(system_, resting, step);
     if (due &&
         due->event == Event::edge) // exactly at the edge, where settle_edges decides its side
       step.x[system_.layout().angle(due->hinge)] =
           edge_angle(system_.wing(), due->hinge, due->edge);
     const bool let_go = system_.wing().can_let_go &&
-                        latches_.let_go_those_there(hinge_of(Event::let_go), step, record);
-    const bool released = releases_.let_go_those_due(hinge_of(Event::seen), step, record);
+                        latches_.disengage_simultaneous(hinge_of(Event::let_go), step, record);
+    const bool released = releases_.release_due(hinge_of(Event::seen), step, record);
     const bool changes = due && due->event != Event::graze && due->event != Event::kink;
     return changes || engaged || rested || let_go || released;
   }

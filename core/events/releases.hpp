@@ -65,7 +65,7 @@ public:
   /// Lets go the holds that are due at the start of a step. @param due the hinge whose hold sees its angle; 0: none
   /// @param record  of all latches so far; releases are appended
   /// @return whether any hold let go
-  bool let_go_those_due(int due, const Step<T>& step, LatchRecord& record) {
+  bool release_due(int due, const Step<T>& step, LatchRecord& record) {
     if (held_ == 0) return false;
     bool any = false;
     for (bool again = true; again;) { // a release may be the event for which another hold waits
@@ -93,7 +93,8 @@ public:
   /// @param rests whether no hinge will move any more
   [[nodiscard]] bool may_let_go(bool rests) const {
     for (int i = 1; held_ > 0 && i < size(); ++i)
-      if (is_held(i) && (due_[i] < T(never) || (watches(i) && !rests && moves(i)))) return true;
+      if (is_held(i) && (due_[i] < T(never) || (watches(i) && !rests && awaited_hinge_is_free(i))))
+        return true;
     return false;
   }
 
@@ -157,7 +158,7 @@ private:
     return true; // holds that wait for each other
   }
   /// Whether the hinge for whose angle the hold of hinge i waits is free.
-  [[nodiscard]] bool moves(int i) const { return !is_held(terms(i).after); }
+  [[nodiscard]] bool awaited_hinge_is_free(int i) const { return !is_held(terms(i).after); }
 
   /// Notes when the hold of hinge i lets go, once that is known.
   void schedule(int i, int due, const Step<T>& step, const LatchRecord& record) {

@@ -161,7 +161,7 @@ private:
     return any;
   }
 
-  /// As Latches::engage_those_there.
+  /// As Latches::engage_simultaneous.
   template <class AnySystem>
   [[nodiscard]] Mask engages_at_end(const AnySystem& system, const Step<P>& step, int i) const {
     const Layout& at = system.layout();
@@ -173,7 +173,7 @@ private:
     return may_miss ? there && rate > P(0.0) : there;
   }
 
-  /// As rest_those_there.
+  /// As stop_simultaneous.
   template <class AnySystem>
   [[nodiscard]] Mask rests_at_end(const AnySystem& system, const Step<P>& step, int i) const {
     const int r = system.layout().rate(i);

@@ -117,7 +117,8 @@ public:
   [[nodiscard]] Outcome&& outcome() { return std::move(outcome_); }
 
   /// Notes the held hinges that stall the run. @pre closed
-  void blame(const std::vector<int>& never_released, const std::vector<int>& may_release_later) {
+  void note_held_hinges(const std::vector<int>& never_released,
+                        const std::vector<int>& may_release_later) {
     outcome_.never_released = never_released, outcome_.may_release_later = may_release_later;
   }
 

@@ -156,7 +156,7 @@ private:
   };
 
   /// A step from where the run stands over h, into x1 and dxdt1.
-  struct Try {
+  struct TrialStep {
     Stage stage = Stage::step;
     T h = T(0);
     State<T>*x1 = nullptr, *dxdt1 = nullptr;
@@ -291,7 +291,7 @@ private:
   /// Asks for a step to the peak in doubt. @param doubt its fraction of the step; none: all are known
   void confirm_peaks(const std::optional<T>& doubt) {
     if (doubt) return ask_inside(Stage::doubt, *doubt);
-    if (peaks_.made_sure() && stepping_.method() == Method::adams_bashforth_moulton)
+    if (peaks_.made_inner_steps() && stepping_.method() == Method::adams_bashforth_moulton)
       return ask_inside(Stage::repeat, T(1)); // its history must be that of the accepted step
     finish_step();
   }
@@ -342,7 +342,8 @@ private:
 
   void end(const End& how) {
     diary_.close(how.status, how.reason, stepping_.work(), peaks_, how.final);
-    if (how.status == Status::stalled) diary_.blame(how.never_released, how.may_release_later);
+    if (how.status == Status::stalled)
+      diary_.note_held_hinges(how.never_released, how.may_release_later);
     ended_ = true;
   }
 
@@ -367,7 +368,7 @@ private:
   Landing<T, AnySystem> landing_;
   PeakSearch<T, AnySystem> peaks_;
   Ending<T, AnySystem> ending_;
-  Try asked_;
+  TrialStep asked_;
   bool ended_ = false;
   std::optional<NoEvents>
       none_; ///< if a lane has made the step to be judged: what it has found in it

@@ -59,9 +59,9 @@ public:
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
 private:
-  void push(const Curve& x, const Curve& y);
-  void turn(const Curve& curve);
-  void turn_by_rate(const Curve& curve);
+  void set_acceleration(const Curve& x, const Curve& y);
+  void set_turning(const Curve& curve);
+  void set_turning_by_rate(const Curve& curve);
 
   Columns columns_;
   Interpolation interpolation_;
