@@ -162,8 +162,8 @@ Accuracy compare_rows(const ResultNames& names, std::span<const ResultRow> rows,
   return accuracy;
 }
 
-std::vector<ResultRow> make_again(const Campaign& campaign, const Integration& integration,
-                                  std::span<const long> runs, const ThreadPool& pool) {
+std::vector<ResultRow> repeat_runs(const Campaign& campaign, const Integration& integration,
+                                   std::span<const long> runs, const ThreadPool& pool) {
   Campaign again = campaign;
   again.integration = integration;
   const RunPlan plan(again);
@@ -194,9 +194,9 @@ Accuracy compare_with_reference(const Campaign& campaign, std::span<const Result
     reference.max_steps = steps;
     const std::size_t first = std::min(runs.size(), probed);
     std::vector<ResultRow> made =
-        make_again(campaign, reference, std::span(runs).first(first), pool);
+        repeat_runs(campaign, reference, std::span(runs).first(first), pool);
     if (made.front().status == Status::failed) continue;
-    std::ranges::move(make_again(campaign, reference, std::span(runs).subspan(first), pool),
+    std::ranges::move(repeat_runs(campaign, reference, std::span(runs).subspan(first), pool),
                       std::back_inserter(made));
     accuracy = compare_rows(names, rows, made, campaign.integration);
     accuracy.reference_method = reference.method;

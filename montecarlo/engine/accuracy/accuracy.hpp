@@ -74,9 +74,10 @@ inline constexpr double moved_share = 0.01;
 /// Repeats runs of a campaign with another integration.
 /// @param runs increasing
 /// @param pool does not change the rows
-[[nodiscard]] std::vector<ResultRow> make_again(const Campaign& campaign,
-                                                const Integration& integration,
-                                                std::span<const long> runs, const ThreadPool& pool);
+[[nodiscard]] std::vector<ResultRow> repeat_runs(const Campaign& campaign,
+                                                 const Integration& integration,
+                                                 std::span<const long> runs,
+                                                 const ThreadPool& pool);
 
 /// Compares rows with the first usable reference. A reference is unusable if it cannot finish the first of the runs
 /// within 100 times the steps of the campaign's method (at least 20,000 steps).

@@ -43,7 +43,7 @@ public:
 
 private:
   /// Reads the existing rows, and records an extension.
-  void go_on(const RunPlan& plan);
+  void read_existing_rows(const RunPlan& plan);
 
   StoredCampaign stored_;
   RowWriter rows_;
