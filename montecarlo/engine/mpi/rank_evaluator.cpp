@@ -17,9 +17,10 @@ namespace {
 
 using std::chrono::microseconds;
 
-/// Pauses between polls of the transport. Heuristic: 4 ms while rank 0's threads work. Polling (25 µs each) then takes
+/// Pauses between polls of the transport. Heuristic: 4 ms while rank 0's threads work. Polls of 25 µs each then take
 /// less than 1 % of a processor, and the other ranks have enough chunks in store for the pause. 50 µs at the end, when
-/// only answers are missing. A longer pause starves the ranks, a shorter one takes time from rank 0's threads.
+/// only answers are missing. A longer pause leaves the ranks without chunks, a shorter one takes time from rank 0's
+/// threads.
 constexpr microseconds between_polls{4000}, at_the_end{50};
 
 /// Sends the chunks of one plan to the ranks that ask for them.

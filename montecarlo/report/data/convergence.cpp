@@ -20,7 +20,7 @@ void merge_behind(std::vector<Value>& values, std::size_t sorted, Number number)
   std::inplace_merge(values.begin(), middle, values.end(), less);
 }
 
-/// Keeps the first runs of a column sorted while their number grows.
+/// The values of a column's first runs, kept sorted while their number grows, and their statistics.
 class SortedPrefix {
 public:
   SortedPrefix(const Column& column, const Replication& replication, MissingRank end,

@@ -99,7 +99,7 @@ double end_of(const std::vector<Track>& tracks) {
   return deployed.empty() ? any : quantile(deployed, 0.98);
 }
 
-/// The state of a run at ascending times. After its end the run keeps its angles, with zero rates.
+/// Interpolates the state of a run at ascending times. After its end the run keeps its angles, with zero rates.
 class TrackInterpolator {
 public:
   TrackInterpolator(const Track& track, const MotionLayout& layout)

@@ -47,7 +47,7 @@ std::string framed(long first, std::uint32_t count, std::uint64_t draws, std::st
   return record += rows;
 }
 
-/// Reads numbers and texts from the front.
+/// Reads numbers and texts from a record, one after the other.
 class BytesReader {
 public:
   explicit BytesReader(std::string_view bytes) : bytes_(bytes) {}
