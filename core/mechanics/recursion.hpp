@@ -4,7 +4,7 @@
 /// There a body adds the 3×3 matrix  M* − M* S U⁻¹ Sᵀ M*  and a vector to its parent, which C_iᵀ
 /// moves to the parent's centre of mass. Referred to the hinge's own point instead, S = (0; 1), so
 /// that row and column of the angle vanish: once its axis moment is known, only a force crosses a
-/// revolute hinge. What is left is
+/// revolute hinge. There remains
 ///
 ///     f_i = K_i a_i + b_i      the force on body i at its hinge; a_i: that point's acceleration
 ///

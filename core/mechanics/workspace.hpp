@@ -1,4 +1,4 @@
-/// The data of a run beside its state vector: laws, latches, contacts and scratch space.
+/// The data that a run changes, beside its state vector: laws, latches, contacts and scratch space.
 #pragma once
 
 #include "core/laws/linear_law.hpp"

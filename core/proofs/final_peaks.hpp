@@ -103,7 +103,7 @@ public:
     ++refusals_;
     return refusals_ > before_first && (!below_ || energy <= *below_ || refusals_ >= again_);
   }
-  /// The box proved nothing. @param excess of its bounds over the peaks; none: there was no box
+  /// Notes that the box proved nothing. @param excess largest ratio of its bounds to the peaks; none: there was no box
   void note_failure(const T& energy, const std::optional<T>& excess) {
     constexpr double least = 4.0 / 3, without_box = 2; // heuristic
     below_ = energy / (excess ? larger(*excess, T(least)) : T(without_box));
@@ -115,7 +115,7 @@ private:
   std::optional<T> below_; ///< J; none: not asked yet
 };
 
-/// The proofs of one run. What depends on the wing alone is made at the first attempt.
+/// The proofs of one run. Terms that depend on the wing alone are computed at the first attempt.
 template <class T, class AnySystem> class FinalPeaks {
 public:
   /// A run begins: no hinge is known to have latched.

@@ -163,7 +163,7 @@ private:
     void widen_to(const Box& other);
     void shrink_to(const Box& other);
   };
-  /// What follows for a motion inside a box.
+  /// Bounds that hold for a motion inside a box.
   struct Image {
     Box box;                    ///< the right sides of (4), (5) and (6)
     HingeVector way, remainder; ///< |u|, f
@@ -172,7 +172,7 @@ private:
     double drift;               ///< |r − H/I| by (4)
   };
 
-  /// What the energy alone tells of all that follows.
+  /// Bounds on all later motion by the energy alone.
   struct Reach {
     Box box;
     HingeVector way, rate; ///< |u|, |u̇|

@@ -28,10 +28,11 @@ constexpr double tightest_implicit = 1e-12; ///< at a smaller rtol seulex takes 
 /// Largest rtol of a reference. Heuristic: with a larger one the reference of a loose campaign is loose itself.
 constexpr double loosest = 1e-8;
 constexpr long times_the_steps = 100, least_steps = 20'000;
-/// Runs by which a reference is tried: they fill the lanes of two threads, so they take hardly longer than one.
+/// Runs that show whether a reference is usable. They fill the eight AVX-512 lanes of two threads, so they take hardly
+/// longer than one.
 constexpr std::size_t probed = 16;
 
-/// Rounds to three decimal digits, so that 1e-8 · 1e-3 is reported as 1e-11 and not as 1.0000000000000001e-11.
+/// Rounds to three decimal digits, so that 1e-9 · 1e-2 is reported as 1e-11 and not as 1.0000000000000001e-11.
 double in_three_digits(double x) {
   std::array<char, 32> text{};
   char* const first = text.data();
