@@ -49,8 +49,8 @@ template <class T> struct Bulge {
 
 /// The part of a step below which intervals are not halved: 2^-17, so that a search ends after 2^17 samples whatever
 /// its bound says. A smooth function exceeds its larger end there by at most 2^-34 = 6e-11 of its rise over the step; a
-/// kink or a jump hides at most the 2^-17 part of the step in which it lies. Or more than that, where times so close
-/// cannot be told apart: the bound of a step of a few roundings says nothing.
+/// kink or a jump hides at most the 2^-17 part of the step in which it lies. In a very short step the part is larger:
+/// four roundings of the time, because times closer than that are equal.
 /// @param t, h start and length of the step, s
 template <class T> [[nodiscard]] T shortest_part(const T& t, const T& h) {
   using std::abs;

@@ -2,10 +2,10 @@
 ///
 /// The samples lie at Chebyshev points of the second kind, s_j = (1 − cos(π j/n))/2, and the polynomial is evaluated
 /// by the barycentric formula [Berrut & Trefethen 2004, eqs. 4.2 and 5.4]. The points of n = 4 are among those of 8,
-/// and these among those of 16. For a function that is analytic in the step the error falls geometrically with n. So
-/// the samples that are added next test the polynomial of degree n. If it misses them by a small part of the function's
-/// size only (`enough`), the polynomial through all samples is far more accurate. Few samples do not resolve a kink or
-/// a jump.
+/// and these among those of 16. For a function that is analytic in the step the error falls geometrically with n. The
+/// samples added for the next n therefore test the polynomial of degree n. If its error there is a small share
+/// (`enough`) of the function's size, the polynomial through all samples is far more accurate. Few samples do not
+/// resolve a kink or a jump.
 #pragma once
 
 #include "core/dense/curved_search.hpp"
@@ -21,7 +21,7 @@ namespace wingspread {
 
 template <class T> class StepInterpolant {
 public:
-  /// The fractions of the step of the samples that `begin` makes.
+  /// The fractions of the step at which `begin` takes samples.
   static constexpr std::array<double, 3> first_places{0.14644660940672624, 0.5,
                                                       0.85355339059327376};
 

@@ -32,7 +32,7 @@ template <class T> [[nodiscard]] Contact sliding(const T& along) {
 
 /// Makes hinges with exact friction that are at rest stick, and the others slide. @return which are at rest
 template <class T, class AnySystem>
-[[nodiscard]] std::vector<char> lock_those_at_rest(AnySystem& system, const State<T>& x) {
+[[nodiscard]] std::vector<char> lock_hinges_at_rest(AnySystem& system, const State<T>& x) {
   const Layout& at = system.layout();
   std::vector<char> resting(at.bodies + 1, false);
   for (int i = 1; i <= at.bodies; ++i) {
@@ -44,8 +44,8 @@ template <class T, class AnySystem>
   return resting;
 }
 
-/// The stuck hinges whose friction exceeds `slack` times the limit by more than the margin, with the sense in which
-/// they set out.
+/// The stuck hinges whose friction exceeds `slack` times its limit by more than release_margin, with the sense in which
+/// they start to slide.
 /// @param let_go a hinge that is released whatever its friction; 0: none
 template <class T, class AnySystem>
 [[nodiscard]] Contacts too_weakly_held(const AnySystem& system, const State<T>& x, const T& slack,
@@ -61,7 +61,7 @@ template <class T, class AnySystem>
   return moves;
 }
 
-/// The released hinges that accelerate against the sense in which they were let slide.
+/// The hinges at rest that were set sliding, and accelerate against their sense of sliding.
 template <class T, class AnySystem>
 [[nodiscard]] Contacts running_against_friction(const AnySystem& system, const State<T>& x,
                                                 const State<T>& dxdt,
@@ -90,7 +90,7 @@ template <class T, class AnySystem>
 /// @param let_go a hinge whose release is due, even if rounding leaves it within its limit; 0: none
 template <class T, class AnySystem>
 void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T& t, int let_go) {
-  const std::vector<char> resting = detail::lock_those_at_rest(system, x);
+  const std::vector<char> resting = detail::lock_hinges_at_rest(system, x);
   const T slack(let_go != 0 ? 1 + release_tolerance : 1 + 1e-12);
   const std::size_t together = 16, most = together + 64 * resting.size();
   for (std::size_t round = 0;; ++round) {
@@ -135,7 +135,7 @@ template <class T, class AnySystem>
 /// Sets the rate of hinge `due` (0: none) to zero at the start of a step, and that of every hinge that comes to rest
 /// simultaneously. @return whether any came to rest
 template <class T, class AnySystem>
-bool rest_those_there(const AnySystem& system, int due, Step<T>& step) {
+bool stop_simultaneous(const AnySystem& system, int due, Step<T>& step) {
   const Layout& at = system.layout();
   bool any = false;
   for (int i = 1; i <= at.bodies; ++i) {

@@ -14,10 +14,10 @@
 
 namespace wingspread {
 
-/// `rest`: a sliding hinge stops. `graze`: the load of a stuck hinge comes so near its limit that only a step of the
-/// method can decide. `edge`: a real hinge reaches an angle at which its law changes. `kink`: a law bends
-/// (kinks.hpp), and the equations stay as they are. `let_go`: an engaged latch lets go. `seen`: another hinge reaches the
-/// angle for which a hold waits.
+/// `latch`: a latch engages. `rest`: a sliding hinge stops. `release`: friction releases a stuck hinge. `graze`: the
+/// load of a stuck hinge comes so near its limit that only a step of the method can decide. `edge`: a real hinge
+/// reaches an angle at which its law changes. `kink`: a law bends or jumps (kinks.hpp), and the equations stay as they
+/// are. `let_go`: an engaged latch lets go. `seen`: another hinge reaches the angle for which a hold waits.
 enum class Event { latch, rest, release, graze, edge, kink, let_go, seen };
 
 /// An event inside a step.
@@ -59,7 +59,7 @@ public:
   /// Starts a step in which hinges stick. @pre the last evaluation was at x, the step's start
   void begin_step(const State<T>& x) { holding_.begin_step(system_, x); }
 
-  /// Of stuck hinges, at the step's start: Holding::before.
+  /// Excess of the friction of stuck hinges over its limit at the step's start, 1 … n, N·m.
   [[nodiscard]] std::vector<T>& excess_before() { return holding_.before(); }
 
   /// The earliest event in the step. The interpolant decides whether an event happens. Overwrites x and dxdt.
@@ -94,7 +94,8 @@ public:
     return first;
   }
 
-  /// The first instant in a step that is refused at which a loop's moment jumps, if that matters.
+  /// The jump of a loop's moment in a refused step, if it is the first kink of a loop, motor or smoothed latch that
+  /// matters there.
   [[nodiscard]] std::optional<Due<T>> first_jump(const Step<T>& step, KinkLimit limit) const {
     limit.refused = true;
     const auto found = KinkSearch<T, AnySystem>(system_, step, limit).first();
@@ -102,7 +103,7 @@ public:
     return Due<T>{Event::kink, 0, found->s, T(0), Edge::stop, found->kink};
   }
 
-  /// A function of the state that reaches 0 from below at the event.
+  /// A function of the state that reaches 0 from below at the event, and its derivatives by time at the step's end.
   struct Indicator {
     T value, slope;
     T bend = T(0); ///< rate of the slope; 0 where unknown
@@ -160,15 +161,15 @@ public:
     const bool passes = due && due->event == Event::edge && due->edge == Edge::pass;
     const int latching = passes ? due->hinge : hinge_of(Event::latch);
     const int resting = hinge_of(Event::rest);
-    const bool engaged = latches_.engage_those_there(latching, step, record);
-    const bool rested = rest_those_there(system_, resting, step);
+    const bool engaged = latches_.engage_simultaneous(latching, step, record);
+    const bool rested = stop_simultaneous(system_, resting, step);
     if (due &&
         due->event == Event::edge) // exactly at the edge, where settle_edges decides its side
       step.x[system_.layout().angle(due->hinge)] =
           edge_angle(system_.wing(), due->hinge, due->edge);
     const bool let_go = system_.wing().can_let_go &&
-                        latches_.let_go_those_there(hinge_of(Event::let_go), step, record);
-    const bool released = releases_.let_go_those_due(hinge_of(Event::seen), step, record);
+                        latches_.disengage_simultaneous(hinge_of(Event::let_go), step, record);
+    const bool released = releases_.release_due(hinge_of(Event::seen), step, record);
     const bool changes = due && due->event != Event::graze && due->event != Event::kink;
     return changes || engaged || rested || let_go || released;
   }

@@ -16,18 +16,17 @@ namespace wingspread {
 /// mirrored wings differ by rounding, far below; a larger value releases hinges that hold.
 inline constexpr double release_tolerance = 1e-9;
 
-/// By how much the friction of stuck hinge i must exceed its limit for the hinge to let go, N·m. Held with that much too
-/// little, the hinge rests within atol of the angle to which it would creep, or would creep more slowly than atol.
-/// Without this margin rounding would decide, at every step, about a latched hinge that creeps to where its load is the
-/// limit (τ_s = τ_c).
+/// The excess of friction over its limit from which stuck hinge i is released, N·m. Up to this excess, a released hinge
+/// would creep by less than atol, or more slowly than atol. Without this margin rounding would decide, at every step,
+/// about a latched hinge that creeps to the angle at which its load equals the limit (τ_s = τ_c).
 template <class AnySystem> [[nodiscard]] auto release_margin(const AnySystem& system, int i) {
   const auto& law = system.work().laws[i];
   return decltype(law.stiffness +
                   law.damping)(system.work().least_motion * (law.stiffness + law.damping));
 }
 
-/// A release of a stuck hinge inside the step; or a graze: friction that comes so near its limit and falls again
-/// that only a step of the method can decide.
+/// A release of a stuck hinge inside the step, or a graze: friction that rises so near to its limit, before it falls
+/// again, that only a step of the method can decide.
 template <class T> struct Slip {
   int hinge;
   T s; ///< fraction of the step
@@ -35,8 +34,8 @@ template <class T> struct Slip {
   bool graze;
 };
 
-/// Difference below which two loads of stuck hinge i count as one, N·m. The load is not known better than to its errors
-/// of integration, a hundredth of which this is at the default rtol.
+/// Difference below which two loads of stuck hinge i count as one, N·m. At the default rtol it is a hundredth of the
+/// load's integration error.
 /// @param limit static limit of the hinge's friction, N·m
 template <class T>
 [[nodiscard]] T negligible_load(const HeldLoadBound<T>& bound, int i, const T& limit) {
@@ -103,7 +102,8 @@ public:
   }
 
 private:
-  /// Whether any hinge that friction locks may pass its limit in the step, by the load as seen from inertial axes and from its body.
+  /// Whether any hinge that friction locks may pass its limit in the step, by the load as seen from inertial axes and
+  /// from its body.
   template <class AnySystem>
   [[nodiscard]] bool comes_near(const AnySystem& system, const Step<T>& step) {
     bound_.over_step(system, step);

@@ -32,7 +32,7 @@ public:
     return first_;
   }
 
-  /// The fraction of the step at which the first kink of a hinge's own laws lies that matters.
+  /// The fraction of the step at the first kink that matters, among those of hinges' own laws.
   [[nodiscard]] std::optional<T> first_of_hinges() {
     counts_twists_ = true;
     search_hinges();
@@ -107,8 +107,8 @@ private:
                                       static_cast<double>(way.high));
   }
 
-  /// Calls visit(knot, jump of the slope, of half the second derivative and of a sixth of the third) for the knots in the
-  /// hull of u.
+  /// Calls visit(knot, jump of the slope, of half the second derivative and of a sixth of the third) for the knots in
+  /// the hull of u.
   template <class Visit>
   static void for_each_knot(const Curve& curve, const Quintic<T>& u, Visit&& visit) {
     using std::abs;
@@ -168,8 +168,8 @@ private:
         });
   }
 
-  /// The ends of a latch's smooth steps h(u): h'' jumps there by 6. At S = 0 nothing is seen of it, for S rises from 0 as
-  /// the cube of time. Once S ≥ ε the latch does not depend on S any more.
+  /// The ends of a latch's smooth steps h(u): h'' jumps there by 6. At S = 0 nothing is seen of it, for S rises from 0
+  /// as the cube of time. Once S ≥ ε the latch does not depend on S any more.
   void search_smoothed_latch(int i) {
     const Layout& at = system_.layout();
     const HingeTerms<T>& hinge = system_.wing().hinges[i];

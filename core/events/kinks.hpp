@@ -3,21 +3,21 @@
 /// motor its torque limit, a smoothed latch the ends of its smooth steps.
 ///
 /// Estimates of extrapolation, of implicit methods and of Fehlberg's formula expect a smooth right-hand side: they may
-/// accept a step over a kink and be wrong by a thousand tolerances. Their steps therefore end at the kinks that matter. So
-/// do all methods' steps at the limits of motors, where loads have their peaks, and where a step may leap over a range of
-/// angles with no stage there: a loop damps between the angles at which its strands go slack twice as much as outside, and
-/// a table may be steep between two knots.
+/// accept a step over a kink and be wrong by a thousand tolerances. Their steps therefore end at the kinks that matter.
+/// So do all methods' steps at the limits of motors, where loads have their peaks, and where a step may leap over a
+/// range of angles with no stage there: a loop damps between the angles at which its strands go slack twice as much as
+/// outside, and a table may be steep between two knots.
 ///
 /// Let the law's change across the kink be jump + turn·abs(u − b) + bend·(u − b)². A step that meets the kink at the
 /// time τ from its nearer end differs from one under the smooth law, by the impulse of that change:
 ///
 ///     Δφ̇ ≤ σ (jump τ + turn abs(u̇) τ²/2 + bend u̇² τ³/3),    σ ≥ (M⁻¹)_ii                           (1)
 ///
-/// (mobility_bound). Where (1) is below the tolerance of a step, the kink does not matter. The same holds of Ṡ, the rate of a
-/// smoothed latch's own state, with σ = 1.
+/// (mobility_bound). Where (1) is below the tolerance of a step, the kink does not matter. The same holds of Ṡ, the
+/// rate of a smoothed latch's own state, with σ = 1.
 ///
-/// At a knot of a table the third derivative jumps too: twist·abs(u − b)³ adds σ abs(u̇)³ twist τ⁴/4 to (1). It is looked
-/// at only where an explicit method has refused a step, for which it may be the cause.
+/// At a knot of a table the third derivative jumps too: twist·abs(u − b)³ adds σ abs(u̇)³ twist τ⁴/4 to (1). This term
+/// counts only in a step that an explicit method has refused, because the jump may be the cause.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -28,9 +28,11 @@ namespace wingspread {
 /// Tolerance of a step, by which kinks matter.
 struct KinkLimit {
   double rtol, atol;
-  /// Of methods that do not need smooth laws: limits of motors, and what a step may leap over.
+  /// Only the kinks that end the steps of all methods: limits of motors, and ranges of angles that a step may leap
+  /// over.
   bool leaps_only = false;
-  /// Jumps alone, in a step that is refused: on which side of one its last stage was is not known.
+  /// The step is refused. Hinges' own kinks do not count then, and the impulse (1) is that over the whole step: the
+  /// last stage may lie on either side of the kink.
   bool refused = false;
 };
 

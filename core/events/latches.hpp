@@ -118,7 +118,7 @@ public:
   /// Engages, at the start of a step, hinge `due` (0: none) and every latch that engages simultaneously.
   /// @param events to whose latches the engagements are appended; passes too fast for the latch are missed
   /// @return whether any latch engaged
-  bool engage_those_there(int due, Step<T>& step, LatchRecord& events) {
+  bool engage_simultaneous(int due, Step<T>& step, LatchRecord& events) {
     bool any = false;
     for (int i = 1; i <= at_.bodies; ++i) {
       if (!is_open(i)) continue;
@@ -138,7 +138,7 @@ public:
 
   /// Lets go, at the start of a step, the latch of hinge `due` (0: none) and every latch that is loaded beyond its
   /// holding moment where it begins to bear on its stowed side. @return whether any let go
-  bool let_go_those_there(int due, Step<T>& step, LatchRecord& events) {
+  bool disengage_simultaneous(int due, Step<T>& step, LatchRecord& events) {
     bool any = false;
     for (int i = 1; i <= at_.bodies; ++i) {
       if (!may_let_go(i) || (i != due && !lets_go_at_edge(i, step.x))) continue;

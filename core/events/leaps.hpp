@@ -1,6 +1,6 @@
-/// What a step of an explicit method may leap over with no stage there (kinks.hpp): the angles between which both strands
-/// of a damped loop are taut, and what a table is between two knots. These are the first tests of KinkSearch
-/// (kink_search.hpp), for one number and for packs: they exclude, and never find.
+/// Ranges of angles that a step of an explicit method may leap over with no stage inside (kinks.hpp): the range in
+/// which both strands of a damped loop are taut, and the range between two knots of a table. These tests come before
+/// KinkSearch (kink_search.hpp), for one number and for packs. They may exclude a kink, and never find one.
 #pragma once
 
 #include "core/events/kinks.hpp"
@@ -65,7 +65,7 @@ template <class T, class AnySystem>
 
 namespace detail {
 
-/// A number of a pack; of one number itself.
+/// The number in a lane of a pack; a single number itself.
 template <class T> [[nodiscard]] double number_in(const T& x, [[maybe_unused]] int lane) {
   if constexpr (is_one_number<T>)
     return static_cast<double>(x);
@@ -112,8 +112,8 @@ template <class T>
 
 } // namespace detail
 
-/// Whether a step may leap over what a table is between two knots: the first test of KinkSearch. For a pack: in which
-/// lanes. @pre the system's last evaluation was near the step's end
+/// Whether a step may leap over a piece of a hinge's table between two knots: the first test of KinkSearch. For a pack:
+/// in which lanes. @pre the system's last evaluation was near the step's end
 template <class T, class AnySystem>
 [[nodiscard]] Truth<T> may_leap_over_tables(const AnySystem& system, const Step<T>& step) {
   Truth<T> found{};
@@ -159,7 +159,7 @@ template <class T, class AnySystem>
   return found;
 }
 
-/// The same of what a loop's table is between two knots.
+/// Whether a step may leap over a piece of a loop's table between two knots. For a pack: in which lanes.
 template <class T, class AnySystem>
 [[nodiscard]] Truth<T> may_leap_over_gears(const AnySystem& system, const Step<T>& step) {
   Truth<T> found{};

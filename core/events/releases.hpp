@@ -1,7 +1,7 @@
 /// Holds: hinges that are locked at their stowed angles until a time, or until an event of another hinge.
 ///
-/// A held hinge is a locked hinge of the recursion (locked.hpp) without a limit, or has a spring and a damper to its stowed
-/// angle beside its own laws (an elastic hold), and cannot latch. Where its hold lets go the state is
+/// A rigidly held hinge is a locked hinge of the recursion (locked.hpp) without a limit. An elastic hold adds a spring
+/// and a damper about the stowed angle to the hinge's own laws. A held hinge cannot latch. At its release the state is
 /// continuous, and the hinge may stick by its own friction (contact.hpp).
 #pragma once
 
@@ -19,7 +19,7 @@ template <class T, class AnySystem> class Releases {
 public:
   explicit Releases(AnySystem& system) : system_(system) {}
 
-  /// Holds the hinges, at the start of a run. A hold whose time is 0 lets go before.
+  /// Holds the hinges at the start of a run, except those whose release is due at time 0.
   void start() {
     due_.assign(size(), T(never));
     held_ = 0;
@@ -65,7 +65,7 @@ public:
   /// Lets go the holds that are due at the start of a step. @param due the hinge whose hold sees its angle; 0: none
   /// @param record  of all latches so far; releases are appended
   /// @return whether any hold let go
-  bool let_go_those_due(int due, const Step<T>& step, LatchRecord& record) {
+  bool release_due(int due, const Step<T>& step, LatchRecord& record) {
     if (held_ == 0) return false;
     bool any = false;
     for (bool again = true; again;) { // a release may be the event for which another hold waits
@@ -93,7 +93,8 @@ public:
   /// @param rests whether no hinge will move any more
   [[nodiscard]] bool may_let_go(bool rests) const {
     for (int i = 1; held_ > 0 && i < size(); ++i)
-      if (is_held(i) && (due_[i] < T(never) || (watches(i) && !rests && moves(i)))) return true;
+      if (is_held(i) && (due_[i] < T(never) || (watches(i) && !rests && awaited_hinge_is_free(i))))
+        return true;
     return false;
   }
 
@@ -143,7 +144,8 @@ private:
     return hold.event == Release::Event::time ||
            (hold.event == Release::Event::released && !(due_[hold.after] > T(0)));
   }
-  /// Whether the hold of hinge i, which is held, never lets go. If it waits for a held hinge, that hinge's hold decides.
+  /// Whether the hold of hinge i, which is held, never lets go. If it waits for a held hinge, that hinge's hold
+  /// decides.
   [[nodiscard]] bool never_lets_go(int i, bool no_latch, bool rests) const {
     for (int passed = 0; passed < size(); ++passed) {
       const ReleaseTerms<T>& hold = terms(i);
@@ -156,7 +158,7 @@ private:
     return true; // holds that wait for each other
   }
   /// Whether the hinge for whose angle the hold of hinge i waits is free.
-  [[nodiscard]] bool moves(int i) const { return !is_held(terms(i).after); }
+  [[nodiscard]] bool awaited_hinge_is_free(int i) const { return !is_held(terms(i).after); }
 
   /// Notes when the hold of hinge i lets go, once that is known.
   void schedule(int i, int due, const Step<T>& step, const LatchRecord& record) {

@@ -21,7 +21,7 @@ template <class T, class Topology, BaseMotion M>
   return !drifts && (base.rate == T(0) || (v.x == T(0) && v.y == T(0)));
 }
 
-/// Whether a smoothed latch still comes in.
+/// Whether the weight of a smoothed latch still rises.
 template <class AnySystem, class T>
 [[nodiscard]] bool latches_come_in(const AnySystem& system, const State<T>& x) {
   const Layout& at = system.layout();

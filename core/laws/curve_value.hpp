@@ -12,14 +12,14 @@ namespace wingspread {
 
 /// The polynomial of a curve at one x: Σ c_k u^k, and the integral from the first knot to u = 0.
 template <class T> struct PieceAt {
-  T u; ///< x − the knot about which the powers are
+  T u; ///< x less the knot at the piece's start (of the first piece, at its end)
   std::array<T, 4> c;
   T integral;
 };
 
 namespace detail {
 
-/// @param knot about which the piece's powers are
+/// @param knot the origin of u
 template <class T>
 [[nodiscard]] PieceAt<T> piece_at(const Curve::Piece& piece, double knot, const T& x) {
   return {

@@ -27,8 +27,8 @@ template <class T> struct DrivenPiece {
   T from;                         ///< s
   T until;                        ///< the next knot, s; `never` after the last
   std::array<T, 4> x, y, turning; ///< a and α in powers of u
-  Vec2<T> velocity;               ///< at `from`, as the next two
-  T rate, angle;
+  Vec2<T> velocity;               ///< at `from`, m/s
+  T rate, angle;                  ///< at `from`, rad/s and rad
 };
 
 /// c in powers of u + w instead of u.

@@ -44,7 +44,7 @@ template <class T> struct LatchDissipationTerms {
   T half_backlash; ///< β/2, rad
 };
 
-/// The second term of (1) as a law of real_hinge.hpp. @pre terms.present
+/// The dissipation of (1), −k c σ e φ̇, as a law of real_hinge.hpp. @pre terms.present
 template <class T> struct LatchDissipation {
   const LatchDissipationTerms<T>& terms;
   const T& side; ///< σ

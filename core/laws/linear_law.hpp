@@ -34,7 +34,7 @@ template <class T> struct LinearLaw {
 
 /// (2) for one state of the latch and of the exact friction.
 /// @param friction exact friction of a sliding hinge, N·m
-/// @param side where an engaged latch bears, less the latched angle: −β/2 or β/2, rad; none inside the backlash
+/// @param side from the latched angle to where an engaged latch bears: −β/2 or β/2, rad; none inside the backlash
 template <class T>
 [[nodiscard]] LinearLaw<T> linear_law(const HingeTerms<T>& hinge, bool engaged,
                                       const T& friction = T(0),

@@ -35,15 +35,15 @@ template <class T> struct MotorTerms {
 
 /// The command from one knot to the next.
 template <class T> struct MotorPiece {
-  int number; ///< of the table's pieces
-  T runs;     ///< 1 from the hinge's release on, 0 before it and without a motor
-  T release, from,
-      until; ///< time of the hinge's release; start and end of this piece, `never` after the last knot; s
+  int number;            ///< of the table's pieces
+  T runs;                ///< 1 from the hinge's release on, 0 before it and without a motor
+  T release;             ///< time of the hinge's release, s
+  T from, until;         ///< start and end of this piece, s; `until` is `never` after the last knot
   std::array<T, 4> rate; ///< w in powers of t − from
   T now;                 ///< w at the last evaluation
 };
 
-/// The motor of a hinge that is held.
+/// The motor of a hinge that is held, or has none: no command and no moment.
 template <class T> [[nodiscard]] MotorPiece<T> idle_motor() {
   return {0, T(0), T(0), T(0), T(never), {T(0), T(0), T(0), T(0)}, T(0)};
 }
@@ -186,8 +186,8 @@ template <class T>
   return half * h * sum;
 }
 
-/// ∫ M φ̇ dt over a whole step, J. Where the motor may reach or leave its limit, the step is cut into parts without such
-/// a change. The part with the change is 2⁻²⁰ of the step: it neglects a kink of M, an error of the order 2⁻⁴⁰.
+/// ∫ M φ̇ dt over a whole step, J. Where the motor may reach or leave its limit, the step is cut into parts without
+/// such a change. The part with the change is 2⁻²⁰ of the step: it neglects a kink of M, an error of the order 2⁻⁴⁰.
 template <class T>
 [[nodiscard]] T motor_work_by_parts(const MotorTerms<T>& terms, const MotorPiece<T>& piece,
                                     const Quintic<T>& excess, const Quintic<T>& rate, const T& h) {

@@ -29,8 +29,8 @@ template <class T, class Topology, BaseMotion M>
   return now.kinetic + dot(v, now.linear) + T(0.5) * now.mass * dot(v, v);
 }
 
-/// Potential of hinge i, J: spring and harness, zero at the latched angle, stop, engaged latch and
-/// elastic hold.
+/// Potential of hinge i, J: that of spring and harness, which is zero at the latched angle, and those of stop, engaged
+/// latch and elastic hold.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T hinge_potential(const System<T, Topology, M>& system, const State<T>& x, int i) {
   const T& angle = x[system.layout().angle(i)];

@@ -46,7 +46,7 @@ public:
     update_law(i);
   }
 
-  /// Lets go the latch of hinge i at x.
+  /// Disengages the latch of hinge i at x.
   void disengage(int i, const State<T>& x) {
     work_.engaged[i] = false;
     work_.above[i][static_cast<int>(Edge::pass)] = x[layout_.angle(i)] > wing_.hinges[i].latched;

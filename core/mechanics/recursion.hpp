@@ -4,7 +4,7 @@
 /// There a body adds the 3×3 matrix  M* − M* S U⁻¹ Sᵀ M*  and a vector to its parent, which C_iᵀ
 /// moves to the parent's centre of mass. Referred to the hinge's own point instead, S = (0; 1), so
 /// that row and column of the angle vanish: once its axis moment is known, only a force crosses a
-/// revolute hinge. What is left is
+/// revolute hinge. There remains
 ///
 ///     f_i = K_i a_i + b_i      the force on body i at its hinge; a_i: that point's acceleration
 ///
@@ -19,7 +19,7 @@
 /// | a, α    | acceleration of the hinge's point; angular, ω̇          | 2, 1    | m/s², rad/s²    |
 /// | τ_i     | moment of hinge i: +τ on body i, −τ on its parent      |         | N·m             |
 /// | A, h, I | the articulated inertia M* about the hinge, in blocks  | 2×2,2,1 | kg, kg·m, kg·m² |
-/// | c, d    | the force and moment that motion without a and α needs | 2, 1    | N, N·m          |
+/// | c, d    | force and moment that the motion needs where a = α = 0 | 2, 1    | N, N·m          |
 /// | U_i     | of the source, SᵀM*S: the number I here                |         | kg·m²           |
 ///
 /// Newton and Euler about the hinge, the children's forces eliminated by a_j = a + α q_j − ω² l_j:

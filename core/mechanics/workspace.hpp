@@ -1,4 +1,4 @@
-/// The data of a run beside its state vector: laws, latches, contacts and scratch space.
+/// The data that a run changes, beside its state vector: laws, latches, contacts and scratch space.
 #pragma once
 
 #include "core/laws/linear_law.hpp"
@@ -49,9 +49,9 @@ template <class T> struct Workspace {
   std::vector<MotorPiece<T>> motors; ///< 0 … n: present commands; empty where no hinge has a motor
   DrivenPiece<T> driven{};           ///< current piece of the base's table
   // of plates in the air; empty where there are none
-  std::vector<T> air_moments;      ///< 1 … n: L of air_loads.hpp, N·m
-  std::vector<Vec2<T>> air_forces; ///< 0 … n: F of air_loads.hpp, N
-  std::vector<Vec2<T>> velocities; ///< 0 … n: of the hinges' points, m/s
+  std::vector<T> air_moments;      ///< 0 … n: L of air_loads.hpp, N·m; [0]: the whole wing's
+  std::vector<Vec2<T>> air_forces; ///< 0 … n: F of air_loads.hpp, N; [0]: the whole wing's
+  std::vector<Vec2<T>> velocities; ///< 0 … n: of the hinges' points, m/s; [0]: the base's origin
   std::vector<char> engaged;       ///< 1 … n: latch engaged; if smoothed: latched angle reached
   std::vector<Contact> contact;    ///< 1 … n
   std::vector<char> restrained;    ///< 1 … n: the hinge's hold is elastic and has not let go

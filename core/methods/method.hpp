@@ -70,8 +70,8 @@ void estimate(Formula& formula, AnySystem& system, const Start<T>& from, T& h, S
     formula.estimate(system, from, h, x1, dxdt1, error);
 }
 
-/// Factor to the next (trial) step by a formula: step_factor or, if FitsSteps<Formula>, simple rules, for
-/// the next step is fitted anyway: try four times as long, half after a rejection, a tenth of NaN.
+/// Factor to the next (trial) step by a formula: step_factor. If FitsSteps<Formula>, the formula shortens the next step
+/// anyway, and a rule suffices: longest_growth after an accepted step, half after a rejection, a tenth after NaN.
 template <class Formula, class P>
 [[nodiscard]] P factor_of(const P& error, const P& h, const StepMemory<P>& memory) {
   if constexpr (FitsSteps<Formula>)

@@ -63,15 +63,15 @@ inline constexpr double promising_share = 0.08;
 inline constexpr int first_recheck = 10, longest_recheck = 80;
 /// Held-back steps in a row after which the implicit method is tried without a promise, for `quickness`
 /// may be wrong: of a wing that creeps it is. 200 steps of order 8 are 2,400 evaluations, a vain trial
-/// costs about a third of that, and waits double. With 1,600 a wing that seulex alone integrates in 1,300
-/// evaluations took 29,000.
+/// costs about a third of that, and waits double. With 1,600 steps in place of 200 a wing that seulex alone integrates
+/// in 1,300 evaluations took 29,000.
 inline constexpr int steps_to_try_anyway = 200;
 
-/// The first implicit step of a wing at rest, in explicit ones. The error of extrapolation has a hump where a step lasts
-/// 1 to 10 time constants of a fast mode that has died out, and step control stays below it. Where nothing else moves
-/// the first step is tried beyond the hump. Heuristic: smaller, and it may lie on the hump; larger, and more trial steps
-/// are refused. A wing that moves begins with one explicit step: a long first step of low order can be wrong there by
-/// more than its estimate.
+/// The first implicit step of a wing at rest, in explicit ones. The error of extrapolation has a hump where a step
+/// lasts 1 to 10 time constants of a fast mode that has died out, and step control stays below it. Where nothing else
+/// moves the first step is tried beyond the hump. Heuristic: smaller, and it may lie on the hump; larger, and more
+/// trial steps are refused. A wing that moves begins with one explicit step: a long first step of low order can be
+/// wrong there by more than its estimate.
 inline constexpr double first_implicit_step = 30;
 
 /// Implicit steps that are not judged: extrapolation needs them to find its order and step.
@@ -112,8 +112,9 @@ public:
   [[nodiscard]] Method active() const { return active_; }
   [[nodiscard]] bool automatic() const { return automatic_; }
 
-  /// Begins a phase after an event. The implicit method goes on: what made the wing stiff is still there, and the
-  /// verdict soon tells if not. So does a wait after a vain trial, except at latches, which change the wing.
+  /// Begins a phase after an event. The implicit method stays active: the wing is probably as stiff as before, and if
+  /// it is not, leave_implicit soon ends the method. A wait after a vain trial goes on too, except at latches, which
+  /// change the wing.
   /// @param most upper bound of ρ in the phase, 1/s; infinity: none, and ρ counts as 0 until measured
   /// @param latched whether the run begins or a latch has engaged
   void restart(double time, long evaluations, double most, bool latched) {

@@ -9,8 +9,8 @@
 /// extrapolate to h = 0 by Aitken and Neville: column k is of order k. Order and step follow the
 /// work per unit of time [Hairer & Wanner II, IV.9: the code SEULEX, of which this is the W form].
 ///
-/// The ways x_k − x_0 are extrapolated, not the states: weights of up to 1e5 raise the rounding of what they
-/// weigh, and that of a state is more than the way of a short step.
+/// The increments x_k − x_0 are extrapolated, not the states: weights of up to 1e5 multiply the rounding errors, and
+/// the rounding error of a state would exceed the increment of a short step.
 #pragma once
 
 #include "core/methods/rosenbrock.hpp"
@@ -70,18 +70,19 @@ public:
   }
 
 private:
-  // The error of extrapolation has a hump where a step lasts 1 to 10 time constants of a fast mode that has died out. Below
-  // it more rows gain nothing, so that the order stays the lowest and the steps short: thousands of
+  // The error of extrapolation has a hump where a step lasts 1 to 10 time constants of a fast mode that has died out.
+  // Below it more rows gain nothing, so that the order stays the lowest and the steps short: thousands of
   // them where a few do beyond the hump. After so many steps of the lowest order that grow little, one is tried `leap`
-  // times as long, with rows enough for what is beyond; if it is refused, the next after twice as many. Heuristic: fewer
-  // steps, and refused leaps cost more (seven rows, as much as five steps of the lowest order); a shorter leap ends on the
-  // hump.
+  // times as long, with rows enough for what is beyond; if it is refused, the next after twice as many. Heuristic:
+  // fewer steps, and refused leaps cost more (seven rows, as much as five steps of the lowest order); a shorter leap
+  // ends on the hump.
   static constexpr int shortest_crawl = 32, longest_crawl = 1024, target_of_leap = 7;
   static constexpr double leap = 30;
   static constexpr int most = 12;                                       ///< rows
   [[nodiscard]] static constexpr int count(int row) { return row + 2; } ///< n of a row
 
-  /// Work of the rows up to j, in evaluations: n − 1 evaluations, n solves, one factorization each.
+  /// Work of the rows up to j, in evaluations: n − 1 evaluations, n solves and a factorization each. A solve, and a
+  /// factorization, counts as half an evaluation.
   [[nodiscard]] static constexpr double work(int j) {
     double sum = 1;
     for (int row = 0; row <= j; ++row) sum += 1.5 * count(row) - 0.5;

@@ -35,12 +35,12 @@ template <class T, class Formula>
     return scaled_error(x, x1, dxdt1, error, rtol, atol);
 }
 
-/// What step control remembers of earlier steps.
+/// The memory of step control: numbers of earlier steps.
 template <class P> struct StepMemory {
   /// log2 of 1e-4: smaller errors count as 1e-4 [PI control in DOPRI5's code, facold ≥ 1e-4]. Without
   /// a floor one step of no error, as in a motion that is a parabola, would cut the next.
   static constexpr double least_log_error = -13.287712379549449;
-  /// No step is longer than ten before it [Hairer, Nørsett & Wanner I, II.4: facmax from 1.5 to 5, in
+  /// Largest factor from a step to the next [Hairer, Nørsett & Wanner I, II.4: facmax from 1.5 to 5, in
   /// their codes up to 10]. Larger: steps leap from quiet motion over a change.
   static constexpr double longest_growth = 10;
 
@@ -54,8 +54,8 @@ template <class P> struct StepMemory {
     h = select(h > P(0), step, h);
   }
   void rejected() { most = P(1); }
-  /// The step is rejected for what it meets at this fraction of it, and made again to there: the one after may be as long
-  /// as this one was.
+  /// Notes that a step is rejected because of a kink at this fraction of it, and is made again up to the kink. The step
+  /// after that may be as long as the rejected one.
   void cut(const P& fraction) { most = smaller(P(longest_growth), P(P(1) / fraction)); }
   /// Makes step_factor extrapolate the next step from now on.
   void foresee() { h = P(1e-300); }

@@ -1,7 +1,7 @@
 /// Power series of a wing's motion on a base that does not move: a Taylor method.
 ///
-/// Every coefficient follows from those before it by sums of products. In absolute angles θ_j of a chain, with z = e^(iθ) and
-/// vectors of the plane as complex numbers, Newton and Euler about each hinge read
+/// Every coefficient follows from those before it by sums of products. In absolute angles θ_j of a chain, with z =
+/// e^(iθ) and vectors of the plane as complex numbers, Newton and Euler about each hinge read
 ///
 ///     J_j α_j + Re( conj(i z_j) S_j ) = τ_j − τ_(j+1)                                        (1)
 ///     S_j = Σ_m W_jm z̈_m  over all other bodies m                                            (2)
@@ -11,13 +11,14 @@
 /// | symbol | meaning                                                                       | unit  |
 /// |--------|-------------------------------------------------------------------------------|-------|
 /// | l_j    | the way from the parent's hinge to hinge j, in the parent's frame             | m     |
-/// | B_j    | Σ mass times way from hinge j, of j and, at l_(j+1), of all beyond; own frame | kg·m  |
-/// | J_j    | inertia of that about hinge j                                                 | kg·m² |
+/// | B_j    | first moment about hinge j of body j and of the mass of all bodies beyond it, |       |
+/// |        | put at hinge j + 1; body j's frame                                            | kg·m  |
+/// | J_j    | moment of inertia of the same masses about hinge j                            | kg·m² |
 /// | τ_j    | moment of hinge j                                                             | N·m   |
 ///
 /// (2) is linear with constant coefficients. Each body and order needs four sums of products: two for z, two for (1).
-/// In the coefficient of order k of z̈ only i z_0 α_k is unknown, so (1) is a linear system with the same matrix for all
-/// orders [Jorba & Zou, A software package for the numerical integration of ODEs by means of high-order
+/// In the coefficient of order k of z̈ only i z_0 α_k is unknown, so (1) is a linear system with the same matrix for
+/// all orders [Jorba & Zou, A software package for the numerical integration of ODEs by means of high-order
 /// Taylor methods, 2005].
 ///
 /// Hinge moments are linear laws.
@@ -31,8 +32,9 @@
 
 namespace wingspread {
 
-/// Whether a wing's motion has power series: a chain of up to longest_static_chain bodies on a fixed base, with linear laws
-/// only. Regularized friction is excluded too, because there the last terms do not bound the rest of the series.
+/// Whether a wing's motion has power series: a chain of up to longest_static_chain bodies on a fixed base, with linear
+/// laws only: no air, friction, motors, loops or real hinges. Regularized friction is smooth, but there the last terms
+/// do not bound the rest of the series. Holds are excluded too.
 template <class T> [[nodiscard]] bool has_series(const Wing<T>& wing) {
   return wing.base.motion == BaseMotion::fixed && wing.size() <= longest_static_chain &&
          is_chain(wing.tree) && !wing.is_nonlinear() && wing.plates.empty() && !wing.can_stick &&
@@ -305,8 +307,8 @@ private:
   }
 
   /// The longest step at which the larger of the last two terms is still its share of the tolerance, less 1 %. The two
-  /// terms before must be small as well, because three of four terms vanish for a wing that is folded straight and set in
-  /// motion from rest by constant moments.
+  /// terms before must be small as well, because three of four terms vanish for a wing that is folded straight and set
+  /// in motion from rest by constant moments.
   [[nodiscard]] T longest(const Layout& at, const State<T>& x, const T& rtol, const T& atol) const {
     using std::abs;
     // Heuristic, in tolerances: in other motions the two terms before are then smaller anyway. Smaller: short steps.

@@ -51,7 +51,8 @@ derivative_bounds_beyond_rounding(const Quintic<T>& p, const DifferenceScale<T>&
   return bounds;
 }
 
-/// |d⁴/dt⁴ (cos θ, sin θ)| = |i θ⁽⁴⁾ − 4 θ̇ θ⃛ − 3 θ̈² − 6 i θ̇² θ̈ + θ̇⁴| is no larger.
+/// Upper bound of |d⁴/dt⁴ (cos θ, sin θ)| = |i θ⁽⁴⁾ − 4 θ̇ θ⃛ − 3 θ̈² − 6 i θ̇² θ̈ + θ̇⁴|, 1/s⁴.
+/// @param angle bounds of the derivatives of θ
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T fourth_of_direction(const DerivativeBounds<T>& angle) {
   const T square = angle.first * angle.first;
@@ -64,11 +65,10 @@ template <class T>
 /// derivative of the motion's quintic.
 ///
 /// A function leaves its chord by at most h²/8 of its largest second derivative [Taylor]. Here the bound of the
-/// motion's fourth derivative comes from a quintic, whose fourth derivative is below that of a swing.
-/// A sine's second derivative leaves its chord by 1.003, 1.03,
-/// 1.11 and 1.32 times h²/8 of the quintic's fourth derivative where the step spans 1/4, 1/2, 0.8 and 1 of its
-/// period. The factor 4/3 covers one period. A faster swing breaks it: 2.2 times at 1.27 periods. The step
-/// control excludes such a swing unless its amplitude is within the tolerance.
+/// motion's fourth derivative comes from a quintic, whose fourth derivative is below that of a swing. For a sine the
+/// second derivative leaves its chord by h²/8 of the quintic's fourth derivative times 1.003, 1.03, 1.11 and 1.32,
+/// where the step spans 1/4, 1/2, 0.8 and 1 period. The factor 4/3 covers one period. A faster swing breaks it: 2.2
+/// times at 1.27 periods. The step control excludes such a swing unless its amplitude is within the tolerance.
 template <class T> [[nodiscard]] T chord_excess(const T& h) { return h * h * T(1.0 / 6); }
 
 } // namespace wingspread

@@ -1,7 +1,7 @@
 /// Vectors of the plane and symmetric 2×2 matrices.
 ///
-/// Not Eigen's types: every product and sum must be a `fused`, which Eigen leaves to the compiler's
-/// contraction (off), and a symmetric matrix needs three numbers only.
+/// Not Eigen's types: fused multiply-adds must be written out as `fused`, because contraction by the compiler is off.
+/// And a symmetric matrix needs three numbers only.
 #pragma once
 
 #include "core/number/scalar.hpp"

@@ -15,9 +15,11 @@ enum class InstructionSet { scalar, neon, avx2, avx512 };
 [[nodiscard]] int lanes_of(InstructionSet set);
 
 /// Why a run is worked on outside its lane. `start`: it begins. `method`: no lane can make its steps. `limit`: t_end, a
-/// knot of the base's table, an attempt to end the run early, or another look of `auto`. `event`: a latch may engage, a
-/// hinge come to rest, an angle at which a law changes be passed. `release`: a stuck hinge may let go. `base`, `moment`,
-/// `force`: a peak may lie inside the step.
+/// knot of a table, a hold's release, a proof attempt, or a step after which `auto` reconsiders the method. `event`: a
+/// latch may engage or let go, a hinge come to rest, an angle be passed at which a law changes or for which a hold
+/// waits, or a kink that matters lie inside the step. `release`: a stuck hinge may slide. `base`: a free base may turn
+/// further inside the step than at its ends, a hinge turn back, or an event lie at the step's end. `moment`, `force`: a
+/// peak may lie inside the step.
 enum class Cause { start, method, limit, event, release, base, moment, force };
 inline constexpr std::array cause_names{"start",   "method", "limit",  "event",
                                         "release", "base",   "moment", "force"};

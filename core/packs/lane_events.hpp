@@ -1,7 +1,7 @@
 /// Events of the runs in the lanes: latches that engage or let go, edges, hinges that come to rest, angles for which
 /// holds wait.
 ///
-/// The tests are the first tests of the run alone: they exclude, and never find.
+/// The tests are the first tests of the run alone: they may exclude an event, and never find one.
 #pragma once
 
 #include "core/events/contact.hpp"
@@ -20,7 +20,7 @@ template <int W> class LaneEvents {
   using Mask = typename P::Mask;
 
 public:
-  /// @param real number of the wing's real hinges and 1, or 0
+  /// @param real size of Wing::real
   void resize(const Layout& at, std::size_t real) {
     const P none(0.0);
     for (std::vector<P>* v : {&waits_, &slides_, &watches_}) v->assign(at.bodies + 1, none);
@@ -161,7 +161,7 @@ private:
     return any;
   }
 
-  /// As Latches::engage_those_there.
+  /// As Latches::engage_simultaneous.
   template <class AnySystem>
   [[nodiscard]] Mask engages_at_end(const AnySystem& system, const Step<P>& step, int i) const {
     const Layout& at = system.layout();
@@ -173,7 +173,7 @@ private:
     return may_miss ? there && rate > P(0.0) : there;
   }
 
-  /// As rest_those_there.
+  /// As stop_simultaneous.
   template <class AnySystem>
   [[nodiscard]] Mask rests_at_end(const AnySystem& system, const Step<P>& step, int i) const {
     const int r = system.layout().rate(i);

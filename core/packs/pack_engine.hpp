@@ -42,7 +42,7 @@ public:
   virtual void set_idle(int lane) = 0;
 
   /// Makes trial steps in all lanes until at least one lane needs its run.
-  /// @return the lanes that do; the others have already accepted or rejected their last trial step
+  /// @return the lanes that need their runs; all others have already accepted or rejected their last trial step
   virtual LaneSet advance() = 0;
 
   /// Why a lane needs its run. @pre advance() has returned it

@@ -273,8 +273,8 @@ private:
     assign_where(accepted, history_.memory, after);
   }
 
-  /// Finds the work of every motor over the step. @return lanes in which a motor may reach or leave its limit: a kink, at
-  /// which the run's step may end
+  /// Finds the work of every motor over the step. @return lanes in which a motor may reach or leave its limit: a kink,
+  /// at which the run's step may end
   [[nodiscard]] Mask motors_may_pass_limit() {
     Mask found{};
     for (int i = 1; i <= at_.bodies; ++i) {
@@ -289,7 +289,7 @@ private:
     return found;
   }
 
-  // The tests for events and peaks are the first tests of the run alone: they exclude, and never find.
+  // The tests for events and peaks are the first tests of the run alone: they may exclude one, and never find one.
 
   /// @return lanes in which the base may turn further inside the step than at its ends, or a hinge may
   ///         turn back beyond its stowed angle, leaves the angles that are known, or an event lies within an instant of

@@ -34,7 +34,7 @@ template <class Topology, BaseMotion M> class PackedRuns {
     AnySystem system;
     Integrator<double, Topology, M> run;
     long name = 0;
-    Cause cause = Cause::start; ///< why it is worked on outside
+    Cause cause = Cause::start; ///< why the run is worked on outside the engine
     bool busy = false;
   };
 

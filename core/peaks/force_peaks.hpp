@@ -44,8 +44,8 @@ public:
     }
   }
 
-  /// Raises the peaks over a step. @pre the last evaluation was at the step's end
-  /// Maxima inside the step that only the dense output has become doubts, to be confirmed.
+  /// Raises the peaks over a step. A maximum inside the step that only the dense output shows becomes a doubt, for
+  /// `confirm`. @pre the last evaluation was at the step's end
   /// @param may_rise whether any force may exceed its peak inside the step, as far as the caller knows
   void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt,
                  bool may_rise = true) {
@@ -128,9 +128,9 @@ private:
     }
   }
 
-  /// Whether the dense output may have its maximum elsewhere than the force. Their difference goes as
-  /// s (1 − s) (1 − 5s + 5s²), a derivative of the quintic's error: its slope by s is about 10 times the
-  /// difference. Heuristic: taken 100 times, because the difference is small near the zeros of that polynomial.
+  /// Whether the maximum of the dense output may lie elsewhere than that of the force. Their difference varies as
+  /// s (1 − s) (1 − 5s + 5s²), the second derivative of the quintic's error: its slope by s is about 10 times the
+  /// difference. Heuristic: 100 times are assumed, because the difference is small near the zeros of that polynomial.
   [[nodiscard]] bool may_be_off(const Doubt& doubt, const T& force) const {
     const T slope = T(100) * (force - doubt.force);
     return doubt.corrections < 2 && doubt.bend < T(0) &&
@@ -140,8 +140,7 @@ private:
   /// d|reaction|/dt at a state and its derivative, by a difference along the tangent, N/s.
   [[nodiscard]] T change(AnySystem& system, const Step<T>& step, const Doubt& doubt,
                          const State<T>& x, State<T>& dxdt) {
-    const T way =
-        step.h / T(1024); // the error goes with the square of way times a swing's angular frequency
+    const T way = step.h / T(1024); // the error is of the order of (ω way)² for a swing at ω
     const T t = step.t + doubt.s * step.h;
     slope_ = dxdt;
     const auto beside = [&](const T& dt) {

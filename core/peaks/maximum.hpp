@@ -36,8 +36,8 @@ template <class T> struct Parabola {
   T way, vertex; ///< from the middle to the vertex, and the vertex; a number if both > 0
 };
 
-/// Whether maximum_near, given these samples of f, finds nothing larger than the last of them: f rises there, and so does
-/// the parabola through the last two and a point between. For a pack: in which lanes.
+/// Whether maximum_near, given these samples of f, finds nothing larger than the last sample: f rises towards it, and
+/// so does the parabola through the last two samples and a point between them. For a pack: in which lanes.
 template <class T, std::size_t N, class Function>
 [[nodiscard]] Truth<T> rises_to_end(const std::array<T, N>& samples, Function f) {
   const Sampled<T> next{T(1) - T(1) / T(static_cast<double>(N - 1)), samples[N - 2]};

@@ -328,8 +328,8 @@ template <class T, class Load>
   return found.s;
 }
 
-/// Narrows the bound on a locked hinge's load where the wide one does not tell that no sample is needed.
-/// @param rise of the wide one; others as of raise_locked_load
+/// Narrows the bound on a locked hinge's load if the wide bound does not dismiss the step.
+/// @param rise by the wide bound; other parameters as of raise_locked_load
 template <class T, class AnySystem>
 void narrow_if_needed(HeldLoadBound<T>& bound, const AnySystem& system, const Step<T>& step, int i,
                       const HeldMoments<T>& ends, const Bulge<T>& rise, const PeakOf<T>& peak,
@@ -339,10 +339,10 @@ void narrow_if_needed(HeldLoadBound<T>& bound, const AnySystem& system, const St
     bound.narrow(system, step, i);
 }
 
-/// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. A value inside takes an evaluation,
-/// so a step is dismissed first by held_moment_may_rise, then by the load's curvature, over the whole step and between
-/// three samples. The maximum inside is that of a
-/// polynomial through samples, or is searched by the load's curvature where few samples do not resolve the load.
+/// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. A value inside takes an evaluation, so
+/// cheaper tests come first: held_moment_may_rise, then the load's curvature, over the whole step and between three
+/// samples. The maximum inside is that of a polynomial through samples; where few samples do not resolve the load, it
+/// is searched by the load's curvature.
 /// @param load load(s): the moment by an evaluation on the dense output
 /// @return where a step of the method must confirm a larger value
 template <class T, class AnySystem, class Load>

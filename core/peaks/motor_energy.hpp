@@ -1,4 +1,4 @@
-/// What a motor gives to a wing while its hinge's latch is not engaged.
+/// The work of a motor on its hinge while the hinge's latch is not engaged.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -18,11 +18,11 @@ public:
 
   /// Whether the motor may reach its limit or leave it inside the step. For a pack: in which lanes.
   [[nodiscard]] Truth<T> may_pass_limit() const { return motor_regime(terms_, excess_) == T(2); }
-  /// J. @pre !may_pass_limit()
+  /// Work over the step, J. @pre !may_pass_limit()
   [[nodiscard]] T work() const {
     return motor_work(terms_, piece_, excess_, rate_, h_, T(0), T(1));
   }
-  /// J.
+  /// The same where the motor may pass its limit.
   [[nodiscard]] T work_by_parts() const {
     return motor_work_by_parts(terms_, piece_, excess_, rate_, h_);
   }

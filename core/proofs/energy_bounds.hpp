@@ -1,9 +1,9 @@
-/// Bounds on what every hinge can still see, from the energy alone.
+/// Bounds on every later moment and force of each hinge, from the energy alone.
 ///
 /// | symbol    | meaning                                                     | unit           | source               |
 /// |-----------|-------------------------------------------------------------|----------------|----------------------|
 /// | E, T      | energy that is never exceeded; kinetic energy ≤ E           | J              | remaining_energy.hpp |
-/// | E', r     | the part that may move hinges; rigid turning of a free base | J, rad/s       | remaining_energy.hpp (4) |
+/// | E', r     | part of E that may move hinges; turning of a free base      | J, rad/s       | remaining_energy.hpp (4) |
 /// | κ, δ, g   | stiffness, damping, what the load exerts on a hinge         | N·m/rad, …     | remaining_energy.hpp |
 /// | τ_s       | the largest friction                                        | N·m            | scene                |
 /// | J, m      | central inertia, mass of a body                             | kg·m², kg      | scene                |
@@ -22,17 +22,17 @@
 ///
 ///     Σ m r̈² ≤ Z := Σ m γ² + Σ L²/J,    |Y_i| ≤ √(m outward of i) √Z                           (4)
 ///
-/// The axis moment of a hinge that is held is a moment of the constraint. It turns all that is outward of the hinge: with
-/// λ_k the way from the hinge to the centre of body k, sums over the bodies outward, and Σ J (ω̇ − L/J)² ≤ Z too,
+/// The axis moment of a hinge that is held is a moment of the constraint. It turns all that is outward of the hinge:
+/// with λ_k the way from the hinge to the centre of body k, sums over the bodies outward, and Σ J (ω̇ − L/J)² ≤ Z too,
 ///
 ///     |M_i| ≤ Σ m λ |r̈| + Σ J |ω̇| ≤ (√(Σ m λ²) + √(Σ J)) √Z + Σ |L|                             (5)
 ///
-/// A body that only held hinges tie to a base that is fixed or driven does not move as seen from the base: ω = 0, and its
-/// hinges' moments accelerate nothing.
+/// A body that only held hinges tie to a base that is fixed or driven does not move as seen from the base: ω = 0, and
+/// its hinges' moments accelerate nothing.
 ///
-/// √(2E/J) bounds |ω|; on a free base √(2E'/J) + |r| does too. These bound γ along each path, and (3) bounds L. On a base
-/// that is driven, positions and velocities are as seen from the base, and γ − f replaces γ, f the apparent force of
-/// apparent_load.hpp.
+/// √(2E/J) bounds |ω|; on a free base √(2E'/J) + |r| does too. These bound γ along each path, and (3) bounds L. On a
+/// base that is driven, positions and velocities are as seen from the base, and γ − f replaces γ, f the apparent force
+/// of apparent_load.hpp.
 #pragma once
 
 #include "core/proofs/remaining_energy.hpp"
@@ -145,9 +145,8 @@ private:
     }
   }
 
-  /// Adds what dampers, motors and loops may exert at the largest rates, and dissipating latches at the largest deflection
-  /// too.
-  /// The energy of a loop bounds its torque, with a slack strand too: (K e)² ≤ 2 K E.
+  /// Adds the largest moments of dampers, motors and loops at the largest rates, and of dissipating latches at the
+  /// largest rate and deflection. The energy of a loop bounds its torque, with a slack strand too: (K e)² ≤ 2 K E.
   template <class AnySystem>
   void add_real(const AnySystem& system, const RemainingEnergy<T>& remaining, const T& energy) {
     using std::abs, std::sqrt;

@@ -88,11 +88,12 @@ template <class T>
   return excess;
 }
 
-/// Says which attempts also ask for the energy's box, after all cheaper bounds have refused: that box costs several times as
-/// much as they do. Heuristic: the first two refusals do not lead to it, because the cheaper bounds often prove the peaks at
-/// the third attempt. If its bounds exceed a peak by the factor r, it is asked for again when the energy has fallen to 1/r:
-/// loads fall no faster than the energy. It is also asked for when the number of refusals has doubled, because loads may
-/// fall while the energy stays. A run may end some attempts late; of the outputs only `peaks_final` depends on that.
+/// Says which attempts also ask for the energy's box, after all cheaper bounds have refused: that box costs several
+/// times as much as they do. Heuristic: the first two refusals do not lead to it, because the cheaper bounds often
+/// prove the peaks at the third attempt. If its bounds exceed a peak by the factor r, it is asked for again when the
+/// energy has fallen to 1/r: loads fall no faster than the energy. It is also asked for when the number of refusals has
+/// doubled, because loads may fall while the energy stays. A run may end some attempts late; of the outputs only
+/// `peaks_final` depends on that.
 template <class T> class ThoroughAttempts {
 public:
   /// Counts an attempt that the cheaper bounds refused. @return whether to ask for the energy's box
@@ -102,7 +103,7 @@ public:
     ++refusals_;
     return refusals_ > before_first && (!below_ || energy <= *below_ || refusals_ >= again_);
   }
-  /// The box proved nothing. @param excess of its bounds over the peaks; none: there was no box
+  /// Notes that the box proved nothing. @param excess largest ratio of its bounds to the peaks; none: there was no box
   void note_failure(const T& energy, const std::optional<T>& excess) {
     constexpr double least = 4.0 / 3, without_box = 2; // heuristic
     below_ = energy / (excess ? larger(*excess, T(least)) : T(without_box));
@@ -114,7 +115,7 @@ private:
   std::optional<T> below_; ///< J; none: not asked yet
 };
 
-/// The proofs of one run. What depends on the wing alone is made at the first attempt.
+/// The proofs of one run. Terms that depend on the wing alone are computed at the first attempt.
 template <class T, class AnySystem> class FinalPeaks {
 public:
   /// A run begins: no hinge is known to have latched.
@@ -125,21 +126,22 @@ public:
     proven_ = {false, false};
   }
 
-  /// Of which loads any call of `prove` since `reset` has proven that they will not rise, though it may have failed for
-  /// other peaks.
+  /// The loads (moments, forces) proven final by any call of `prove` since `reset`, even one that failed for other
+  /// peaks.
   [[nodiscard]] const FinalLoads& proven() const { return proven_; }
 
   /// Whether the modes of the latched wing can prove nothing: some do not decay, or there is no
   /// linear model.
   [[nodiscard]] bool lacks_modes() const { return is_prepared_ && !modes_; }
 
-  /// Proves that from the state x at t on none of the peaks will rise. Cost: O(n²), at first O(n³).
+  /// Proves that none of the peaks will rise after the state x at t. Cost: O(n²), at first O(n³).
   /// @param t_end the run's end, s
   /// @param all_latched false: some hinges never latch, and only the energy can tell
-  /// @pre no hinge will latch any more, and none has since the last call but the first
+  /// @pre no hinge will latch any more, and no hinge has latched since the first call after `reset`
   [[nodiscard]] bool prove(AnySystem& system, const State<T>& x, const T& t, const T& t_end,
                            const SeenPeaks<T>& seen, bool all_latched) {
-    if (system.next_knot() < T(never)) return false; // the base's motion will change
+    if (system.next_knot() < T(never))
+      return false; // the base's motion, or a motor's command, will change
     if (holds_forbid(system)) return false;
     if (!is_prepared_) prepare(system, x, t, all_latched);
     if (!modes_ || !latches_act_fully(system, x)) {
@@ -149,7 +151,8 @@ public:
     const auto start = modes_->start(&x[system.layout().angle(1)], &x[system.layout().rate(1)], t);
     bool is_proven = false;
     // The linear model alone refuses most attempts, and costs less than the energy. Heuristic: the energy is then not
-    // asked either. Its bounds ignore damping and are as a rule wider; where they are not, the run ends some attempts later.
+    // asked either. Its bounds ignore damping and are as a rule wider; where they are not, the run ends some attempts
+    // later.
     if (linear_loads_are_below(seen, start)) {
       const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t, t_end);
       is_proven = prove_by_modes(system, x, t, t_end, start, energy, seen);
@@ -174,8 +177,8 @@ public:
   }
 
 private:
-  /// Whether holds leave no bounds: one that may still let go, for its hinge has no latch (of the others the caller knows
-  /// that they do not), an elastic one, or one with a loop.
+  /// Whether a hold excludes all bounds: an elastic hold, a hold of a hinge with a loop, or a hold of a hinge without a
+  /// latch, which may still let go. (The caller knows that the other holds do not let go.)
   [[nodiscard]] static bool holds_forbid(const AnySystem& system) {
     if (system.wing().releases.empty()) return false;
     for (int i = 1; i <= system.layout().bodies; ++i) {
@@ -188,7 +191,8 @@ private:
     return false;
   }
 
-  /// Whether the holds bear less than they have: the moment of a held hinge, less its own, which stays as it is.
+  /// Whether no hold will bear more than its peak. The load of a hold is the moment across its hinge less the hinge's
+  /// own moment, which is constant.
   [[nodiscard]] bool no_hold_rises(const AnySystem& system, const State<T>& x,
                                    const SeenPeaks<T>& seen) const {
     using std::abs;
@@ -277,7 +281,7 @@ private:
 
   [[nodiscard]] bool prove_by_energy(const AnySystem& system, const State<T>& x,
                                      const EnergyLeft<T>& energy, const SeenPeaks<T>& seen) {
-    if (seen.base) return false; // of the base it tells nothing
+    if (seen.base) return false; // the energy does not bound how the base turns
     const Layout& at = system.layout();
     bounds_.bound(system, remaining_, energy);
     return no_load_can_rise(seen, at.bodies, bounds_.moment, bounds_.force, 0) &&

@@ -215,7 +215,7 @@ void ModalBounds::keep_cap(const double* least, const double* rest) {
   for (int m = 0; m < modes(); ++m) by_energy_(m) = largest_by_energy(modes_[m], least);
 }
 
-/// The second root of (7). Of a pair, Re P_j and −Im P_j are half of two rows of P.
+/// The second root of (7). For a pair of modes, Re P_j and −Im P_j are half of two rows of P.
 double ModalBounds::largest_by_energy(const Mode& mode, const double* least) const {
   const int n = size();
   const auto product_of = [&](int j, int k) { // of rows of P
@@ -280,10 +280,9 @@ std::optional<HingeBounds> ModalBounds::bound_in_reach(const ModeVector& start, 
   return find_bounds(start, energy, spin, &*reached);
 }
 
-/// Widens a box until it holds its image. Heuristic: too wide a margin gives poor bounds, too small
-/// a one takes more passes to hold what grows; where no box is found in these passes, that of the energy must do, or the
-/// run goes on and tries again later.
-/// @param inside what the energy alone tells; null: not known
+/// Widens a box until it holds its image. Heuristic: too wide a margin gives poor bounds, too small a margin takes more
+/// passes. Where no box is found in these passes, the energy's box is used, or a later attempt.
+/// @param inside bounds by the energy alone; null: not known
 std::optional<HingeBounds> ModalBounds::find_bounds(const ModeVector& start,
                                                     const std::optional<double>& energy,
                                                     double spin, const Reach* inside) const {

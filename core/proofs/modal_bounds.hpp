@@ -1,4 +1,4 @@
-/// Bounds on what every hinge of a latched wing can still see, mode by mode.
+/// Bounds on every later moment and force of each hinge of a latched wing, mode by mode.
 ///
 /// | symbol | meaning                                                         | unit       | source             |
 /// |--------|-----------------------------------------------------------------|------------|--------------------|
@@ -38,19 +38,19 @@
 ///
 ///     |w_j| ≤ √(2E/(1 − μ)) √(P_j diag(κ, M_0)⁻¹ P_jᴴ)                                          (7)
 ///
-/// P_j of one of a pair of modes is complex, and no real state makes |w_j| as large as that: in its place stands the root of
-/// the larger eigenvalue of the 2×2 matrix of the same products of Re P_j and Im P_j.
+/// For one of a pair of modes P_j is complex, and no real state makes |w_j| as large as (7). The second root is then
+/// that of the larger eigenvalue of the 2×2 matrix of the same products of Re P_j and Im P_j.
 ///
-/// So it does for every linear function l z of the state, with l in place of P_j, and for the part of it that the slowest
-/// modes make. The steady loss of friction is what such modes feel: as a moment of either sign, which (5) takes it for, it
-/// could swing them to many times their size. With m_j = |l w_j|, and l_s z the part of the slowest s modes,
+/// E also bounds every linear function l z of the state, with l in place of P_j in (7), and the part of l z that the
+/// slowest modes make. Slow modes need this: (5) takes friction for a moment of either sign, which could swing them to
+/// many times their size. With m_j = |l w_j|, and l_s z the part of the slowest s modes,
 ///
 ///     |l z| ≤ min over s of ( Σ m_j B_j over the others + √(2E/(1 − μ)) √(l_s diag(κ, M_0)⁻¹ l_sᵀ) )    (10)
 ///
-/// E bounds ways and rates before there is any box, and so the changes of M: where μ < 1 for the furthest ways (7) gives a
-/// box that holds whatever the right sides of (5) are. Every image of such a box is one more (modal_energy.cpp). A free
-/// base that turns keeps H: of E the energy of the whole's turning, at least H²/2I for the largest I, never moves a hinge,
-/// and E' is the rest.
+/// E bounds ways and rates before there is any box, and so the changes of M: where μ < 1 for the furthest ways (7)
+/// gives a box that holds whatever the right sides of (5) are. Every image of such a box is one more
+/// (modal_energy.cpp). A free base that turns keeps H: of E the energy of the whole's turning, at least H²/2I for the
+/// largest I, never moves a hinge, and E' is the rest.
 ///
 /// The hinges then see, beside their moments at rest, moments and reactions of at most
 ///
@@ -58,8 +58,8 @@
 ///     |Y_i| ≤ |Σ_j |F_ij| B_j| + Σ_l |Σ_k Y_ik (S M_0⁻¹Sᵀ + 1 1ᵀ/I)_kl| n_l + Σ_l |Σ_k Y_ik (S M_0⁻¹)_kl| f_l
 ///             + Σ_k |Y_ik| (|turn_k| a_k + ω_k²) + |a| m                                        (8)
 ///
-/// F_ij by the accelerations of mode j at rest, component by component; |a| m is the base's push. Each sum over modes is a
-/// linear function of the state, for which (10) may say less.
+/// F_ij by the accelerations of mode j at rest, component by component; |a| m is the base's push. Each sum over modes
+/// is a linear function of the state, for which (10) may say less.
 ///
 /// On a base that turns by ψ = s t the push on the wing at rest is g = g_c cos ψ + g_s sin ψ in n. g
 /// swings every mode as
@@ -91,7 +91,7 @@ struct BaseBounds {
   double drift; ///< |r − H/I|, rad/s
 };
 
-/// The most that each hinge sees, 0 … n − 1.
+/// Upper bounds for each hinge, 0 … n − 1.
 struct HingeBounds {
   HingeVector moment; ///< N·m
   HingeVector force;  ///< N
@@ -121,7 +121,7 @@ public:
 
   /// The largest rates of the hinges from that start on in the linear model, rad/s.
   [[nodiscard]] HingeVector rates(const ModeVector& start) const;
-  /// (S u)_0: what hinges at these angles have turned a free base by, since they were at rest, rad.
+  /// (S u)_0: the turn of a free base due to the hinges' ways off rest, rad. @param angles of the hinges, rad
   [[nodiscard]] double turn_of_base(const double* angles) const;
   /// Moment, N·m, and force, N, of hinge i while |w| stays below these: parts of what `bound` returns.
   [[nodiscard]] double linear_moment(int i, const ModeVector& modes) const;
@@ -163,7 +163,7 @@ private:
     void widen_to(const Box& other);
     void shrink_to(const Box& other);
   };
-  /// What follows for a motion inside a box.
+  /// Bounds that hold for a motion inside a box.
   struct Image {
     Box box;                    ///< the right sides of (4), (5) and (6)
     HingeVector way, remainder; ///< |u|, f
@@ -172,7 +172,7 @@ private:
     double drift;               ///< |r − H/I| by (4)
   };
 
-  /// What the energy alone tells of all that follows.
+  /// Bounds on all later motion by the energy alone.
   struct Reach {
     Box box;
     HingeVector way, rate; ///< |u|, |u̇|

@@ -15,7 +15,8 @@
 /// it.
 ///
 /// A free base that turns keeps its angular momentum H. I is the inertia of all bodies about the common centre. The
-/// motion is a rigid turning at r = H/I and a motion relative to it: T = T' + ½H²/I. As I ≤ I_max, the hinges get at most
+/// motion is a rigid turning at r = H/I and a motion relative to it: T = T' + ½H²/I. As I ≤ I_max, the hinges get at
+/// most
 ///
 ///     E' = E − ½H²/I_max,     I_max = Σ_(k<l) m_k m_l d_kl²/m + Σ J_k,     |r| ≤ 2E/|H|              (4)
 ///
@@ -40,8 +41,8 @@
 ///
 /// A hinge whose rigid hold never lets go does not move: it has no part in any sum.
 ///
-/// A motor under a constant command is a constant drive, which counts in y*, and a part that takes energy: motor.hpp (2).
-/// While its command changes, and at an open hinge, a motor may bring energy in: there is no bound.
+/// A motor under a constant command is a constant drive, which counts in y*, and a part that takes energy: motor.hpp
+/// (2). While its command changes, and at an open hinge, a motor may bring energy in: there is no bound.
 #pragma once
 
 #include "core/proofs/apparent_load.hpp"
@@ -315,7 +316,7 @@ private:
     return true;
   }
 
-  /// The way z that costs this energy: push z + ½ κ z². None if no way does.
+  /// The way z > 0 with push z + ½ κ z² = available. None if there is none.
   [[nodiscard]] static std::optional<T> way(const T& push, const T& kappa, const T& available) {
     using std::sqrt;
     const T square = fused(push, push, T(2) * kappa * available);

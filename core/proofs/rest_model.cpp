@@ -25,19 +25,19 @@ public:
     if (!is_modelled()) return false;
     begin(angles);
     find_rest();
-    take_damping(rates);
-    take_dissipation(), take_loops();
+    add_damping(rates);
+    add_dissipation(), add_loops();
     find_masses();
     find_levers();
-    take_remainders();
+    find_remainders();
     return is_finite();
   }
 
   bool make_linear(const double* angles, const std::vector<char>& is_held) {
     begin(angles);
-    if (!settle(is_held)) return false;
-    take_damping(std::vector<double>(n_, 0.0).data());
-    take_dissipation(), take_loops();
+    if (!converge_to_rest(is_held)) return false;
+    add_damping(std::vector<double>(n_, 0.0).data());
+    add_dissipation(), add_loops();
     find_masses();
     return is_finite();
   }
@@ -50,7 +50,7 @@ private:
       m_.angles(i - 1) = angles[i - 1];
       m_.remainders[i - 1].motor = motor_at_rest(wing_.motors, work_.motors, i);
     }
-    weigh();
+    sum_masses();
   }
 
   bool is_finite() { return (m_.stiffness + m_.mass).allFinite() && m_.angles.allFinite(); }
@@ -84,7 +84,7 @@ private:
   }
 
   /// Masses, and first moments in each body's own axes.
-  void weigh() {
+  void sum_masses() {
     for (int i = n_; i >= 1; --i) {
       const BodyTerms<double>& body = wing_.bodies[i];
       const int p = wing_.tree.parent_of(i);
@@ -96,7 +96,7 @@ private:
     outward_mass_[0] += wing_.bodies[0].mass;
   }
 
-  /// Turns the bodies as the hinges stand.
+  /// Finds the bodies' angles and first moments at the hinges' angles.
   void place() {
     Y_[0] = turned_by(turn_[0], own_moment_[0]);
     for (int i = 1; i <= n_; ++i) {
@@ -135,8 +135,8 @@ private:
   }
 
   /// Newton's method with the push in K. A hinge that nothing holds stays: the least solution does not move it. Eight
-  /// half ways after eight whole ones end cycles about the kink of a linear table or of a strand.
-  bool settle(const std::vector<char>& is_held) {
+  /// full steps and eight half steps by turns end cycles about the kink of a linear table or of a strand.
+  bool converge_to_rest(const std::vector<char>& is_held) {
     for (int pass = 0; pass < 100; ++pass) {
       place();
       find_stiffness();
@@ -153,8 +153,8 @@ private:
     return false;
   }
 
-  /// The push on body k, f at each unit of mass, has the stiffness Y_k·f against the turning of body k. A loop's hinge a
-  /// bears −s_a g'(x_a) τ: where the gear bends, the torque τ has the stiffness g'' τ.
+  /// The push on body k, f at each unit of mass, has the stiffness Y_k·f against the turning of body k. A loop's hinge
+  /// a bears −s_a g'(x_a) τ: where the gear bends, the torque τ has the stiffness g'' τ.
   void add_stiffness_of_loads() {
     for (int k = 1; k <= n_; ++k) {
       const double own = -dot(Y_[k], push_);
@@ -210,7 +210,7 @@ private:
     to(a, b) += strength * on_a * on_b, to(b, a) += strength * on_a * on_b;
   }
 
-  void take_damping(const double* rates) {
+  void add_damping(const double* rates) {
     for (int i = 1; i <= n_; ++i) {
       double& own = m_.damping(i - 1, i - 1);
       own = law(i).damping + m_.remainders[i - 1].motor.taken;
@@ -225,9 +225,9 @@ private:
     }
   }
 
-  /// A latch that damps by k c |e| has k c |e*| of it at rest. Off rest | |e* + u| − |e*| | ≤ |u|, on either side of e = 0:
-  /// f is at most k c |u| |v|.
-  void take_dissipation() {
+  /// Adds k c |e*|, the damping at rest of a latch that damps by k c |e|. Off rest | |e* + u| − |e*| | ≤ |u|, on either
+  /// side of e = 0: f is at most k c |u| |v|.
+  void add_dissipation() {
     for (int i = 1; i < static_cast<int>(wing_.real.size()); ++i) {
       const LatchDissipationTerms<double>& latch = wing_.real[i].dissipation;
       if (!latch.present) continue;
@@ -236,12 +236,13 @@ private:
     }
   }
 
-  /// On which side of its window the hinge is now says nothing of its rest. At an edge there is no room, and no bound.
+  /// Whether the damper acts at rest, whatever the hinge's present side of the window. At an edge `room` is 0: no
+  /// bound.
   [[nodiscard]] static bool damper_acts_at_rest(const RealHingeTerms<double>& real, double rest) {
     return !real.has_window || (rest > real.window_low && rest < real.window_high);
   }
 
-  void take_loops() {
+  void add_loops() {
     for (const LoopTerms<double>& loop : wing_.loops) {
       const LoopState<double> at = state_of(loop);
       add(m_.damping, loop, at, taut_share(loop, at.elastic) * loop.damping);
@@ -277,12 +278,12 @@ private:
         if (k == 0) break;
       }
     }
-    if (is_free()) take_about_center(M, s);
+    if (is_free()) refer_to_center(M, s);
     find_turns(M);
     m_.mass = m_.turns.transpose() * M * m_.turns;
     find_pairs(M, s);
   }
-  void take_about_center(Eigen::MatrixXd& M, Eigen::MatrixXd& s) const {
+  void refer_to_center(Eigen::MatrixXd& M, Eigen::MatrixXd& s) const {
     const double share = 1 / outward_mass_[0];
     for (int k = 0; k <= n_; ++k)
       for (int l = k; l <= n_; ++l) {
@@ -344,7 +345,7 @@ private:
 
   // ---- f: moments that the linear model leaves out
 
-  void take_remainders() {
+  void find_remainders() {
     m_.room.setConstant(std::numeric_limits<double>::infinity());
     for (int i = 1; i <= n_; ++i) {
       RestModel::Remainder& left = m_.remainders[i - 1];

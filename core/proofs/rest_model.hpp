@@ -110,14 +110,14 @@ struct RestModel {
   /// Bounds |f| of every hinge, for ways up to u and rates up to v, N·m.
   [[nodiscard]] HingeVector bound_remainders(const HingeVector& u, const HingeVector& v) const;
 
-  /// What turns the bodies off rest.
+  /// Bounds on the effects of the bodies' turns off rest.
   struct Turned {
     BodyVector ways;     ///< of the bodies, rad
     BodyVector moments;  ///< |n| by (3), N·m
     double momentum = 0; ///< the sum in (4), N·m·s
   };
-  /// What an energy tells of turns: Σ κ u² ≤ size², where u counts from rests that are `apart` from the model's. Of two
-  /// bodies, whose turn is the sum of the ways between them, that is less than the sum of what it tells of each hinge.
+  /// Bounds of turns by an energy: Σ κ u² ≤ size², where u counts from rests that are `apart` from the model's. The
+  /// bound of one body's turn against another is closer than the sum of the bounds of the hinges between them.
   struct EnergyOfTurns {
     double size; ///< √J
     BodyVector softness,

@@ -1,4 +1,4 @@
-/// What the linear model of a latched wing leaves out, at most: rest_model.hpp.
+/// Bounds of the moments that the linear model of a latched wing leaves out: rest_model.hpp.
 #include "core/proofs/rest_model.hpp"
 
 #include <algorithm>

@@ -79,8 +79,8 @@ template <class AnySystem, class T>
 
 } // namespace detail
 
-/// Whether (1) holds for this wing now. It does not with a driven base, smoothed latches, real hinges, elastic holds, or
-/// plates on a free base: these may add energy.
+/// Whether (1) is necessary for a latch to engage on this wing now. It is not with a driven base, smoothed latches,
+/// real hinges, loops, motors, elastic holds, or plates on a free base: these may add energy.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] bool energy_bound_holds(const System<T, Topology, M>& system) {
   if (M == BaseMotion::prescribed || system.layout().smoothed || system.wing().is_real())
@@ -92,8 +92,7 @@ template <class T, class Topology, BaseMotion M>
 
 /// Proves by (1) that no open hinge will latch while holds keep theirs. Cost O(n).
 /// @return the least energy that an open hinge lacks to reach its latch, J, > 0. None without a proof:
-///         a hinge may reach its latch, none is open, the base is driven, or smoothed latches or the
-///         wind may bring energy in
+///         a hinge may reach its latch, none is open, or energy_bound_holds is false
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] std::optional<T> energy_missing(System<T, Topology, M>& system, const State<T>& x,
                                               const T& t) {

@@ -20,7 +20,7 @@ template <class T, class AnySystem> class Diary {
 public:
   Diary(Underway<T, AnySystem>& run, const Observer& observer) : run_(run), observer_(observer) {}
 
-  /// A run begins. The outcome of the last run stays until `close`.
+  /// A run begins. Takes the storage of the last outcome's latches and phases, unless the caller has moved it out.
   void start() {
     keep_storage(outcome_.latches, latches_);
     keep_storage(outcome_.phases, phases_);
@@ -117,7 +117,8 @@ public:
   [[nodiscard]] Outcome&& outcome() { return std::move(outcome_); }
 
   /// Notes the held hinges that stall the run. @pre closed
-  void blame(const std::vector<int>& never_released, const std::vector<int>& may_release_later) {
+  void note_held_hinges(const std::vector<int>& never_released,
+                        const std::vector<int>& may_release_later) {
     outcome_.never_released = never_released, outcome_.may_release_later = may_release_later;
   }
 

@@ -13,12 +13,13 @@
 /// |   … nor a peak of a free base's motion       | the modes and the angular momentum do     | final_peaks.hpp    |
 /// | … and no latch lets go                       | the energy left bounds its load           | energy_bounds.hpp  |
 ///
-/// No run ends early while a hold may still let go, or while an output of its end may still change: the angles of hinges
-/// that move (Goal::to_rest), and the energy of a motor on a hinge without an engaged latch.
+/// No run ends early while a hold may still let go, or while an output of its end may still change: the angles of
+/// hinges that move (Goal::to_rest), and the energy of a motor on a hinge without an engaged latch.
 ///
-/// The proofs stand in the room proofs/ (standstill.hpp in events/), the last two called by final_peaks.hpp.
-/// They are functions of the state. `Ending` remembers the results, and proof_schedule.hpp says at which
-/// steps an attempt is worth its cost. Whether a run ends some steps earlier or later changes no output.
+/// The proofs are in the room proofs/ (standstill.hpp in events/); final_peaks.hpp calls modal_bounds.hpp and
+/// energy_bounds.hpp. They are functions of the state. `Ending` remembers the results, and proof_schedule.hpp says at
+/// which steps an attempt is worth its cost. Whether a run ends some steps earlier or later changes no output, except
+/// `peaks_final` where t_end comes before a due attempt (ThoroughAttempts in final_peaks.hpp).
 #pragma once
 
 #include "core/events/events.hpp"
@@ -84,8 +85,8 @@ public:
     return peaks_are_proven_;
   }
 
-  /// Whether the latch just engaged ends the run and no peak is asked for. If so, the new right-hand side need not
-  /// be evaluated.
+  /// Whether the run ends at the latch just engaged, without an evaluation of the new right-hand side. Only where no
+  /// peak is asked for.
   [[nodiscard]] bool ends_at_latch() const {
     if (wants_peaks() || may_let_go() || !diary_.any_latch()) return false;
     return run_.goal.first_latch_only || (!latches_left() && !goes_to_t_end());
@@ -95,7 +96,7 @@ public:
   [[nodiscard]] End describe_end() {
     End end;
     const bool is_cut_short = run_.goal.first_latch_only && diary_.any_latch();
-    // when motion ended tells more than when its end was certain
+    // the time at which motion ended says more than the earlier time at which its end was proven
     if ((goes_to_t_end() || waits_for_rest()) && is_stuck()) stall_.reset();
     const bool no_latch = latches_left() && prove_stall();
     const auto& releases = events_.releases();
@@ -175,7 +176,7 @@ private:
     schedule_.restart(sought());
   }
 
-  /// Notes when all hinges came to rest for the last time.
+  /// Keeps the time since which every hinge sticks.
   void watch_standstill() {
     if (run_.system.work().stuck < run_.at.bodies)
       standstill_.reset();
@@ -190,7 +191,8 @@ private:
     return schedule_.count_step(sought());
   }
 
-  /// In a run to t_end: proves a stall at the step at which other runs do, and keeps that reason if motion does not end.
+  /// In a run to t_end: attempts the proof of a stall at the same steps as other runs, so that the reason is theirs
+  /// unless motion ends.
   void note_stall() {
     if (seeks_proof() && (is_stuck() || is_attempt_due())) prove_stall();
   }

@@ -2,10 +2,11 @@
 ///
 /// | where is …                           | file                                                        |
 /// |--------------------------------------|-------------------------------------------------------------|
-/// | the loop                             | `run`, `make_step` below: request a step, make it, judge it |
+/// | the loop                             | `run`, `make_step` below: makes a step, judges it, plans on |
 /// | the next step's size and method      | stepping.hpp                                                |
 /// | a step that ends at an event         | landing.hpp                                                 |
-/// | the instant at which a latch engages | `finish_step` below: apply_events; events/latches.hpp       |
+/// | the instant of an event              | `judge_step` below: cut_at_event; events/events.hpp         |
+/// | where a latch engages                | `finish_step` below: apply_events; events/latches.hpp       |
 /// | a peak inside a step                 | peak_search.hpp, and the room peaks/                        |
 /// | an early end, and its proof          | ending.hpp, and the room proofs/                            |
 /// | the record of the run                | diary.hpp                                                   |
@@ -155,7 +156,7 @@ private:
   };
 
   /// A step from where the run stands over h, into x1 and dxdt1.
-  struct Try {
+  struct TrialStep {
     Stage stage = Stage::step;
     T h = T(0);
     State<T>*x1 = nullptr, *dxdt1 = nullptr;
@@ -290,7 +291,7 @@ private:
   /// Asks for a step to the peak in doubt. @param doubt its fraction of the step; none: all are known
   void confirm_peaks(const std::optional<T>& doubt) {
     if (doubt) return ask_inside(Stage::doubt, *doubt);
-    if (peaks_.made_sure() && stepping_.method() == Method::adams_bashforth_moulton)
+    if (peaks_.made_inner_steps() && stepping_.method() == Method::adams_bashforth_moulton)
       return ask_inside(Stage::repeat, T(1)); // its history must be that of the accepted step
     finish_step();
   }
@@ -322,7 +323,7 @@ private:
     end_or_plan();
   }
 
-  /// The base's motion enters another piece of its table.
+  /// The base's motion, or a motor's command, enters another piece of its table.
   void pass_knot() {
     begin_anew(0);
     stepping_.restart_at_knot();
@@ -341,7 +342,8 @@ private:
 
   void end(const End& how) {
     diary_.close(how.status, how.reason, stepping_.work(), peaks_, how.final);
-    if (how.status == Status::stalled) diary_.blame(how.never_released, how.may_release_later);
+    if (how.status == Status::stalled)
+      diary_.note_held_hinges(how.never_released, how.may_release_later);
     ended_ = true;
   }
 
@@ -366,7 +368,7 @@ private:
   Landing<T, AnySystem> landing_;
   PeakSearch<T, AnySystem> peaks_;
   Ending<T, AnySystem> ending_;
-  Try asked_;
+  TrialStep asked_;
   bool ended_ = false;
   std::optional<NoEvents>
       none_; ///< if a lane has made the step to be judged: what it has found in it

@@ -30,8 +30,8 @@ public:
     return due_.has_value();
   }
 
-  /// Cuts a refused step where a loop's moment jumps inside: the jump may be why it is refused.
-  /// @return whether it does
+  /// Cuts a refused step at a jump of a loop's moment, which may be why the step is refused.
+  /// @return whether there is a jump: the step must then be made again, to the jump
   [[nodiscard]] bool cut_refused_step(const std::optional<KinkLimit>& kinks, double rtol) {
     nearest_ = nearest(rtol);
     if (!kinks || !kinks->leaps_only || missed_) return false;
@@ -70,8 +70,8 @@ public:
     return false;
   }
 
-  /// Searches a step that ends at a kink for events before it. The longer step, in which the kink was found, was refused or
-  /// leapt over what lies there, and its dense output need not show them: a detent may release a hinge that sticks.
+  /// Searches a step that ends at a kink for events before the kink. The kink was found in a longer step, whose dense
+  /// output need not show them, because that step was refused or leapt over them: a detent may release a stuck hinge.
   /// @return whether there is one: the step must then be made again, to the event
   [[nodiscard]] bool cut_at_earlier_event(const std::optional<KinkLimit>& kinks) {
     constexpr int most_searches = 8; // heuristic: a kink that the landing misses is found anew
@@ -143,8 +143,8 @@ private:
     return size < T(0.5) * run_.step.h && keeps_slope(at, size) && at.bend != T(0);
   }
 
-  /// Whether the slope changes by less than a tenth up to the event. Of a hinge that grazes its latch the
-  /// slope vanishes.
+  /// Whether the slope changes by less than a tenth up to the event. It does not for a hinge that grazes its
+  /// latch, where the slope vanishes.
   [[nodiscard]] static bool keeps_slope(const typename Events<T, AnySystem>::Indicator& at,
                                         const T& size) {
     using std::abs;

@@ -9,9 +9,9 @@
 ///     5. run.resume(result)              judges the last trial step and goes on to 2, or ends
 ///
 /// A lane accepts and rejects plain steps alone. A lane needs its run when the last trial step may
-/// hold an event or a peak, may end at t_end or at a knot of the base's table, or uses up what the task
-/// allows. The run then treats that trial step as one that it made itself. A lane says whether it has found
-/// that the step holds no event (LaneResult::none), and which peaks may rise over it
+/// hold an event or a peak, may reach the end of the stretch (t_end, a knot of a table, a hold's release), or uses up
+/// the steps that the task allows. The run then treats that trial step as one that it made itself. A lane says whether
+/// it has found that the step holds no event (LaneResult::none), and which peaks may rise over it
 /// (LaneResult::peaks_searched): the run does not search the others again. Lane and run use the same
 /// expressions, so every number has the same bits with and without a lane.
 #pragma once
@@ -54,9 +54,9 @@ struct LaneTask {
       held_before; ///< 1 … n: moments on stuck hinges at the state, N·m; null: none sticks
   const double* excess_before; ///< 1 … n: of their friction over its limit, N·m; null: none sticks
   const BaseExcursion<double>& base; ///< of a free base, so far
-  double t_end;                      ///< the lane makes no step that may reach it, s
-  long most_trial_steps;             ///< the run must see the next one after so many
-  long most_steps;                   ///< the run must see the next one after so many accepted
+  double t_end;                      ///< Stepping::end_of_stretch: the run makes the step to it, s
+  long most_trial_steps;             ///< after so many the run must judge the next trial step
+  long most_steps;                   ///< the same, after so many accepted steps
   long evaluations;                  ///< so far
   StepHistory<double> history;
 };

@@ -69,13 +69,13 @@ public:
     if (run_.goal.peak_force) forces_.start(run_.system, force_worth_a_step());
   }
 
-  /// Takes the peaks at t⁺. @pre the right-hand side has changed, and was last evaluated there
+  /// Raises the peaks to the loads just after an event. @pre the changed right-hand side was last evaluated there
   void include_start() {
     include_moments(run_.step.x, run_.step.t);
     if (run_.goal.peak_force) forces_.sample(run_.system, run_.step.t);
   }
 
-  /// What a lane has found of the peaks of a step.
+  /// A lane's findings about the peaks of a step.
   struct LaneSearch {
     bool done = false;           ///< it has written moments_may_rise
     bool forces_may_rise = true; ///< if done
@@ -84,7 +84,7 @@ public:
   /// Looks for the peaks of a step just accepted. @pre the last evaluation was at its end
   /// @return the first doubt: the fraction of the step to which the method must make a step
   [[nodiscard]] std::optional<T> first_doubt(const LaneSearch& by_lane) {
-    made_sure_ = false, searched_ = by_lane.done;
+    made_inner_steps_ = false, searched_ = by_lane.done;
     if (run_.system.work().stuck > 0) held_at_end_ = run_.system.work().holding;
     hinge_ = hold_ = 0;
     doubt_.reset(), held_at_.reset(), borne_at_.reset();
@@ -100,7 +100,7 @@ public:
     return next_doubt();
   }
 
-  /// Uses the state inside that the method has stepped to. @return the next doubt
+  /// Settles the present doubt: the method has made a step to it, which ends at the run's x. @return the next doubt
   [[nodiscard]] std::optional<T> resolve_doubt() {
     if (borne_at_)
       confirm_hold();
@@ -115,7 +115,7 @@ public:
   }
 
   /// Whether the method has made steps inside the one accepted.
-  [[nodiscard]] bool made_sure() const { return made_sure_; }
+  [[nodiscard]] bool made_inner_steps() const { return made_inner_steps_; }
 
 private:
   /// The relative gain from which another step to the maximum of a force is worth making. Only the
@@ -148,7 +148,7 @@ private:
     while (!s && run_.goal.peak_moment && ++hinge_ <= run_.at.bodies)
       if (!searched_ || may_rise_[hinge_]) s = doubtful_moment();
     while (!s && ++hold_ < static_cast<int>(holds_.size())) s = doubtful_hold();
-    made_sure_ = made_sure_ || s;
+    made_inner_steps_ = made_inner_steps_ || s;
     return s;
   }
 
@@ -252,7 +252,7 @@ private:
   std::optional<T> held_at_;   ///< where the moment of a stuck hinge is in doubt
   int hold_ = 0;               ///< the hold searched
   std::optional<T> borne_at_;  ///< where its load is in doubt
-  bool made_sure_ = false;
+  bool made_inner_steps_ = false;
   bool searched_ = false;      ///< a lane has searched the peaks of the step
   std::vector<char> may_rise_; ///< 1 … n: if so, the moments that may rise over it
 };

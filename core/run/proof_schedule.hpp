@@ -30,8 +30,8 @@ public:
     return due;
   }
 
-  /// Counts steps that an engine of packs has made. Attempts at a stall proof that were due count as made: none could
-  /// have succeeded.
+  /// Counts steps that an engine of packs has made. Attempts at a stall proof that were due among them count as made,
+  /// because an engine goes past them only while no attempt can succeed.
   void skip_steps(long steps, SoughtProof sought) {
     steps_ += steps;
     while (sought == SoughtProof::stall && next_attempt_ <= steps_)

@@ -55,7 +55,7 @@ public:
     if (!(friction_only && h_ > T(0) && has_lanes(method()))) h_ = T(-1);
   }
 
-  /// Begins anew where the base's motion enters another piece of its table, with the step size so far.
+  /// Begins anew at a knot of a table (of the base or of a motor), with the step size so far.
   void restart_at_knot() { begin_with_method(); }
 
   [[nodiscard]] Method method() const { return choice_.active(); }
@@ -99,7 +99,7 @@ public:
     return std::nullopt;
   }
 
-  /// Where a step ends at the latest, s: at t_end, at a knot of the base's table, or where a hold lets go.
+  /// Where a step ends at the latest, s: at t_end, at a knot of the base's table or a motor's, or where a hold lets go.
   [[nodiscard]] T end_of_stretch() const {
     return smaller(T(run_.how.t_end), smaller(run_.system.next_knot(), run_.next_release));
   }

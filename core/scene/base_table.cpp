@@ -8,10 +8,10 @@ namespace {
 using Powers = std::array<double, 4>;
 using Wide = long double; // sums over a thousand pieces keep all digits of a double
 
-Wide once(const Powers& c, Wide u) {
+Wide integral_of(const Powers& c, Wide u) {
   return u * (c[0] + u * (c[1] / Wide(2) + u * (c[2] / Wide(3) + u * (c[3] / Wide(4)))));
 }
-Wide twice(const Powers& c, Wide u) {
+Wide double_integral_of(const Powers& c, Wide u) {
   return u * u *
          (c[0] / Wide(2) + u * (c[1] / Wide(6) + u * (c[2] / Wide(12) + u * (c[3] / Wide(20)))));
 }
@@ -24,8 +24,8 @@ struct Integrals {
     for (std::size_t k = 2; k < first.size(); ++k) {
       const Powers& c = curve.pieces()[k - 1].c;
       const Wide h = Wide(curve.knots()[k - 1]) - curve.knots()[k - 2];
-      first[k] = first[k - 1] + once(c, h);
-      second[k] = second[k - 1] + first[k - 1] * h + twice(c, h);
+      first[k] = first[k - 1] + integral_of(c, h);
+      second[k] = second[k - 1] + first[k - 1] * h + double_integral_of(c, h);
     }
     begin_at_zero(curve);
   }
@@ -42,7 +42,8 @@ private:
     const std::size_t k = at_zero(curve);
     const Powers& c = curve.pieces()[k].c;
     const Wide u = -Wide(curve.knots()[k > 0 ? k - 1 : 0]);
-    const Wide rate = first[k] + once(c, u), angle = second[k] + first[k] * u + twice(c, u);
+    const Wide rate = first[k] + integral_of(c, u),
+               angle = second[k] + first[k] * u + double_integral_of(c, u);
     for (std::size_t j = 0; j < first.size(); ++j) {
       const Wide from = curve.knots()[j > 0 ? j - 1 : 0];
       first[j] -= rate;
@@ -65,15 +66,15 @@ BaseTable::BaseTable(Columns columns, Interpolation interpolation)
   pieces_.resize(time.size() + 1);
   for (std::size_t k = 0; k < pieces_.size(); ++k) pieces_[k].from = time[k > 0 ? k - 1 : 0];
   if (gives_acceleration())
-    push(Curve(time, component(columns_.acceleration, 0), interpolation),
-         Curve(time, component(columns_.acceleration, 1), interpolation));
+    set_acceleration(Curve(time, component(columns_.acceleration, 0), interpolation),
+                     Curve(time, component(columns_.acceleration, 1), interpolation));
   if (gives_rate())
-    turn_by_rate(Curve(time, columns_.rate, interpolation));
+    set_turning_by_rate(Curve(time, columns_.rate, interpolation));
   else if (gives_turning())
-    turn(Curve(time, columns_.angular_acceleration, interpolation));
+    set_turning(Curve(time, columns_.angular_acceleration, interpolation));
 }
 
-void BaseTable::push(const Curve& x, const Curve& y) {
+void BaseTable::set_acceleration(const Curve& x, const Curve& y) {
   const Integrals of_x(x), of_y(y);
   for (std::size_t k = 0; k < pieces_.size(); ++k) {
     pieces_[k].x = x.pieces()[k].c, pieces_[k].y = y.pieces()[k].c;
@@ -81,7 +82,7 @@ void BaseTable::push(const Curve& x, const Curve& y) {
   }
 }
 
-void BaseTable::turn(const Curve& curve) {
+void BaseTable::set_turning(const Curve& curve) {
   const Integrals of(curve);
   for (std::size_t k = 0; k < pieces_.size(); ++k) {
     pieces_[k].turning = curve.pieces()[k].c;
@@ -90,7 +91,7 @@ void BaseTable::turn(const Curve& curve) {
   }
 }
 
-void BaseTable::turn_by_rate(const Curve& curve) {
+void BaseTable::set_turning_by_rate(const Curve& curve) {
   const Integrals of(curve);
   for (std::size_t k = 0; k < pieces_.size(); ++k) {
     const Powers& c = curve.pieces()[k].c;

@@ -4,10 +4,11 @@
 /// |--------|-----------------------------------------------------------------------------|--------|
 /// | t_k    | knots, ascending                                                            | s      |
 /// | a      | acceleration of the base's origin, inertial axes                            | m/s²   |
-/// | α, Ω   | angular acceleration; rate                                                  | rad/s² |
+/// | α      | angular acceleration                                                        | rad/s² |
+/// | Ω      | rate                                                                        | rad/s  |
 ///
 /// Each column is a curve [curve.hpp] between its knots, and constant beyond its ends. A table gives
-/// α, or Ω, whose slope then is α, or neither. Velocity, rate and angle are the exact integrals of
+/// α, or Ω (then α is the slope of Ω), or neither. Velocity, rate and angle are the exact integrals of
 /// the curves from t = 0 on. Each piece of the table stores their values at its start.
 #pragma once
 
@@ -58,9 +59,9 @@ public:
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
 private:
-  void push(const Curve& x, const Curve& y);
-  void turn(const Curve& curve);
-  void turn_by_rate(const Curve& curve);
+  void set_acceleration(const Curve& x, const Curve& y);
+  void set_turning(const Curve& curve);
+  void set_turning_by_rate(const Curve& curve);
 
   Columns columns_;
   Interpolation interpolation_;

@@ -36,7 +36,7 @@ std::vector<double> monotone_slopes(const std::vector<double>& h, const std::vec
   return slopes;
 }
 
-/// a·b + c with one rounding on every processor.
+/// Slope of a piece at u beyond its knot. std::fma, because Curve::slope_at promises one rounding on every processor.
 double slope_of(const Curve::Piece& piece, double u) {
   return std::fma(u, std::fma(u, 3 * piece.c[3], 2 * piece.c[2]), piece.c[1]);
 }
@@ -46,13 +46,13 @@ void widen_by_slopes(const Curve::Piece& piece, double h, double& least, double&
   const auto slope = [&](double u) {
     return piece.c[1] + u * (2 * piece.c[2] + 3 * u * piece.c[3]);
   };
-  const auto take = [&](double u) {
+  const auto include_slope_at = [&](double u) {
     least = std::min(least, slope(u));
     largest = std::max(largest, slope(u));
   };
-  take(0), take(h);
+  include_slope_at(0), include_slope_at(h);
   const double vertex = -piece.c[2] / (3 * piece.c[3]);
-  if (piece.c[3] != 0 && vertex > 0 && vertex < h) take(vertex);
+  if (piece.c[3] != 0 && vertex > 0 && vertex < h) include_slope_at(vertex);
 }
 
 /// Largest excess of a cubic over 0 … h, inside any part of it, over the range of that part's ends: half its total

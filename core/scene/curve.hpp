@@ -50,8 +50,8 @@ public:
   /// a·f + b·g of two curves with the same knots.
   [[nodiscard]] static Curve sum(double a, const Curve& f, double b, const Curve& g);
 
-  /// Value and slope at x with fused multiply-adds on every processor: the bits of curve_value.hpp where the processor
-  /// has them.
+  /// Value and slope at x by std::fma: the same bits on every processor, and those of curve_value.hpp if that is
+  /// compiled with fused multiply-adds.
   [[nodiscard]] double value_at(double x) const;
   [[nodiscard]] double slope_at(double x) const;
 

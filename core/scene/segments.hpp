@@ -1,4 +1,4 @@
-/// Flexible bodies as rigid segments with elastic joints between them [MODEL.md §8].
+/// Flexible bodies as rigid segments with elastic joints between them.
 ///
 /// | symbol | meaning                                                              | unit        |
 /// |--------|----------------------------------------------------------------------|-------------|

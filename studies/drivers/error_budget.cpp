@@ -109,7 +109,7 @@ void study_tolerance(Campaign campaign, const std::string& name, double rtol,
   const ResultNames names = RunPlan(campaign).names();
   const std::clock_t began = std::clock(); // of the processor: others share the machine
   const std::vector<ResultRow> rows =
-      make_again(campaign, campaign.integration, first_runs(sizes.repeated), {.threads = 1});
+      repeat_runs(campaign, campaign.integration, first_runs(sizes.repeated), {.threads = 1});
   const double microseconds = 1e6 * static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC /
                               static_cast<double>(sizes.repeated);
   const Accuracy found = compare_rows(names, rows, reference, campaign.integration);
@@ -132,7 +132,7 @@ void study_campaign(const std::string& name, const Sizes& sizes, Tables& tables)
                       OutputFamily::peak_force};
   campaign.sampling.runs = sizes.sample;
   const ResultNames names = RunPlan(campaign).names();
-  const std::vector<ResultRow> sample = make_again(
+  const std::vector<ResultRow> sample = repeat_runs(
       campaign, at_tolerance(campaign.integration, "auto", 1e-6), first_runs(sizes.sample), {});
   std::vector<double> sigma;
   for (std::size_t i = 0; i < names.outputs.size(); ++i) {
@@ -141,8 +141,8 @@ void study_campaign(const std::string& name, const Sizes& sizes, Tables& tables)
     add_sampling(name, names.outputs[i], values, tables);
   }
   const std::vector<ResultRow> reference =
-      make_again(campaign, at_tolerance(campaign.integration, "dopri5", reference_rtol),
-                 first_runs(sizes.repeated), {});
+      repeat_runs(campaign, at_tolerance(campaign.integration, "dopri5", reference_rtol),
+                  first_runs(sizes.repeated), {});
   for (const double rtol : tolerances)
     study_tolerance(campaign, name, rtol, reference, sigma, sizes, tables);
 }

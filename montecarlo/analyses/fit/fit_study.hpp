@@ -29,7 +29,7 @@ struct FittedParameter {
   double prior_sigmas = 0; ///< |u| of the mode: its distance from the prior's median
   double widening = 1;     ///< factor of `std` by the spread of dispersions that are not fitted
   std::optional<double> limit{}; ///< of the prior, if the posterior lies there
-  bool held_decides = false;     ///< `widening` is cut, because `std` would exceed the prior's
+  bool held_decides = false;     ///< `widening` is cut: the widened `std` would exceed the prior's
 
   /// Sets the widening to the first-order factor, cut where the standard deviation would exceed the prior's: so far out
   /// the model is not linear, and the prior bounds the parameter anyway.
@@ -76,9 +76,9 @@ inline constexpr double too_close = 5;
 /// A parameter this far from its prior's median contradicts the prior: the prior's probability is 6e-5.
 inline constexpr double conflict_sigmas = 4;
 
-/// A posterior lies at a limit of its prior if at least `share_at_limit` of it is in the part next to the limit that has
-/// `at_limit` of the prior. Heuristic: a posterior that falls off from the limit by 1/e within a thirtieth of the range has
-/// so much; one that the tests put twice its standard deviation inside the limit has not.
+/// A posterior lies at a limit of its prior if at least `share_at_limit` of it is in the part next to the limit that
+/// has `at_limit` of the prior. Heuristic: a posterior that falls off from the limit by 1/e within a thirtieth of the
+/// range has so much; one that the tests put twice its standard deviation inside the limit has not.
 inline constexpr double at_limit = 0.01, share_at_limit = 0.25;
 
 /// Runs of each campaign, before and after the tests, for the prediction.

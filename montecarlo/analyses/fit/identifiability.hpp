@@ -1,4 +1,4 @@
-/// Which combinations of parameters the tests see, and how much a further test would tell.
+/// The combinations of parameters that the tests determine, and the gain by a further test.
 ///
 /// In u the prior's covariance is the identity. An eigenvalue λ of the posterior's covariance is the share of the
 /// prior's variance that is left along its eigenvector. If λ is near 1, the tests do not see this direction.

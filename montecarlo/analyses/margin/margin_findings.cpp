@@ -47,7 +47,7 @@ std::vector<double> confidences_of(const Campaign& campaign, const MarginResult&
   return confidences;
 }
 
-/// Whether only the cut peaks stand against every requirement that a scale does not meet.
+/// Whether some scale fails only because of cut peaks: all its requirements would pass if these did not break any.
 bool is_closed_by_cut_peaks(const MarginSearch& search) {
   return std::ranges::any_of(search.seen, [](const auto& seen) {
     if (failing(seen.second).empty()) return false;

@@ -63,8 +63,8 @@ concessions(const Campaign& campaign, const MarginResult& result, const MarginSe
 /// The condition with the largest strain at a scale (recommendation.hpp); the first of equals.
 [[nodiscard]] std::size_t most_strained(const ScaleResult& cases);
 
-/// Which scales are as good as the recommended one, and why it is the one: ", and as few from 1.2 to 1.6: their geometric
-/// mean is recommended". Empty if no other is. @pre a scale is recommended
+/// Explains the choice among scales of equal strain: ", and as few from 1.2 to 1.6: their geometric mean is
+/// recommended". Empty if no other scale is as good. @pre a scale is recommended
 [[nodiscard]] std::string why_this_one(const MarginSearch& search);
 
 /// The rule by which the recommended scale was chosen: "least strain", "present springs" or "geometric mean".
@@ -76,16 +76,17 @@ struct CutPeaks {
   std::string requirement, which_case;
   long cut = 0, runs = 0;
 };
-/// For each condition the scale with most cut peaks; of equals the one nearest to the present springs. Of scales at
-/// which they alone stand against a pass, of the present springs and of the recommended ones.
+/// For each condition the scale with most cut peaks; of equals the one nearest to the present springs. Only three kinds
+/// of scales count: the present springs, the recommended ones, and scales that would pass if the cut peaks did not
+/// break the condition.
 [[nodiscard]] std::vector<CutPeaks> cut_peaks(const MarginResult& result,
                                               const MarginSearch& search);
 
 /// The reason why no scale is recommended; empty if one is.
 [[nodiscard]] std::string why_withheld(const MarginSearch& search);
 
-/// Warnings of the recommended scales: static margins of the nominal wing below 0. No run shows them: a wing may deploy
-/// by momentum. And of all scales: peaks that t_end cut, and latches that may let go after it.
+/// Warnings. Of the recommended scales: static margins of the nominal wing below 0, which no run shows because a wing
+/// may deploy by momentum. Of all scales: peaks that t_end cut, and latches that may let go after t_end.
 [[nodiscard]] std::vector<std::string> margin_warnings(const MarginResult& result);
 
 /// Whether every search has a confirmed window. The exit code of `margin` depends on it.

@@ -1,7 +1,7 @@
 /// An ensemble sampler: walkers whose moves are proposed by one another or by a fixed mixture of Student laws.
 ///
 ///   symbol     meaning
-///   d, K       dimensions; number of walkers, even, at least 4 d
+///   d, K       dimensions; number of walkers, even; `fit` takes at least 4 d
 ///   z          stretch, density ∝ 1/√z on [1/a, a], a = 2
 ///   π, q       target density, density of the fixed proposal
 ///
@@ -79,8 +79,8 @@ struct Ensemble {
   std::vector<std::vector<Eigen::VectorXd>> chains; ///< by walker, without the first quarter
 };
 
-/// Moves the walkers until ESS and R̂ are reached, or the evaluations are used up. Pure if the density is: interruption,
-/// threads and lanes change nothing.
+/// Moves the walkers until ESS and R̂ are reached, or the evaluations are used up. Pure if the density is:
+/// interruption, threads and lanes change nothing.
 /// @param told called after each diagnosis
 [[nodiscard]] Ensemble run_ensemble(const LogDensity& density, const StudentMixture& proposal,
                                     const EnsembleOptions& options,

@@ -64,7 +64,7 @@ struct CutOutput {
   std::string name;
   long cut = 0; ///< runs
 };
-/// Adds the warnings of what t_end cut: peaks, and latches that may let go after it.
+/// Adds the warnings about t_end: peaks that it cut, and latches that may let go after it.
 /// @param outputs all; those without cut peaks are left out
 void warn_of_t_end(const std::vector<CutOutput>& outputs, long open_latches, long runs,
                    std::vector<std::string>& warnings);

@@ -1,4 +1,4 @@
-/// How an output follows a change of some draws: a quadratic along the change, with each run's own residual.
+/// The response of an output to a change of some draws: a quadratic along the change, with each run's own residual.
 ///
 ///   symbol  meaning
 ///   u_i     part of run i's linear fit that the moved draws make, from its mean
@@ -41,7 +41,7 @@ public:
   /// number falls steadily. Nothing if more are beyond it at `end`. Cost O(n) for each of about 44 bisections.
   [[nodiscard]] std::optional<double> change(double limit, long most, double end) const;
 
-  /// By how much the runs beyond the limit fall on average for a change t, and the jackknife's bounds of it.
+  /// Mean decrease of the output over the runs beyond the limit, for a change t, with the jackknife's bounds.
   struct Fall {
     double mean = 0;
     Bounds bounds{};

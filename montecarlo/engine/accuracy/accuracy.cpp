@@ -28,10 +28,11 @@ constexpr double tightest_implicit = 1e-12; ///< at a smaller rtol seulex takes 
 /// Largest rtol of a reference. Heuristic: with a larger one the reference of a loose campaign is loose itself.
 constexpr double loosest = 1e-8;
 constexpr long times_the_steps = 100, least_steps = 20'000;
-/// Runs by which a reference is tried: they fill the lanes of two threads, so they take hardly longer than one.
+/// Runs that show whether a reference is usable. They fill the eight AVX-512 lanes of two threads, so they take hardly
+/// longer than one.
 constexpr std::size_t probed = 16;
 
-/// Rounds to three decimal digits, so that 1e-8 · 1e-3 is reported as 1e-11 and not as 1.0000000000000001e-11.
+/// Rounds to three decimal digits, so that 1e-9 · 1e-2 is reported as 1e-11 and not as 1.0000000000000001e-11.
 double in_three_digits(double x) {
   std::array<char, 32> text{};
   char* const first = text.data();
@@ -162,8 +163,8 @@ Accuracy compare_rows(const ResultNames& names, std::span<const ResultRow> rows,
   return accuracy;
 }
 
-std::vector<ResultRow> make_again(const Campaign& campaign, const Integration& integration,
-                                  std::span<const long> runs, const ThreadPool& pool) {
+std::vector<ResultRow> repeat_runs(const Campaign& campaign, const Integration& integration,
+                                   std::span<const long> runs, const ThreadPool& pool) {
   Campaign again = campaign;
   again.integration = integration;
   const RunPlan plan(again);
@@ -194,9 +195,9 @@ Accuracy compare_with_reference(const Campaign& campaign, std::span<const Result
     reference.max_steps = steps;
     const std::size_t first = std::min(runs.size(), probed);
     std::vector<ResultRow> made =
-        make_again(campaign, reference, std::span(runs).first(first), pool);
+        repeat_runs(campaign, reference, std::span(runs).first(first), pool);
     if (made.front().status == Status::failed) continue;
-    std::ranges::move(make_again(campaign, reference, std::span(runs).subspan(first), pool),
+    std::ranges::move(repeat_runs(campaign, reference, std::span(runs).subspan(first), pool),
                       std::back_inserter(made));
     accuracy = compare_rows(names, rows, made, campaign.integration);
     accuracy.reference_method = reference.method;

@@ -74,9 +74,10 @@ inline constexpr double moved_share = 0.01;
 /// Repeats runs of a campaign with another integration.
 /// @param runs increasing
 /// @param pool does not change the rows
-[[nodiscard]] std::vector<ResultRow> make_again(const Campaign& campaign,
-                                                const Integration& integration,
-                                                std::span<const long> runs, const ThreadPool& pool);
+[[nodiscard]] std::vector<ResultRow> repeat_runs(const Campaign& campaign,
+                                                 const Integration& integration,
+                                                 std::span<const long> runs,
+                                                 const ThreadPool& pool);
 
 /// Compares rows with the first usable reference. A reference is unusable if it cannot finish the first of the runs
 /// within 100 times the steps of the campaign's method (at least 20,000 steps).
@@ -87,12 +88,12 @@ inline constexpr double moved_share = 0.01;
                                               const ThreadPool& pool);
 
 /// The number of runs to repeat: the campaign's accuracy_runs, if given. Else 1 % of the runs, at least 10 and at most
-/// 100; of fewer than 100 runs a tenth. 1 % costs some 4 % of the campaign's time. If none of 100 repeated runs has an
-/// error beyond x, at most 3 % of all runs have one (95 % confidence); with 10 repeated runs at most 26 %.
+/// 100; of fewer than 100 runs a tenth. Its cost: README.md. If none of 100 repeated runs has an error beyond x, at
+/// most 3 % of all runs have one (95 % confidence); with 10 repeated runs at most 26 %.
 [[nodiscard]] std::size_t count_repeated(const Campaign& campaign, std::size_t runs);
 
 /// The accuracy of these results. Nothing if the campaign wants none, or no run could be repeated. Cost: a repeated run
-/// takes two to four times as long as the run itself.
+/// takes several times as long as the run itself; README.md has the measured share of a campaign's time.
 /// @pre the results were computed with the campaign's own integration
 [[nodiscard]] std::optional<Accuracy>
 measure_accuracy(const Campaign& campaign, const Results& results, const ThreadPool& pool);

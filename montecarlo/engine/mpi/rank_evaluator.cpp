@@ -17,10 +17,11 @@ namespace {
 
 using std::chrono::microseconds;
 
-/// Pauses between polls of the transport. Heuristic: 4 ms while rank 0's threads work. Polling (25 µs each) then takes
+/// Pauses between polls of the transport. Heuristic: 4 ms while rank 0's threads work. Polls of 25 µs each then take
 /// less than 1 % of a processor, and the other ranks have enough chunks in store for the pause. 50 µs at the end, when
-/// only answers are missing. A longer pause starves the ranks, a shorter one takes time from rank 0's threads.
-constexpr microseconds between_looks{4000}, at_the_end{50};
+/// only answers are missing. A longer pause leaves the ranks without chunks, a shorter one takes time from rank 0's
+/// threads.
+constexpr microseconds between_polls{4000}, at_the_end{50};
 
 /// Sends the chunks of one plan to the ranks that ask for them.
 class Dispatch {
@@ -48,7 +49,7 @@ public:
         something = true;
       }
       hand_out();
-      if (!something) std::this_thread::sleep_for(own_done ? at_the_end : between_looks);
+      if (!something) std::this_thread::sleep_for(own_done ? at_the_end : between_polls);
     }
   }
 
@@ -144,11 +145,12 @@ private:
 } // namespace
 
 long RankEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
-  const int team = thread_count(pool_.threads);
+  const int threads = thread_count(pool_.threads);
   const auto description = describe(plan, pool_, sink.wants_csv);
   // Other ranks: only as many as get at least one run for each of their threads.
-  const long ranks = description ? std::min<long>(transport_->size() - 1, range.size() / team) : 0;
-  RangeQueue queue(range, static_cast<int>((ranks + 1) * team), sink, stop_);
+  const long ranks =
+      description ? std::min<long>(transport_->size() - 1, range.size() / threads) : 0;
+  RangeQueue queue(range, static_cast<int>((ranks + 1) * threads), sink, stop_);
   Dispatch dispatch(*transport_, plan, range, queue);
   if (ranks > 0) dispatch.open(*description, ranks);
   std::exception_ptr thrown;

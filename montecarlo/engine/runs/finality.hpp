@@ -30,8 +30,8 @@
 
 namespace wingspread {
 
-/// Of which peaks of a run it is proven that they are not exceeded after its end. `no`: of none, t_end came first.
-/// `unknown`: the run failed or was invalid.
+/// The peaks of a run that provably do not rise after its end. `yes`: all that are recorded; `moments`, `forces`: those
+/// of one family; `no`: none, because t_end came before a proof. `unknown`: the run failed or was invalid.
 enum class PeaksFinal : signed char { unknown, no, yes, moments, forces };
 inline constexpr std::array all_peaks_final{PeaksFinal::unknown, PeaksFinal::no, PeaksFinal::yes,
                                             PeaksFinal::moments, PeaksFinal::forces};
@@ -44,7 +44,7 @@ inline constexpr std::array all_peaks_final{PeaksFinal::unknown, PeaksFinal::no,
 /// Whether t_end cut a peak of this kind.
 [[nodiscard]] bool is_cut(PeakKind kind, PeaksFinal final);
 
-/// The reason of a deployed run, of which it is not proven that its latches stay engaged. Else such a run has none.
+/// The reason of a deployed run without a proof that its latches stay engaged. Other deployed runs have no reason.
 inline constexpr std::string_view latches_may_let_go =
     "t_end came before a proof that every latch stays engaged";
 

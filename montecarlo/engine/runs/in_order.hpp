@@ -37,7 +37,7 @@ public:
   void finish(long chunk, Batch batch, bool complete) {
     const std::lock_guard lock(mutex_);
     waiting_.emplace(chunk, Finished{std::move(batch), complete});
-    while (!cut_ && waiting_.contains(next_)) hand_on(waiting_.extract(next_++).mapped());
+    while (!cut_ && waiting_.contains(next_)) deliver(waiting_.extract(next_++).mapped());
     moved_.notify_all();
   }
 
@@ -50,7 +50,7 @@ private:
     bool complete;
   };
 
-  void hand_on(const Finished& finished) {
+  void deliver(const Finished& finished) {
     cut_ = true; // if the sink throws, later batches are not delivered
     if (!finished.batch.rows.empty()) sink_.take(finished.batch);
     done_ += std::ssize(finished.batch.rows);

@@ -22,8 +22,8 @@ namespace wingspread {
 /// @param u output, in the order of coordinates_of(dispersions), each given by both tail probabilities, > 0
 using UnitPoints = std::function<void(long run, std::span<Tails> u)>;
 
-/// A coordinate at z of the standard normal law: Φ(z) and 1 − Φ(z), both above 0. Both are needed: beyond z = 8.2, Φ
-/// rounds to 1 and only 1 − Φ tells points apart.
+/// The coordinate of a point z of the standard normal law, by both tails: Φ(z) and 1 − Φ(z), both above 0. Both are
+/// needed: beyond z = 8.2, Φ rounds to 1, and only 1 − Φ distinguishes points.
 [[nodiscard]] Tails unit_point(double z);
 
 /// A single number computed from a run, in place of the campaign's outputs.

@@ -10,7 +10,7 @@ Runner::Runner(const RunPlan& plan) : plan_(&plan), scene_(plan.campaign().scene
 }
 
 ResultRow Runner::run(long k) {
-  const DeploymentPack::Watch taken = watch();
+  const DeploymentPack::Watch taken = make_watch();
   Observer observer;
   if (taken) observer = [&taken, k](const Sample& sample) { taken(k, sample); };
   return make(k, plan_->goal(), observer).row;
@@ -45,10 +45,10 @@ Occupancy Runner::run_all(InstructionSet set, const std::function<std::optional<
     done(row_of(k, std::move(draws.extract(k).mapped()), outcome));
   };
   return DeploymentPack(set, plan_->integration(), plan_->goal())
-      .run(plan_->campaign().scene, next_scene, ended, watch());
+      .run(plan_->campaign().scene, next_scene, ended, make_watch());
 }
 
-DeploymentPack::Watch Runner::watch() {
+DeploymentPack::Watch Runner::make_watch() {
   if (!taker_) return {};
   return [this](long k, const Sample& sample) { taker_->take(sample, samples_[k]); };
 }

@@ -48,7 +48,7 @@ private:
   void set_scene(long k, std::vector<double>& draws, Scene& scene) const;
   [[nodiscard]] ResultRow row_of(long k, std::vector<double>&& draws, Outcome& outcome);
   /// Takes the samples of runs, if the plan asks for them.
-  [[nodiscard]] DeploymentPack::Watch watch();
+  [[nodiscard]] DeploymentPack::Watch make_watch();
   [[nodiscard]] std::vector<double> outputs_of(std::span<const double> draws,
                                                const Outcome& outcome);
 

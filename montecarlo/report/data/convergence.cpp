@@ -20,16 +20,16 @@ void merge_behind(std::vector<Value>& values, std::size_t sorted, Number number)
   std::inplace_merge(values.begin(), middle, values.end(), less);
 }
 
-/// Keeps the first runs of a column sorted while their number grows.
-class Growing {
+/// The values of a column's first runs, kept sorted while their number grows, and their statistics.
+class SortedPrefix {
 public:
-  Growing(const Column& column, const Replication& replication, MissingRank end,
-          SettledColumn& settled)
-      : column_(column), replication_(replication), end_(end), settled_(settled),
+  SortedPrefix(const Column& column, const Replication& replication, MissingRank end,
+               SortedWithConvergence& result)
+      : column_(column), replication_(replication), end_(end), result_(result),
         missing_of_(static_cast<std::size_t>(replication.replicates), 0) {}
 
   void grow_to(std::size_t rows) {
-    const std::size_t before = settled_.sorted.size();
+    const std::size_t before = result_.sorted.size();
     const bool replicated = replication_.replicates > 0;
     for (; rows_ < rows; ++rows_) {
       if (replicated) replicates_ = std::max(replicates_, replication_.of_row[rows_] + 1);
@@ -37,19 +37,19 @@ public:
         if (replicated) ++missing_of_[static_cast<std::size_t>(replication_.of_row[rows_])];
         continue;
       }
-      settled_.sorted.push_back(column_.values[rows_]);
+      result_.sorted.push_back(column_.values[rows_]);
       if (replicated)
-        settled_.replicated.push_back({column_.values[rows_], replication_.of_row[rows_]});
+        result_.replicated.push_back({column_.values[rows_], replication_.of_row[rows_]});
     }
-    merge_behind(settled_.sorted, before, std::identity{});
+    merge_behind(result_.sorted, before, std::identity{});
     if (replicated)
-      merge_behind(settled_.replicated, before,
+      merge_behind(result_.replicated, before,
                    [](const ReplicateValue& each) { return each.value; });
   }
 
   [[nodiscard]] ConvergencePoint point(double p, double confidence) const {
-    const Moments all = moments(settled_.sorted);
-    return {static_cast<long>(rows_), all.mean, quantile(settled_.sorted, ranks(), p),
+    const Moments all = moments(result_.sorted);
+    return {static_cast<long>(rows_), all.mean, quantile(result_.sorted, ranks(), p),
             mean_bounds(all, confidence), quantile_bounds_at(p, confidence)};
   }
 
@@ -57,7 +57,7 @@ private:
   [[nodiscard]] Bounds mean_bounds(const Moments& all, double confidence) const {
     const bool replicated = replication_.replicates > 0;
     const double error = replicated
-                             ? replicate_mean_error(settled_.replicated, replicates_, all.mean)
+                             ? replicate_mean_error(result_.replicated, replicates_, all.mean)
                              : all.std / std::sqrt(static_cast<double>(all.count));
     const long degrees = (replicated ? replicates_ : all.count) - 1;
     if (degrees < 1 || !std::isfinite(error)) return {};
@@ -68,20 +68,20 @@ private:
   [[nodiscard]] Bounds quantile_bounds_at(double p, double confidence) const {
     return replication_.replicates > 0
                ? replicate_quantile_bounds(
-                     settled_.replicated, replicates_, p, confidence,
+                     result_.replicated, replicates_, p, confidence,
                      {std::span(missing_of_).first(static_cast<std::size_t>(replicates_)), end_})
-               : quantile_bounds(settled_.sorted, ranks(), p, confidence);
+               : quantile_bounds(result_.sorted, ranks(), p, confidence);
   }
 
   [[nodiscard]] PartialRanks ranks() const {
-    const long present = std::ssize(settled_.sorted);
+    const long present = std::ssize(result_.sorted);
     return {present, static_cast<long>(rows_) - present, end_};
   }
 
   const Column& column_;
   const Replication& replication_;
   MissingRank end_;
-  SettledColumn& settled_;
+  SortedWithConvergence& result_;
   std::size_t rows_ = 0;
   int replicates_ = 0;           ///< number of replicates with rows so far
   std::vector<long> missing_of_; ///< per replicate, so far
@@ -101,17 +101,18 @@ std::vector<long> convergence_runs(long all, std::size_t most, long first) {
   return runs;
 }
 
-SettledColumn settle_column(const Column& column, double p, double confidence,
-                            const Replication& replication, std::size_t most, MissingRank end) {
-  SettledColumn settled;
-  settled.convergence.p = p;
-  if (column.values.empty()) return settled;
-  Growing growing(column, replication, end, settled);
+SortedWithConvergence sort_with_convergence(const Column& column, double p, double confidence,
+                                            const Replication& replication, std::size_t most,
+                                            MissingRank end) {
+  SortedWithConvergence result;
+  result.convergence.p = p;
+  if (column.values.empty()) return result;
+  SortedPrefix prefix(column, replication, end, result);
   for (const long runs : convergence_runs(std::ssize(column.values), most)) {
-    growing.grow_to(static_cast<std::size_t>(runs));
-    settled.convergence.points.push_back(growing.point(p, confidence));
+    prefix.grow_to(static_cast<std::size_t>(runs));
+    result.convergence.points.push_back(prefix.point(p, confidence));
   }
-  return settled;
+  return result;
 }
 
 } // namespace wingspread

@@ -24,7 +24,7 @@ struct Convergence {
 };
 
 /// A column's values in ascending order, and the convergence of their statistics.
-struct SettledColumn {
+struct SortedWithConvergence {
   std::vector<double> sorted;
   std::vector<ReplicateValue>
       replicated; ///< the same values with their replicates; empty without replicates
@@ -38,8 +38,10 @@ struct SettledColumn {
 /// @param p          level of the quantile, in (0, 1)
 /// @param confidence two-sided confidence of every bound
 /// @param end where missing values rank
-[[nodiscard]] SettledColumn settle_column(const Column& column, double p, double confidence,
-                                          const Replication& replication, std::size_t most,
-                                          MissingRank end = MissingRank::above);
+[[nodiscard]] SortedWithConvergence sort_with_convergence(const Column& column, double p,
+                                                          double confidence,
+                                                          const Replication& replication,
+                                                          std::size_t most,
+                                                          MissingRank end = MissingRank::above);
 
 } // namespace wingspread

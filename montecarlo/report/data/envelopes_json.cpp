@@ -99,10 +99,11 @@ double end_of(const std::vector<Track>& tracks) {
   return deployed.empty() ? any : quantile(deployed, 0.98);
 }
 
-/// The state of a run at ascending times. After its end the run keeps its angles, with zero rates.
-class Follower {
+/// Interpolates the state of a run at ascending times. After its end the run keeps its angles, with zero rates.
+class TrackInterpolator {
 public:
-  Follower(const Track& track, const MotionLayout& layout) : track_(track), layout_(layout) {}
+  TrackInterpolator(const Track& track, const MotionLayout& layout)
+      : track_(track), layout_(layout) {}
 
   /// @param t at least the t of the previous call
   [[nodiscard]] MotionSample at(double t) {
@@ -128,12 +129,12 @@ using Bands = std::vector<std::vector<std::vector<double>>>;
 Bands bands_of(const std::vector<Track>& tracks, const MotionLayout& layout,
                const std::vector<double>& times) {
   Bands bands(2 * layout.hinges, std::vector(levels.size(), std::vector<double>()));
-  std::vector<Follower> followers;
-  for (const Track& track : tracks) followers.emplace_back(track, layout);
+  std::vector<TrackInterpolator> tracks_at;
+  for (const Track& track : tracks) tracks_at.emplace_back(track, layout);
   for (const double t : times) {
     std::vector<std::vector<double>> there(2 * layout.hinges);
-    for (Follower& follower : followers) {
-      const MotionSample sample = follower.at(t);
+    for (TrackInterpolator& track_at : tracks_at) {
+      const MotionSample sample = track_at.at(t);
       for (std::size_t place = 0; place < there.size(); ++place)
         there[place].push_back(sample.values[place]);
     }

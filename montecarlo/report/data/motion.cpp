@@ -8,8 +8,8 @@ namespace wingspread {
 namespace {
 
 /// The three measures of progress between two samples: time, path length of all angles, path length of all moments.
-std::array<double, 3> way(const MotionSample& from, const MotionSample& to,
-                          const MotionLayout& layout) {
+std::array<double, 3> progress_between(const MotionSample& from, const MotionSample& to,
+                                       const MotionLayout& layout) {
   std::array<double, 3> ways{to.t - from.t, 0, 0};
   for (std::size_t h = 0; h < layout.hinges; ++h) {
     ways[1] += std::abs(to.values[layout.angle(h)] - from.values[layout.angle(h)]);
@@ -23,7 +23,7 @@ std::vector<double> progress_of(std::span<const MotionSample> samples, const Mot
   std::vector<std::array<double, 3>> ways;
   std::array<double, 3> whole{0, 0, 0};
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    ways.push_back(way(samples[i - 1], samples[i], layout));
+    ways.push_back(progress_between(samples[i - 1], samples[i], layout));
     for (std::size_t k = 0; k < 3; ++k) whole[k] += ways.back()[k];
   }
   const auto there =

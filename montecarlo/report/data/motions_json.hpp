@@ -21,7 +21,7 @@ struct ChosenRun {
 /// run appears twice.
 [[nodiscard]] std::vector<ChosenRun> chosen_runs(const PageSource& source, std::size_t most = 11);
 
-/// The nominal run, then the chosen runs replayed; empty if they cannot be (PageSource::replayable).
+/// The nominal run, then the chosen runs replayed; empty if the set's runs cannot be replayed (PageSource::replayable).
 /// @param threads as of thread_count (thread_pool.hpp)
 [[nodiscard]] Json motions_json(const PageSource& source, const PageDetail& detail, int threads);
 

@@ -129,14 +129,14 @@ void add_pictures(const PageSource& source, std::size_t index, const PageDetail&
   const Column& column = source.results.outputs[index];
   const auto& asked = source.stored.campaign.statistics.quantiles;
   const double p = asked.empty() ? 0.99 : std::ranges::max(asked);
-  const SettledColumn settled =
-      settle_column(column, p, source.confidence, source.replication, detail.convergence_points,
-                    source.summary.outputs[index].missing_end);
-  json["histogram"] = histogram_json(source, index, settled.sorted, detail.bins);
-  json["curve"] = curve_json(source, distribution_curve(settled.sorted, settled.replicated,
-                                                        source.replication.replicates,
-                                                        source.confidence, detail.knots));
-  json["convergence"] = convergence_json(settled.convergence);
+  const SortedWithConvergence sorted_column =
+      sort_with_convergence(column, p, source.confidence, source.replication,
+                            detail.convergence_points, source.summary.outputs[index].missing_end);
+  json["histogram"] = histogram_json(source, index, sorted_column.sorted, detail.bins);
+  json["curve"] = curve_json(
+      source, distribution_curve(sorted_column.sorted, sorted_column.replicated,
+                                 source.replication.replicates, source.confidence, detail.knots));
+  json["convergence"] = convergence_json(sorted_column.convergence);
   column.values.release();
 }
 

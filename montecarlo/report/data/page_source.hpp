@@ -19,8 +19,9 @@ struct PageSource {
   std::string label;
   std::size_t argument = 0; ///< which of the command's folders it is from
   StoredCampaign stored;
-  std::filesystem::path made_from;     ///< the folder whose campaign reproduces the rows
-  std::vector<std::string> made_cases; ///< the cases made from it, if they are not all of its cases
+  std::filesystem::path made_from; ///< the folder whose campaign reproduces the rows
+  std::vector<std::string>
+      made_cases; ///< cases made from that folder, if some of its cases are missing
   /// The campaign without its case's changes; the set's own campaign without cases.
   Campaign before_case;
   Results results; ///< all rows; without rows (`streaming`) those of broken_runs.csv

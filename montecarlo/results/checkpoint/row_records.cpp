@@ -47,10 +47,10 @@ std::string framed(long first, std::uint32_t count, std::uint64_t draws, std::st
   return record += rows;
 }
 
-/// Reads numbers and texts from the front.
-class Taking {
+/// Reads numbers and texts from a record, one after the other.
+class BytesReader {
 public:
-  explicit Taking(std::string_view bytes) : bytes_(bytes) {}
+  explicit BytesReader(std::string_view bytes) : bytes_(bytes) {}
 
   template <class T> T number() {
     T value{};
@@ -77,7 +77,7 @@ private:
 };
 
 /// A row without its draws.
-ResultRow take_row(Taking& bytes, long run, std::size_t outputs) {
+ResultRow take_row(BytesReader& bytes, long run, std::size_t outputs) {
   ResultRow row;
   row.run = run;
   row.status = static_cast<Status>(bytes.number<unsigned char>());
@@ -109,7 +109,7 @@ void for_each_record(std::span<const ResultRow> rows,
 
 std::vector<ResultRow> rows_of_record(std::string_view record, const RunPlan& plan, RunRange next,
                                       const std::string& file) {
-  Taking bytes(record.substr(1));
+  BytesReader bytes(record.substr(1));
   const long first = bytes.number<std::int64_t>();
   const long count = bytes.number<std::uint32_t>();
   const auto recorded = bytes.number<std::uint64_t>();

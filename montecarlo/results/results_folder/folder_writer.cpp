@@ -141,11 +141,11 @@ FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
   if (is_new_folder(stored_.folder))
     write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
   else
-    go_on(plan);
+    read_existing_rows(plan);
   rows_.open(plan.names());
 }
 
-void FolderWriter::go_on(const RunPlan& plan) {
+void FolderWriter::read_existing_rows(const RunPlan& plan) {
   const StoredCampaign there = read_stored_campaign(stored_.folder);
   const Sampling& before = there.campaign.sampling;
   if (stored_.campaign.sampling.extended_from.empty() &&

@@ -42,8 +42,8 @@ public:
   void finish() { rows_.finish(); }
 
 private:
-  /// Reads the existing rows, and records an extension.
-  void go_on(const RunPlan& plan);
+  /// Reads the rows of an earlier session. If the campaign has more runs now, records the extension.
+  void read_existing_rows(const RunPlan& plan);
 
   StoredCampaign stored_;
   RowWriter rows_;

@@ -106,7 +106,8 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
 [[nodiscard]] Summary stored_summary(const StoredCampaign& stored, const Results& results,
                                      const StatisticsSpec& spec, int threads = 0);
 
-/// Draws that the campaign's laws do not give. A law without an end has one where 1e-15 of its probability is left.
+/// Draws outside the values that the campaign's laws can give. An unbounded law counts as ending where a tail of 1e-15
+/// is left.
 [[nodiscard]] std::vector<StrangeDraws> strange_draws(const Campaign& campaign,
                                                       const Results& results);
 

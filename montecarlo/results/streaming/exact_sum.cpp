@@ -6,44 +6,44 @@
 
 namespace wingspread {
 
-void ExactSum::settle(Digits& digits) {
+void ExactSum::propagate_carries(Digits& digits) {
   for (std::size_t i = 0; i + 1 < digits.size(); ++i) {
     digits[i + 1] += digits[i] >> 32; // rounds down, so that the remaining digit is not negative
     digits[i] &= static_cast<std::int64_t>(low_digit);
   }
 }
 
-void ExactSum::settle() {
-  settle(digits_);
+void ExactSum::propagate_carries() {
+  propagate_carries(digits_);
   waiting_ = 0;
 }
 
 void ExactSum::add(const ExactSum& other) {
-  settle();
+  propagate_carries();
   Digits theirs = other.digits_;
-  settle(theirs);
+  propagate_carries(theirs);
   for (std::size_t i = 0; i < digits_.size(); ++i) digits_[i] += theirs[i];
-  settle();
+  propagate_carries();
   spoilt_ = spoilt_ || other.spoilt_;
 }
 
 void ExactSum::subtract(const ExactSum& other) {
-  settle();
+  propagate_carries();
   Digits theirs = other.digits_;
-  settle(theirs);
+  propagate_carries(theirs);
   for (std::size_t i = 0; i < digits_.size(); ++i) digits_[i] -= theirs[i];
-  settle();
+  propagate_carries();
   spoilt_ = spoilt_ || other.spoilt_;
 }
 
 double ExactSum::value() const {
   if (spoilt_) return undefined;
   Digits digits = digits_;
-  settle(digits);
+  propagate_carries(digits);
   const bool negative = digits.back() < 0;
   if (negative) {
     for (std::int64_t& digit : digits) digit = -digit;
-    settle(digits);
+    propagate_carries(digits);
   }
   Sum sum; // of whole digits, the largest first: digits after the first three are below a double's last bit
   for (std::size_t i = digits.size(); i-- > 0;)
@@ -54,7 +54,7 @@ double ExactSum::value() const {
 
 void ExactSum::write(StateWriter& to) const {
   Digits digits = digits_;
-  settle(digits);
+  propagate_carries(digits);
   std::size_t first = 0, last = digits.size();
   while (first < last && digits[first] == 0) ++first;
   while (last > first && digits[last - 1] == 0) --last;

@@ -51,12 +51,12 @@ private:
     const std::int64_t sign = (bits & sign_bit) != 0 ? -1 : 1;
     digits_[static_cast<std::size_t>(digit)] += sign * low;
     digits_[static_cast<std::size_t>(digit) + 1] += sign * high;
-    if (++waiting_ == most_waiting) settle();
+    if (++waiting_ == most_waiting) propagate_carries();
   }
 
   /// Propagates carries: every digit but the last is in [0, 2^32) afterwards.
-  void settle();
-  static void settle(Digits& digits);
+  void propagate_carries();
+  static void propagate_carries(Digits& digits);
 
   Digits digits_{};
   int waiting_ = 0;

@@ -23,8 +23,8 @@ namespace wingspread {
 /// Most kinds of latch orders counted separately; kinds that appear later are counted together. Heuristic: 100,000
 /// texts take some 10 MB. With more kinds, merging shards is refused, because the common count cannot be split.
 inline constexpr std::size_t most_order_kinds = 100'000;
-/// Most pairs of draws and outputs; with more pairs no correlations are computed. A pair takes 5 exact sums of 552
-/// bytes: 40,000 pairs are 110 MB.
+/// Most pairs of draws and outputs; with more pairs no correlations are computed. A pair takes 5 exact sums of 544
+/// bytes: 40,000 pairs are 109 MB.
 inline constexpr std::size_t most_streaming_pairs = 40'000;
 
 /// An output used by a requirement or a tolerance limit. Its population covers all runs: runs that rank as worse than

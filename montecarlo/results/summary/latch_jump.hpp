@@ -1,9 +1,9 @@
 /// Latches whose damping, and not the wing, decides a peak: engaging at a rate ω, a latch with a damping d makes the
 /// moment jump to d·ω. The damping is seldom measured.
 ///
-/// On a flexible body the jump acts at once on the body's end segment, of mass and inertia in proportion to 1/joints. The
-/// segment's acceleration, and with it the force in its hinge, grows in proportion to the number of joints: the force at
-/// that instant is one of the segments, and no estimate of the panel's.
+/// On a flexible body the jump acts on the end segment alone, whose mass and inertia vary as 1/joints. Its
+/// acceleration, and with it the force in its hinge, grows in proportion to the number of joints. So the force at that
+/// instant depends on the segmentation, and does not estimate the panel's.
 #pragma once
 
 #include "core/outcome.hpp"
@@ -28,8 +28,8 @@ struct LatchJump {
 /// "latch damping makes most of the peak moment of root (57 %), tip (100 %): …", one line for all. @pre not empty
 [[nodiscard]] std::string warning(std::span<const LatchJump> jumps);
 
-/// The hinges whose peak force is at the instant at which a latch with damping engages on a flexible body, in the scene's
-/// order; none if peak forces are not known.
+/// The hinges whose peak force is at the instant at which a latch with damping engages on a flexible body, in the
+/// scene's order; none if peak forces are not known.
 [[nodiscard]] std::vector<std::string> forces_of_jumps(const Scene& scene, const Outcome& outcome);
 
 /// "r.peak_force grows with the number of joints …", one line for all. @pre not empty

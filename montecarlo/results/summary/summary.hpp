@@ -175,7 +175,8 @@ struct Summary {
                                 const Replication& replication = {}, int threads = 0,
                                 std::span<const Requirement> requirements = {});
 
-/// "above every value", "below every value", or the former and that the bounds hold for both ends.
+/// "above every value" or "below every value". For MissingRank::either the former, with the note that the bounds hold
+/// for both ends.
 [[nodiscard]] std::string_view words_of(MissingRank end);
 /// Why an output lacks a quantile over all runs: "976 of 1000 runs have a value; the others rank above every value".
 /// Empty if it has it.

@@ -12,8 +12,8 @@ namespace wingspread {
 /// tolerance limits, requirements with the runs that break them, stopping goals, and warnings.
 /// @param title first line: campaign, number of runs, seed
 /// @param folder of the files; empty: none
-/// @param all    a line for every status and every output, and the accuracy of each; else those that say nothing share
-///               a line
+/// @param all    true: a line for every status and every output, and the accuracy of each. false: statuses without runs
+///               share a line, and so do quiet outputs (is_quiet)
 [[nodiscard]] std::string summary_table(const Summary& summary, std::string_view title,
                                         std::string_view folder, bool all = false);
 

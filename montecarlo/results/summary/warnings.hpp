@@ -14,8 +14,8 @@ namespace wingspread {
 [[nodiscard]] PeaksCount count_peaks_final(const Results& results);
 
 /// One line for each warning, in this order: all runs are the same; overtravel; latches whose damping decides the
-/// nominal peak; peaks cut by t_end; latches that may let go after it; outputs that moved at a tighter tolerance; limits on the other side of zero from
-/// every value.
+/// nominal peak; peaks cut by t_end; latches that may let go after t_end; outputs that moved at a tighter tolerance;
+/// limits on the other side of zero from every value.
 [[nodiscard]] std::vector<std::string> warnings(const Summary& summary);
 
 /// The warnings of all cases, each followed by the names of its cases. Warnings that differ only in numbers are merged:

@@ -18,8 +18,8 @@ TEST_CASE("runs of a convergence are even in the logarithm and end with all", "[
 
 TEST_CASE("a convergence is of the first runs, by hand", "[page]") {
   const Column column = column_of("x", {4, nothing, 2, 6, 8, 1, 3, 5, 7, 9, 11, 13});
-  const SettledColumn settled = settle_column(column, 0.5, 0.95, {}, 3);
-  const auto& points = settled.convergence.points; // after 10, 11 and 12 runs
+  const SortedWithConvergence sorted_column = sort_with_convergence(column, 0.5, 0.95, {}, 3);
+  const auto& points = sorted_column.convergence.points; // after 10, 11 and 12 runs
   REQUIRE(points.size() == 3);
   CHECK(points[0].runs == 10);
   CHECK(points[0].mean == 5); // 1 … 9
@@ -28,15 +28,16 @@ TEST_CASE("a convergence is of the first runs, by hand", "[page]") {
   CHECK(*points[0].mean_bounds.upper ==
         Approx(5 + 2.306004135204166 * error).epsilon(1e-12)); // t of 8
   CHECK(points[2].mean == Approx(69.0 / 11));
-  CHECK(settled.sorted == std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 13});
+  CHECK(sorted_column.sorted == std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 13});
   const PartialRanks with_missing{11, 1};
   CHECK(points[2].quantile_bounds.lower ==
-        quantile_bounds(settled.sorted, with_missing, 0.5, 0.95).lower);
+        quantile_bounds(sorted_column.sorted, with_missing, 0.5, 0.95).lower);
   CHECK(points[2].quantile == 6); // the sixth of twelve, the missing one the last
+  CHECK(sort_with_convergence(column, 0.5, 0.95, {}, 3, MissingRank::below)
+            .convergence.points[2]
+            .quantile == 5);
   CHECK(
-      settle_column(column, 0.5, 0.95, {}, 3, MissingRank::below).convergence.points[2].quantile ==
-      5);
-  CHECK(std::isnan(settle_column(column, 0.95, 0.95, {}, 3).convergence.points[2].quantile));
+      std::isnan(sort_with_convergence(column, 0.95, 0.95, {}, 3).convergence.points[2].quantile));
 }
 
 TEST_CASE("a convergence ends where the summary stands, of replicates too", "[page]") {
@@ -51,13 +52,14 @@ TEST_CASE("a convergence ends where the summary stands, of replicates too", "[pa
     results.append({row, Status::deployed, {}, {values[static_cast<std::size_t>(row)]}, "a", ""});
   const double p = 0.8;
   const OutputSummary summary = summarize(results, {.quantiles = {p}}, replication).outputs[0];
-  const SettledColumn settled = settle_column(column, p, 0.95, replication, 20);
-  const ConvergencePoint& last = settled.convergence.points.back();
+  const SortedWithConvergence sorted_column =
+      sort_with_convergence(column, p, 0.95, replication, 20);
+  const ConvergencePoint& last = sorted_column.convergence.points.back();
   CHECK(last.mean == summary.moments.mean);
   CHECK(last.quantile == summary.quantiles[0].all.value);
   CHECK(last.quantile_bounds.lower == summary.quantiles[0].all.bounds.lower);
   CHECK(*last.mean_bounds.upper - last.mean ==
-        Approx(3.182446305284263 * summary.mean_error));        // t of 3
-  CHECK(!settled.convergence.points.front().mean_bounds.lower); // one replicate tells nothing
-  CHECK(settled.replicated.size() == settled.sorted.size());
+        Approx(3.182446305284263 * summary.mean_error));              // t of 3
+  CHECK(!sorted_column.convergence.points.front().mean_bounds.lower); // one replicate tells nothing
+  CHECK(sorted_column.replicated.size() == sorted_column.sorted.size());
 }
