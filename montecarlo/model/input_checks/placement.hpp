@@ -1,8 +1,8 @@
 /// The bodies' positions at given hinge angles, to compare with the drawing.
 ///
-/// | symbol | meaning                                                    | unit |
-/// |--------|------------------------------------------------------------|------|
-/// | θ_i    | absolute angle of body i: θ_i = θ_p + φ_i  | rad  |
+/// | symbol | meaning                                                          | unit |
+/// |--------|------------------------------------------------------------------|------|
+/// | θ_i    | absolute angle of body i: θ_i = θ_p + φ_i                        | rad  |
 /// | r_i    | centre of mass of body i: r_i = r_p + R(θ_p) c_pi − R(θ_i) c_ii  | m    |
 #pragma once
 
