@@ -131,7 +131,8 @@ TEST_CASE("the loop of equal panels tends to the rigid one as it stiffens, as 1/
   }
 }
 
-TEST_CASE("equal panels in closed form: time and rate of their latching, to the digits written down") {
+TEST_CASE(
+    "equal panels in closed form: time and rate of their latching, to the digits written down") {
   const auto check = [](const RigidPanels& rigid, double time, double rate) {
     const Outcome out = run_panels(rigid, 1e7, 1e-9);
     CHECK(std::abs(out.latches[0].time - time) < 2e-6);     // half a last digit, and 7/K
