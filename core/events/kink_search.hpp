@@ -135,9 +135,9 @@ private:
     if (only_jumps && !jumps(loop)) return;
     const Quintic<T> elastic = elastic_over_step(system_, step_, l);
     if (loop.table && !only_jumps) search_gear(loop, largest(elastic.front(), elastic.back()));
-    if (!(bound(elastic) > loop.slack_beyond) || (limit_.leaps_only && !jumps(loop))) return;
+    if (!(bound(elastic) > loop.slack_beyond)) return;
     const T jump = jumps(loop) ? jump_of_loop(loop, elastic, step_.h) : T(0);
-    const T turn(limit_.leaps_only ? 0 : 0.5);
+    const T turn(only_jumps ? 0 : 0.5);
     for (const T& at : {T(-loop.slack_beyond), loop.slack_beyond}) {
       offer_passage({Of::strands, l, at, T(0)}, elastic, {loop.second, jump, turn, T(0)});
       const T gear = largest_gear(loop);
