@@ -31,13 +31,14 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
 COPY = pathlib.Path(os.environ.get("MUTANTS_FOLDER", SOURCE / "build/mutants"))
 RESULTS = COPY / "results.json"
 BUILD = COPY / "build/release"  # laid out as tests/run does it, so that ccache has what has no fault
-COPIED = ["CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "core", "distributions", "montecarlo", "tests", "studies"]
+COPIED = [":(glob)*", "core", "distributions", "montecarlo", "tests", "studies"]  # the first: files that lie at the top
 PAGE = "montecarlo/report/page/"
 # entry points of other programs, and code for other processors
 LEFT_OUT = re.compile(r"(main|mpi_transport|module|hdf5_missing|pack_neon|pack_avx512|runs_fma)\.cpp$")
@@ -225,30 +226,35 @@ def tracked_page():
 
 
 class Clock:
-    """The processor's time of each stage without a fault: it must pass."""
+    """The processor's time of each stage without a fault: it must pass. Measured where the first fault comes to it."""
 
     def __init__(self):
         self.known = {}
+        self.locks = collections.defaultdict(threading.Lock)
 
     def limit(self, stage):
         key = tuple(stage)
-        if key not in self.known:
-            before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            with tempfile.TemporaryDirectory() as scratch:
-                passes, text = meet_stage(stage, 0, None, 3600, pathlib.Path(scratch))
-            after = resource.getrusage(resource.RUSAGE_CHILDREN)
-            if not passes:
-                sys.exit(f"mutants.py: {' '.join(stage)} fails without any fault: {what_failed(text)}")
-            self.known[key] = max(20, round(5 * (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)))
+        with self.locks[key]:
+            return self.known.get(key) or self.measure(key, stage)
+
+    def measure(self, key, stage):
+        """Faults that other threads meet meanwhile may lengthen the limit, never shorten it."""
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        with tempfile.TemporaryDirectory() as scratch:
+            passes, text = meet_stage(stage, 0, None, 3600, pathlib.Path(scratch))
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if not passes:
+            sys.exit(f"mutants.py: {' '.join(stage)} fails without any fault: {what_failed(text)}")
+        self.known[key] = max(20, round(5 * (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)))
         return self.known[key]
 
 
-def meet(number, fault, limits, quick):
+def meet(number, fault, clock, quick):
     """@return which test sees it, or None; and whether any test reached it"""
     with tempfile.TemporaryDirectory() as folder:
         scratch = pathlib.Path(folder)
         for stage in stages(fault["file"], quick):
-            passes, text = meet_stage(stage, number, fault, limits[tuple(stage)], scratch)
+            passes, text = meet_stage(stage, number, fault, clock.limit(stage), scratch)
             if not passes:
                 return {"seen": f"{stage[0]}: {what_failed(text)}"}
         return {"seen": None, "reached": fault["file"].endswith(".js") or (scratch / "reached").exists()}
@@ -299,11 +305,9 @@ def main():
         return
     compiled = build(faults, arguments.jobs, arguments.quick, arguments.tests_from) if any(not fault["file"].endswith(".js") for fault in faults.values()) else faults
     chosen = {number: fault for number, fault in compiled.items() if not arguments.unseen or last["seen"].get(str(number), 0) is None}
-    clock = Clock()
-    limits = {tuple(stage): clock.limit(stage) for fault in chosen.values() for stage in stages(fault["file"], arguments.quick)}
-    results = {}
+    clock, results = Clock(), {}
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        waiting = {pool.submit(meet, number, fault, limits, arguments.quick): number for number, fault in chosen.items()}
+        waiting = {pool.submit(meet, number, fault, clock, arguments.quick): number for number, fault in chosen.items()}
         for done in concurrent.futures.as_completed(waiting):
             number = waiting[done]
             results[number] = done.result()
