@@ -29,8 +29,9 @@ RunCost cost_of(const Scene& scene, Integration integration, Goal goal) {
   const auto start = std::chrono::steady_clock::now();
   const Outcome outcome = Deployment().run(scene, integration, goal);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  return {taken.count(), outcome.work.rhs_evaluations, limited && outcome.status == Status::failed,
-          outcome.status, outcome.reason};
+  const bool at_limit = outcome.reason.find("max_steps") != std::string::npos;
+  return {taken.count(), outcome.work.rhs_evaluations,
+          limited && outcome.status == Status::failed && at_limit, outcome.status, outcome.reason};
 }
 
 /// "3.1 ms", "0.4 s", "40 s", "2 min", "5 h": one or two digits.
@@ -59,7 +60,7 @@ void add_not_deployed(const RunCost& cost, const std::string& of_case, NominalRu
 
 NominalRuns try_nominal(const Scene& scene, const Integration& integration) {
   const RunCost cost = cost_of(scene, integration, {});
-  NominalRuns runs{nominal_text(cost), {}, cost.seconds};
+  NominalRuns runs{nominal_text(cost), {}, cost.seconds, cost.at_least};
   add_not_deployed(cost, "", runs);
   return runs;
 }
@@ -77,15 +78,16 @@ NominalRuns try_nominal(const Campaign& campaign) {
   const int threads = thread_count(0);
   const std::string of_cases =
       cases.size() > 1 ? fmt::format(" in {} cases", cases.size()) : std::string();
-  tried.seconds = cost.seconds;
-  tried.cost = fmt::format("{}; {}{}: about {} on {}, less in packs", nominal_text(cost),
+  tried.seconds = cost.seconds, tried.at_least = cost.at_least;
+  tried.cost = fmt::format("{}; {}{}: {} on {}, less in packs", nominal_text(cost),
                            counted(runs, "run", "runs"), of_cases, time_of_runs(tried, runs),
                            counted(threads, "thread", "threads"));
   return tried;
 }
 
 std::string time_of_runs(const NominalRuns& nominal, long runs) {
-  return duration(nominal.seconds * static_cast<double>(runs) / thread_count(0));
+  return (nominal.at_least ? "more than " : "about ") +
+         duration(nominal.seconds * static_cast<double>(runs) / thread_count(0));
 }
 
 } // namespace wingspread
