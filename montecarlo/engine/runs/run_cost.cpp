@@ -48,12 +48,19 @@ std::string nominal_text(const RunCost& cost) {
                      cost.at_least ? "more than " : "", cost.evaluations, duration(cost.seconds));
 }
 
-/// A run that was given up is not known to end without deployment.
-void add_not_deployed(const RunCost& cost, const std::string& of_case, NominalRuns& runs) {
-  if (cost.status == Status::deployed || cost.at_least) return;
-  runs.not_deployed.push_back(fmt::format(
-      "the nominal wing{} does not deploy: {}{}", of_case.empty() ? "" : " of case " + of_case,
-      spaced(to_string(cost.status)), cost.reason.empty() ? "" : " (" + cost.reason + ")"));
+/// The input checks of a motion (input_checks/clearance_check.hpp) give up as early.
+void add_note(const RunCost& cost, const std::string& of_case, NominalRuns& runs) {
+  if (cost.status == Status::deployed) return;
+  const std::string wing = "the nominal wing" + (of_case.empty() ? "" : " of case " + of_case);
+  if (cost.at_least)
+    runs.notes.push_back(fmt::format(
+        "{} was followed for {} trial steps only: whether it deploys is not known, and no warning "
+        "is of what comes later (bodies that pass through each other, releases, latches)",
+        wing, most_steps));
+  else
+    runs.notes.push_back(fmt::format("{} does not deploy: {}{}", wing,
+                                     spaced(to_string(cost.status)),
+                                     cost.reason.empty() ? "" : " (" + cost.reason + ")"));
 }
 
 } // namespace
@@ -61,7 +68,7 @@ void add_not_deployed(const RunCost& cost, const std::string& of_case, NominalRu
 NominalRuns try_nominal(const Scene& scene, const Integration& integration) {
   const RunCost cost = cost_of(scene, integration, {});
   NominalRuns runs{nominal_text(cost), {}, cost.seconds, cost.at_least};
-  add_not_deployed(cost, "", runs);
+  add_note(cost, "", runs);
   return runs;
 }
 
@@ -71,7 +78,7 @@ NominalRuns try_nominal(const Campaign& campaign) {
   std::vector<RunCost> costs;
   for (const Campaign& each : cases) {
     costs.push_back(cost_of(nominal_scene(each), each.integration, goal_of(each.outputs)));
-    add_not_deployed(costs.back(), each.of_case, tried);
+    add_note(costs.back(), each.of_case, tried);
   }
   const RunCost& cost = costs.front();
   const long runs = campaign.sampling.runs * std::ssize(cases);

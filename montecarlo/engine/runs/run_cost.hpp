@@ -12,8 +12,9 @@ namespace wingspread {
 /// Cost and outcome of nominal runs.
 struct NominalRuns {
   std::string cost; ///< "the nominal run takes 1240 evaluations, 3 ms"
-  /// One for each nominal wing that does not deploy: "the nominal wing of case cold does not deploy: stalled (…)".
-  std::vector<std::string> not_deployed;
+  /// One for each nominal wing that does not deploy: "the nominal wing of case cold does not deploy: stalled (…)"; or whose
+  /// run was given up.
+  std::vector<std::string> notes;
   double seconds = 0;    ///< of the nominal run of the first case
   bool at_least = false; ///< that run was given up: it takes longer
 };

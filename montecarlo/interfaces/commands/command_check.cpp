@@ -99,7 +99,7 @@ int check(const CheckOptions& options) {
   fmt::print("{}", wrapped_lines(text + "cost: " + tried.cost + '\n' + margin));
   draw(options.draw, std::visit([](const auto& spec) { return scene_of(spec); }, read));
   print_warnings(warnings, false); // last, where the user sees them
-  for (const std::string& line : tried.not_deployed) fmt::print(stderr, "note: {}\n", line);
+  for (const std::string& line : tried.notes) fmt::print(stderr, "note: {}\n", line);
   return exit_code::done;
 }
 
