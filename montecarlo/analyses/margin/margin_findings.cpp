@@ -118,6 +118,17 @@ MarginEdge upper_edge(const MarginSearch& search, const Window& window) {
   return edge(search, window.upper, window.above);
 }
 
+ScaleGap widest_gap(const MarginSearch& search, const Window& window) {
+  ScaleGap widest{window.lower, window.lower};
+  for (auto below = search.seen.find(window.lower); below->first < window.upper;) {
+    const auto above = std::next(below);
+    if (above->first / below->first > widest.upper / widest.lower)
+      widest = {below->first, above->first};
+    below = above;
+  }
+  return widest;
+}
+
 double window_confidence(const Campaign& campaign, const MarginResult& result,
                          const Window& window) {
   std::vector<double> confidences;
@@ -183,7 +194,7 @@ std::string_view rule_of(const MarginSearch& search) {
 std::string why_this_one(const MarginSearch& search) {
   const auto [lower, upper] = search.as_good;
   if (lower == upper) return "";
-  return fmt::format(". All scales from {} to {} are as good: {}", lower, upper,
+  return fmt::format(". All scales seen from {} to {} are as good: {}", lower, upper,
                      *search.recommended == 1 ? "the present springs are among them and are kept"
                                               : "their geometric mean is recommended");
 }

@@ -35,9 +35,16 @@ struct MarginEdge {
 [[nodiscard]] MarginEdge lower_edge(const MarginSearch& search, const Window& window);
 [[nodiscard]] MarginEdge upper_edge(const MarginSearch& search, const Window& window);
 
+/// The neighbouring scales of a window that are furthest apart by ratio; equal for a window of one scale. Nothing was run
+/// between them: a requirement that fails only there is not seen (window_search.hpp).
+struct ScaleGap {
+  double lower, upper;
+};
+[[nodiscard]] ScaleGap widest_gap(const MarginSearch& search, const Window& window);
+
 /// A lower bound of the confidence that the found window lies within the true window: 1 − Σ(1 − c) over all conditions
-/// at each edge (an end of the range is no edge). It holds if no draw is out of order (margin_study.hpp). At most 0: no
-/// guarantee.
+/// at each edge (an end of the range is no edge). It holds if no draw is out of order (margin_study.hpp), between
+/// the scales that were run too. At most 0: no guarantee.
 [[nodiscard]] double window_confidence(const Campaign& campaign, const MarginResult& result,
                                        const Window& window);
 

@@ -72,7 +72,9 @@ private:
   }
 
   [[nodiscard]] Json window(const Window& window) const {
+    const auto [from, to] = widest_gap(search_, window);
     return {{"lower", edge(lower_edge(search_, window))},
+            {"widest_gap", {{"from", from}, {"to", to}}},
             {"upper", edge(upper_edge(search_, window))},
             {"joint_confidence", window_confidence(report_.campaign, report_.result, window)}};
   }
@@ -177,6 +179,8 @@ Json definitions() {
       {"edge", "the outermost scale that passes; what sets it fails at fails_at, within the "
                "tolerance; range_end: nothing fails up to where the search ended, at the limit to "
                "which the range may be widened: no edge"},
+      {"widest_gap", "neighbouring scales of the window, furthest apart by ratio: nothing was run "
+                     "between them, and what fails only there is not seen"},
       {"as_well", "further requirements that fail there because the same runs do not deploy"},
       {"verdict", "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; what did not "
                   "deploy or happen counts against it; disproved: the opposite is shown"},

@@ -96,7 +96,20 @@ private:
 
   [[nodiscard]] std::string window(const Window& window) const {
     return edge("weakest springs", lower_edge(search_, window)) + recommended() +
-           edge("strongest springs", upper_edge(search_, window)) + together(window);
+           edge("strongest springs", upper_edge(search_, window)) + together(window) +
+           unseen(window);
+  }
+
+  /// The widest gap between the window's scales.
+  [[nodiscard]] std::string unseen(const Window& window) const {
+    const auto [lower, upper] = widest_gap(search_, window);
+    if (!(upper > lower)) return "";
+    return paragraph(
+        fmt::format("nothing was run between neighbouring scales of the window, up to "
+                    "{:.2g} % apart ({} and {}): what fails only there is not seen. More "
+                    "\"points\" bring them closer",
+                    100 * (upper / lower - 1), lower, upper),
+        2);
   }
 
   [[nodiscard]] static std::string below(std::string_view words) { return paragraph(words, 34); }

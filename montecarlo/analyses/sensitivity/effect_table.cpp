@@ -93,11 +93,13 @@ void MovedBy::add(const std::string& output, std::size_t count,
               wrapped(fmt::format("{}", fmt::join(parts, ", ")), name_width + 2) + '\n';
 }
 
-std::string MovedBy::table(std::string_view heading) const {
+std::string MovedBy::table(std::string_view heading, std::string_view limits) const {
   std::string text = in_column("OUTPUT", name_width + 2) + std::string(heading) + '\n' + lines_;
   if (!unmoved_.empty())
-    text += "  " + wrapped(fmt::format("nothing visible moves {}", fmt::join(unmoved_, ", ")), 2) +
-            '\n';
+    text +=
+        "  " +
+        wrapped(fmt::format("nothing visible moves {}{}", fmt::join(unmoved_, ", "), limits), 2) +
+        '\n';
   return text;
 }
 

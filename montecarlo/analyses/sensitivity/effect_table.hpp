@@ -52,7 +52,8 @@ public:
            const std::function<std::string(std::size_t)>& text);
 
   /// A line for each output, then one with all outputs that nothing moves. @param heading of the second column
-  [[nodiscard]] std::string table(std::string_view heading) const;
+  /// @param limits what the method cannot see, after the names of these outputs
+  [[nodiscard]] std::string table(std::string_view heading, std::string_view limits = "") const;
 
 private:
   std::string lines_;

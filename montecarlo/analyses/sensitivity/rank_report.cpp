@@ -125,7 +125,10 @@ std::string moved_by_table(const RankSensitivity& all, std::string_view title) {
         [&](std::size_t j) { return fmt::format("{} {:.2f}", all.dispersions[j], larger(j)); });
   }
   return fmt::format("{}\n\n", title) +
-         moved.table("moved by (rank correlation, partial or Spearman's, the larger)");
+         moved.table(
+             "moved by (rank correlation, partial or Spearman's, the larger)",
+             " one way. A draw that moves an output both ways has no rank correlation: Sobol' "
+             "indices show it (sensitivity of the campaign's file)");
 }
 
 std::vector<std::string> warnings(const RankSensitivity& all) {

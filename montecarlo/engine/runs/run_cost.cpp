@@ -29,8 +29,9 @@ RunCost cost_of(const Scene& scene, Integration integration, Goal goal) {
   const auto start = std::chrono::steady_clock::now();
   const Outcome outcome = Deployment().run(scene, integration, goal);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  return {taken.count(), outcome.work.rhs_evaluations, limited && outcome.status == Status::failed,
-          outcome.status, outcome.reason};
+  const bool at_limit = outcome.reason.find("max_steps") != std::string::npos;
+  return {taken.count(), outcome.work.rhs_evaluations,
+          limited && outcome.status == Status::failed && at_limit, outcome.status, outcome.reason};
 }
 
 /// "3.1 ms", "0.4 s", "40 s", "2 min", "5 h": one or two digits.
@@ -47,20 +48,27 @@ std::string nominal_text(const RunCost& cost) {
                      cost.at_least ? "more than " : "", cost.evaluations, duration(cost.seconds));
 }
 
-/// A run that was given up is not known to end without deployment.
-void add_not_deployed(const RunCost& cost, const std::string& of_case, NominalRuns& runs) {
-  if (cost.status == Status::deployed || cost.at_least) return;
-  runs.not_deployed.push_back(fmt::format(
-      "the nominal wing{} does not deploy: {}{}", of_case.empty() ? "" : " of case " + of_case,
-      spaced(to_string(cost.status)), cost.reason.empty() ? "" : " (" + cost.reason + ")"));
+/// The input checks of a motion (input_checks/clearance_check.hpp) give up as early.
+void add_note(const RunCost& cost, const std::string& of_case, NominalRuns& runs) {
+  if (cost.status == Status::deployed) return;
+  const std::string wing = "the nominal wing" + (of_case.empty() ? "" : " of case " + of_case);
+  if (cost.at_least)
+    runs.notes.push_back(fmt::format(
+        "{} was followed for {} trial steps only: whether it deploys is not known, and no warning "
+        "is of what comes later (bodies that pass through each other, releases, latches)",
+        wing, most_steps));
+  else
+    runs.notes.push_back(fmt::format("{} does not deploy: {}{}", wing,
+                                     spaced(to_string(cost.status)),
+                                     cost.reason.empty() ? "" : " (" + cost.reason + ")"));
 }
 
 } // namespace
 
 NominalRuns try_nominal(const Scene& scene, const Integration& integration) {
   const RunCost cost = cost_of(scene, integration, {});
-  NominalRuns runs{nominal_text(cost), {}, cost.seconds};
-  add_not_deployed(cost, "", runs);
+  NominalRuns runs{nominal_text(cost), {}, cost.seconds, cost.at_least};
+  add_note(cost, "", runs);
   return runs;
 }
 
@@ -70,22 +78,23 @@ NominalRuns try_nominal(const Campaign& campaign) {
   std::vector<RunCost> costs;
   for (const Campaign& each : cases) {
     costs.push_back(cost_of(nominal_scene(each), each.integration, goal_of(each.outputs)));
-    add_not_deployed(costs.back(), each.of_case, tried);
+    add_note(costs.back(), each.of_case, tried);
   }
   const RunCost& cost = costs.front();
   const long runs = campaign.sampling.runs * std::ssize(cases);
   const int threads = thread_count(0);
   const std::string of_cases =
       cases.size() > 1 ? fmt::format(" in {} cases", cases.size()) : std::string();
-  tried.seconds = cost.seconds;
-  tried.cost = fmt::format("{}; {}{}: about {} on {}, less in packs", nominal_text(cost),
+  tried.seconds = cost.seconds, tried.at_least = cost.at_least;
+  tried.cost = fmt::format("{}; {}{}: {} on {}, less in packs", nominal_text(cost),
                            counted(runs, "run", "runs"), of_cases, time_of_runs(tried, runs),
                            counted(threads, "thread", "threads"));
   return tried;
 }
 
 std::string time_of_runs(const NominalRuns& nominal, long runs) {
-  return duration(nominal.seconds * static_cast<double>(runs) / thread_count(0));
+  return (nominal.at_least ? "more than " : "about ") +
+         duration(nominal.seconds * static_cast<double>(runs) / thread_count(0));
 }
 
 } // namespace wingspread

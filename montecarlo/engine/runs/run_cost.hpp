@@ -12,12 +12,14 @@ namespace wingspread {
 /// Cost and outcome of nominal runs.
 struct NominalRuns {
   std::string cost; ///< "the nominal run takes 1240 evaluations, 3 ms"
-  /// One for each nominal wing that does not deploy: "the nominal wing of case cold does not deploy: stalled (…)".
-  std::vector<std::string> not_deployed;
-  double seconds = 0; ///< of the nominal run of the first case
+  /// One for each nominal wing that does not deploy: "the nominal wing of case cold does not deploy: stalled (…)"; or whose
+  /// run was given up.
+  std::vector<std::string> notes;
+  double seconds = 0;    ///< of the nominal run of the first case
+  bool at_least = false; ///< that run was given up: it takes longer
 };
 
-/// The time of so many runs like the nominal one on this machine's threads: "40 s".
+/// The time of so many runs like the nominal one on this machine's threads: "about 40 s", or "more than 40 s".
 [[nodiscard]] std::string time_of_runs(const NominalRuns& nominal, long runs);
 
 /// Runs the scene once and measures the run; gives up after 50,000 trial steps.

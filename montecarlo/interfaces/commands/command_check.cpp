@@ -68,7 +68,7 @@ std::string margin_cost(const Scene& /*scene*/, const NominalRuns& /*tried*/) { 
 std::string margin_cost(const Campaign& campaign, const NominalRuns& tried) {
   if (!campaign.margin || campaign.requirements.empty()) return "";
   const MarginRuns runs = margin_runs(campaign);
-  return fmt::format("cost of margin: at least {} runs (about {}), at most {} (about {}), by the "
+  return fmt::format("cost of margin: at least {} runs ({}), at most {} ({}), by the "
                      "nominal run's time\n",
                      runs.least, time_of_runs(tried, runs.least), runs.most,
                      time_of_runs(tried, runs.most));
@@ -99,7 +99,7 @@ int check(const CheckOptions& options) {
   fmt::print("{}", wrapped_lines(text + "cost: " + tried.cost + '\n' + margin));
   draw(options.draw, std::visit([](const auto& spec) { return scene_of(spec); }, read));
   print_warnings(warnings, false); // last, where the user sees them
-  for (const std::string& line : tried.not_deployed) fmt::print(stderr, "note: {}\n", line);
+  for (const std::string& line : tried.notes) fmt::print(stderr, "note: {}\n", line);
   return exit_code::done;
 }
 

@@ -2,10 +2,12 @@
 
 #include "core/scene/torque.hpp"
 #include "montecarlo/model/static_margins/drive.hpp"
+#include "montecarlo/model/static_margins/least_quotient.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace wingspread {
@@ -61,8 +63,16 @@ double net_torque(const Scene& scene, const HingeDrive& drive, double x,
 void check_net(const Scene& scene, const HingeDrive& drive, InputWarnings& warnings) {
   const StaticMarginSpec spec = default_static_margins(scene);
   Least least;
-  for (const double x : places_of_least(scene, drive))
-    least.add(net_torque(scene, drive, x, spec), x);
+  const auto add = [&](double x) { least.add(net_torque(scene, drive, x, spec), x); };
+  const std::vector<double> places = places_of_least(scene, drive);
+  std::ranges::for_each(places, add);
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    std::array<double, cubic_samples.size()> inside;
+    for (std::size_t s = 0; s < inside.size(); ++s)
+      inside[s] =
+          net_torque(scene, drive, std::lerp(places[k - 1], places[k], cubic_samples[s]), spec);
+    add(std::lerp(places[k - 1], places[k], Cubic::through(inside).place_of_least()));
+  }
   if (!is_negative(least)) return;
   const int leading = drive.hinges.front();
   warnings.add(fmt::format("/hinges/{}/spring", leading),

@@ -1,6 +1,7 @@
 #include "montecarlo/model/static_margins/drive.hpp"
 
 #include "core/scene/curve.hpp"
+#include "montecarlo/model/static_margins/least_quotient.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +98,7 @@ void add_places(const Scene& scene, const HingeDrive& drive, std::size_t member,
   }
 }
 
-/// Adds places along the loops' tables: between knots, g is a cubic, and margins may have minima inside.
+/// Adds places along the loops' tables: between knots, g is a cubic.
 void add_loop_places(const Scene& scene, const HingeDrive& drive, std::vector<double>& points) {
   for (std::size_t member = 1; member < drive.hinges.size(); ++member) {
     const HingeDrive::Link& link = drive.links[member - 1];
@@ -113,6 +114,40 @@ void add_loop_places(const Scene& scene, const HingeDrive& drive, std::vector<do
     else
       add_places(scene, drive, first, parts_between(std::move(knots)), points);
   }
+}
+
+/// Whether a term may be no line between two places.
+bool has_curves(const Scene& scene, const HingeDrive& drive) {
+  const auto is_curved = [&](int hinge) {
+    const Hinge& each = scene.hinges[hinge];
+    return each.spring.table || each.harness.table || (each.motor && each.motor->table);
+  };
+  return std::ranges::any_of(drive.hinges, is_curved) ||
+         std::ranges::any_of(drive.links, [&](const HingeDrive::Link& link) {
+           return bool(scene.synchronisations[link.loop].table);
+         });
+}
+
+/// The places between two at which margins may be less than these.
+std::vector<double> places_below(const Margins& least, const Scene& scene, const HingeDrive& drive,
+                                 const StaticMarginSpec& spec, double from, double to) {
+  std::array<std::array<double, cubic_samples.size()>, margin_kind_names.size()> available,
+      required;
+  for (std::size_t k = 0; k < cubic_samples.size(); ++k) {
+    double largest_spring = 0;
+    const double x = std::lerp(from, to, cubic_samples[k]);
+    const TorqueTerms terms = terms_at(scene, drive, x, spec, &largest_spring);
+    const auto quotients = torque_quotients(terms, largest_spring, spec);
+    for (std::size_t kind = 0; kind < quotients.size(); ++kind)
+      available[kind][k] = quotients[kind].available, required[kind][k] = quotients[kind].required;
+  }
+  std::vector<double> places;
+  for (std::size_t kind = 0; kind < least.size(); ++kind) {
+    const Cubic over = Cubic::through(available[kind]), under = Cubic::through(required[kind]);
+    if (const auto u = place_of_least_quotient(over, under, least[kind] + 1))
+      places.push_back(std::lerp(from, to, *u));
+  }
+  return places;
 }
 
 /// Every hinge's places, as x of the leading hinge.
@@ -249,14 +284,21 @@ Margins least_margins(const Scene& scene, const HingeDrive& drive, const StaticM
                       Margins* at) {
   Margins least;
   least.fill(std::numeric_limits<double>::infinity());
-  for (const double x : places_of_least(scene, drive)) {
+  const auto take = [&](double x) {
     const Margins margins = margins_at(scene, drive, x, spec);
     for (std::size_t kind = 0; kind < margins.size(); ++kind)
       if (margins[kind] < least[kind]) {
         least[kind] = margins[kind];
         if (at) (*at)[kind] = x;
       }
-  }
+  };
+  const std::vector<double> places = places_of_least(scene, drive);
+  std::ranges::for_each(places, take);
+  if (!has_curves(scene, drive)) return least;
+  for (std::size_t k = 1; k < places.size(); ++k)
+    if (places[k - 1] < places[k])
+      std::ranges::for_each(places_below(least, scene, drive, spec, places[k - 1], places[k]),
+                            take);
   return least;
 }
 

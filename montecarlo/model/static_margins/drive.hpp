@@ -51,13 +51,15 @@ struct HingeDrive {
 
 /// The ends of the travel, and where a hinge's spring or harness changes sign or a hinge reaches an end; x, ascending.
 [[nodiscard]] std::vector<double> turning_points(const Scene& scene, const HingeDrive& drive);
-/// All places where a margin can have its minimum (hinge_terms.hpp); x, ascending.
+/// The places between which every term is a cubic of x, or nearly one (hinge_terms.hpp); x, ascending.
 [[nodiscard]] std::vector<double> places_of_least(const Scene& scene, const HingeDrive& drive);
 
 /// Whether the margin exists for the drive: one spring can only be lost where a hinge has a spring.
 [[nodiscard]] bool applies(MarginKind kind, const Scene& scene, const HingeDrive& drive);
 
-/// The least margin over the travel by each standard, whether or not it applies.
+/// The least margin over the travel by each standard, whether or not it applies. Exact where every term is a cubic between
+/// the places; along the table of a loop or of a motor's command, and where another spring becomes the largest, the
+/// margin at the least place of a cubic through four samples.
 /// @param at if not null, receives the x of each minimum
 [[nodiscard]] Margins least_margins(const Scene& scene, const HingeDrive& drive,
                                     const StaticMarginSpec& spec, Margins* at = nullptr);

@@ -45,12 +45,13 @@ double travel_at(const Hinge& hinge, double angle) {
   return (angle - hinge.stowed) / (hinge.latched - hinge.stowed);
 }
 
-/// Places along a table's pieces that lie on the travel.
+/// A table's knots on the travel, and the travel's ends, ascending: between them a curve is monotone.
 std::vector<double> places_along(const TorqueTable& table, const Hinge& hinge) {
-  std::vector<double> knots;
+  std::vector<double> places{0, 1};
   for (const double angle : table.angle())
-    if (const double x = travel_at(hinge, angle); x > 0 && x < 1) knots.push_back(x);
-  return parts_between(std::move(knots));
+    if (const double x = travel_at(hinge, angle); x > 0 && x < 1) places.push_back(x);
+  std::ranges::sort(places);
+  return places;
 }
 
 void add_roots(const HingeTorque& torque, const Hinge& hinge, std::vector<double>& points) {
@@ -137,8 +138,8 @@ std::vector<double> places_of_least(const Hinge& hinge) {
 }
 
 std::vector<double> parts_between(std::vector<double> knots) {
-  // Heuristic: with eight parts, a cubic's minimum is only little below its least value at the ends of the parts. Fewer
-  // parts would miss a margin's minimum inside a steep piece.
+  // Heuristic: in an eighth of a piece the torque that a loop or a motor's command transmits is nearly a cubic. With fewer
+  // parts a cubic fits it worse, and the least margin is sought at a place that is not the least.
   constexpr int parts = 8;
   knots.insert(knots.end(), {0, 1});
   std::ranges::sort(knots);

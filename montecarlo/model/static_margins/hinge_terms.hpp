@@ -10,7 +10,7 @@
 ///
 /// Without tables every term is linear in the travel x between the places where a torque changes sign. A margin is a
 /// quotient of such terms, hence monotone between these places: its minimum lies at one of them or at an end, and is
-/// exact. Along a table the margins are evaluated at eight places of each piece.
+/// exact. Between the knots of a table a term is a cubic, and the least quotient is computed (least_quotient.hpp).
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -40,8 +40,9 @@ double add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& e
 /// Both ends of the travel, and where spring or harness changes sign; x, ascending.
 [[nodiscard]] std::vector<double> turning_points(const Hinge& hinge);
 
-/// All places where a margin can have its minimum: the turning points, places along every table (of a motor's command
-/// too), and the edges of the damper's window; x, ascending.
+/// The places between which every term is a cubic of x: the turning points, the knots of spring and harness, and the edges
+/// of the damper's window; and places along the table of a motor's command, between which its torque is nearly one. x,
+/// ascending.
 [[nodiscard]] std::vector<double> places_of_least(const Hinge& hinge);
 
 /// Divides each piece between 0, the knots and 1 into eight equal parts. Returns all ends of parts, ascending.

@@ -5,9 +5,9 @@
 namespace wingspread {
 namespace {
 
-double margin(double available, double required) {
-  if (required > 0) return available / required - 1;
-  return available > 0 ? std::numeric_limits<double>::infinity() : -1;
+double margin(const TorqueQuotient& torques) {
+  if (torques.required > 0) return torques.available / torques.required - 1;
+  return torques.available > 0 ? std::numeric_limits<double>::infinity() : -1;
 }
 
 double known(const TorqueTerms& t) { return t.inertia + t.spring + t.delivered; }
@@ -20,6 +20,10 @@ double nasa_required(const TorqueTerms& t, const NasaFactors& f) {
   return f.fixed * known(t) + f.variable * variable(t);
 }
 
+double phase_required(const TorqueTerms& t, const PhaseFactors& f) {
+  return f.known * known(t) + f.variable * variable(t);
+}
+
 } // namespace
 
 double ecss_required(const TorqueTerms& t, const EcssFactors& f) {
@@ -30,27 +34,37 @@ double ecss_required(const TorqueTerms& t, const EcssFactors& f) {
 }
 
 double ecss_margin(const TorqueTerms& t, const EcssFactors& f) {
-  return margin(f.available * t.available, ecss_required(t, f));
+  return margin({f.available * t.available, ecss_required(t, f)});
 }
 
 double nasa_static_margin(const TorqueTerms& t, const NasaFactors& f) {
-  return margin(t.available, nasa_required(t, f));
+  return margin({t.available, nasa_required(t, f)});
 }
 
 double nasa_dynamic_margin(const TorqueTerms& t, const NasaFactors& f) {
-  return margin(t.available, nasa_required(t, f) + f.acceleration * t.acceleration);
+  return margin({t.available, nasa_required(t, f) + f.acceleration * t.acceleration});
 }
 
 double phase_margin(const TorqueTerms& t, const PhaseFactors& f) {
-  return margin(t.available, f.known * known(t) + f.variable * variable(t));
+  return margin({t.available, phase_required(t, f)});
+}
+
+std::array<TorqueQuotient, margin_kind_names.size()>
+torque_quotients(const TorqueTerms& terms, double largest_spring, const StaticMarginSpec& spec) {
+  const double weakened =
+      terms.available - largest_spring / static_cast<double>(spec.springs_per_hinge);
+  return {{{spec.ecss.available * terms.available, ecss_required(terms, spec.ecss)},
+           {terms.available, nasa_required(terms, spec.nasa)},
+           {weakened, nasa_required(terms, nasa_one_spring_out())},
+           {terms.available, phase_required(terms, spec.gevs)},
+           {terms.available, phase_required(terms, spec.aiaa)}}};
 }
 
 Margins margins_of(const TorqueTerms& terms, double largest_spring, const StaticMarginSpec& spec) {
-  TorqueTerms weakened = terms;
-  weakened.available -= largest_spring / static_cast<double>(spec.springs_per_hinge);
-  return {ecss_margin(terms, spec.ecss), nasa_static_margin(terms, spec.nasa),
-          nasa_static_margin(weakened, nasa_one_spring_out()), phase_margin(terms, spec.gevs),
-          phase_margin(terms, spec.aiaa)};
+  const auto quotients = torque_quotients(terms, largest_spring, spec);
+  Margins margins;
+  for (std::size_t kind = 0; kind < margins.size(); ++kind) margins[kind] = margin(quotients[kind]);
+  return margins;
 }
 
 } // namespace wingspread

@@ -47,6 +47,14 @@ inline constexpr std::array<std::string_view, 5> margin_kind_texts{
 /// By MarginKind.
 using Margins = std::array<double, margin_kind_names.size()>;
 
+/// What is available, and what a standard asks for, N·m: the margin is their quotient, less 1.
+struct TorqueQuotient {
+  double available = 0, required = 0; ///< both linear in the terms
+};
+/// By MarginKind. @param largest_spring T_s of (4), N·m
+[[nodiscard]] std::array<TorqueQuotient, margin_kind_names.size()>
+torque_quotients(const TorqueTerms& terms, double largest_spring, const StaticMarginSpec& spec);
+
 /// The margins by all standards. With one spring out also for a drive without springs: see `applies` in drive.hpp.
 /// @param largest_spring T_s of (4), N·m
 [[nodiscard]] Margins margins_of(const TorqueTerms& terms, double largest_spring,

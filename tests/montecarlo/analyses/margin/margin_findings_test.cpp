@@ -76,6 +76,18 @@ TEST_CASE("an edge says what sets it, and what fails there by the same runs", "[
   CHECK((end.passing == 1.2 && !end.failing && end.set_by.empty()));
 }
 
+TEST_CASE("the widest gap of a window is between two of its own scales", "[margin]") {
+  MarginSearch search;
+  search.seen = {{0.2, scale_with(9, 0)}, {0.8, scale_with(0, 0)}, {0.9, scale_with(0, 0)},
+                 {1.2, scale_with(1, 3)}, {1.5, scale_with(1, 3)}, {4, scale_with(0, 7)}};
+  const auto windows = windows_of(failing_by_scale(search));
+  REQUIRE(windows.size() == 1);
+  const auto [lower, upper] = widest_gap(search, windows.front()); // 1.2/0.9 > 1.5/1.2
+  CHECK((lower == 0.9 && upper == 1.2));
+  const auto none = widest_gap(search, {0.9, 0.9, 0.8, 1.2});
+  CHECK((none.lower == 0.9 && none.upper == 0.9));
+}
+
 TEST_CASE("each condition's edges have a word", "[margin]") {
   const Campaign campaign = campaign_of(one_panel_margin(100));
   MarginResult result;

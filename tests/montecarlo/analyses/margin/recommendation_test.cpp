@@ -98,8 +98,9 @@ TEST_CASE("where the present springs are not as good, the middle of what is", "[
                                    .epsilon(1e-3)); // rounded to few digits
   CHECK(rule_of(search) == "geometric mean");
   CHECK(why_this_one(search) ==
-        fmt::format(". All scales from {} to {} are as good: their geometric mean is recommended",
-                    search.as_good.lower, search.as_good.upper));
+        fmt::format(
+            ". All scales seen from {} to {} are as good: their geometric mean is recommended",
+            search.as_good.lower, search.as_good.upper));
 }
 
 TEST_CASE("where a range of scales is as good, the grid does not decide which is taken",

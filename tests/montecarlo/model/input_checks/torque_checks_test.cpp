@@ -49,3 +49,12 @@ TEST_CASE("a torque that does not deploy is named once, by its cause") {
     CHECK_THAT(lacking[0], Catch::Contains("a net static torque of -0.1 N·m"));
   }
 }
+
+// -0.02094 N·m by SciPy's PchipInterpolator, between eighths of the pieces, at whose ends it is 0.0037 N·m or more.
+TEST_CASE("a net torque that is least between eighths of a table's piece is found") {
+  const auto lacking =
+      told(R"({ "table": { "angle": [-3, -2.43, 0], "torque": [5.32, 1.18, 3.86] } })",
+           R"({ "table": { "angle": [-3, -1.02, 0], "torque": [2.28, 0.33, 1.61] } })", 0);
+  REQUIRE(lacking.size() == 1);
+  CHECK_THAT(lacking[0], Catch::Contains("a net static torque of -0.02094 N·m at -2.46"));
+}
