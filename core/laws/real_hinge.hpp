@@ -277,6 +277,17 @@ template <class T> [[nodiscard]] ValueRange<T> stiffness_of_curves(const RealHin
   return range;
 }
 
+/// The same over a range of angles.
+template <class T>
+[[nodiscard]] ValueRange<T> stiffness_of_curves(const RealHingeTerms<T>& hinge,
+                                                const ValueRange<T>& angle) {
+  ValueRange<T> range{T(0), T(0)};
+  for (const CurveTorqueTerms<T>* torque : {&hinge.spring, &hinge.harness})
+    if (torque->curve)
+      range = range + scaled(T(-torque->weight), range_of_slope(*torque->curve, angle));
+  return range;
+}
+
 namespace detail {
 
 template <class T> [[nodiscard]] T largest_value(const Curve& curve) {

@@ -37,7 +37,9 @@
 /// A real hinge with an engaged latch has a potential P with a second derivative between κ and κ⁺, by
 /// the steepest slopes of its curves. Off its rest, P' = 0, the potential grows by at least ½ κ u²,
 /// and the moment is at most κ⁺ |u|: in (2) it has the stiffness κ⁺²/κ. A loop adds its own energy,
-/// never negative. Backlash, and a stop within reach, are beyond this proof.
+/// never negative. Backlash, and a stop within reach, are beyond this proof. Where the curves are somewhere steeper than
+/// the latch is stiff, κ and κ⁺ are those of |φ − φ_latched| ≤ r. They hold for ever if the hinge is in there and the
+/// energy does not take it out: |y* − φ_latched| + g/κ + √(2E/κ) < r.
 ///
 /// A hinge whose rigid hold never lets go does not move: it has no part in any sum.
 ///
@@ -70,6 +72,7 @@ public:
     const int n = system.layout().bodies;
     for (Numbers* v : {&stiffness_, &damping_, &steady_, &least_stiffness_, &at_rest_})
       v->setZero(n + 1);
+    window_.setConstant(n + 1, T(std::numeric_limits<double>::infinity()));
     bounded_ = load_.prepare(system) && system.wing().plates.empty();
     offset_ = p_ = q_ = T(0);
     if (system.base_motion == BaseMotion::free) largest_inertia_ = largest_inertia(system);
@@ -94,7 +97,8 @@ public:
       sum = sum + *own;
     }
     const EnergyLeft<T> left = with_motion(system, x, t, t_end, T(sum + loops_energy(system, x)));
-    if (may_touch_stop(system, left.within)) return std::nullopt;
+    if (may_touch_stop(system, left.within) || may_leave_window(system, x, left.within))
+      return std::nullopt;
     for (int i = 1; i <= at.bodies; ++i)
       if (is_open(system, i) && !find_way(system, x[at.angle(i)], left.within, i))
         return std::nullopt;
@@ -168,7 +172,7 @@ private:
   template <class AnySystem>
   void prepare_real(const AnySystem& system, int i, const LinearLaw<T>& law, bool open) {
     const RealHingeTerms<T>& real = system.wing().real[i];
-    const ValueRange<T> slopes = stiffness_of_curves(real);
+    const ValueRange<T> slopes = slopes_about_rest(system, i, law.stiffness);
     const T least = law.stiffness + slopes.low, most = law.stiffness + slopes.high;
     if (open || real.has_backlash || !(least > T(0))) {
       bounded_ = false;
@@ -186,6 +190,42 @@ private:
     }
     at_rest_(i) = latched_potential(system, rest_, i);
     add_load(i, least);
+  }
+
+  /// The range of the curves' stiffness over all angles, or over the window |φ − φ_latched| ≤ r, r = window_(i), outside of
+  /// which the curves are too steep for the latch.
+  template <class AnySystem>
+  [[nodiscard]] ValueRange<T> slopes_about_rest(const AnySystem& system, int i,
+                                                const T& stiffness) {
+    using std::abs;
+    const RealHingeTerms<T>& real = system.wing().real[i];
+    const HingeTerms<T>& hinge = system.wing().hinges[i];
+    ValueRange<T> slopes = stiffness_of_curves(real);
+    if (stiffness + slopes.low > T(0)) return slopes;
+    // Heuristics: the largest of r = travel/2^k within which half the stiffness is left.
+    constexpr int most_halvings = 20;
+    T r = abs(hinge.latched - hinge.stowed);
+    for (int k = 0; k < most_halvings && !(stiffness + T(2) * slopes.low > T(0)); ++k) {
+      r = T(0.5) * r;
+      slopes = stiffness_of_curves(real, ValueRange<T>{hinge.latched - r, hinge.latched + r});
+    }
+    window_(i) = r;
+    return slopes;
+  }
+
+  /// Whether a hinge with a window is outside of it, or could be with this energy.
+  template <class AnySystem>
+  [[nodiscard]] bool may_leave_window(const AnySystem& system, const State<T>& x,
+                                      const T& available) const {
+    using std::abs;
+    for (int i = 1; i <= system.layout().bodies; ++i) {
+      if (!is_finite(window_(i))) continue;
+      const int k = system.layout().angle(i);
+      const T& latched = system.wing().hinges[i].latched;
+      const T most = abs(rest_[k] - latched) + furthest(i, available);
+      if (!(abs(x[k] - latched) <= window_(i)) || !(most < window_(i))) return true;
+    }
+    return false;
   }
 
   /// The potential of a real hinge whose latch, if it has one, has engaged, with the drive of its motor, J.
@@ -332,6 +372,7 @@ private:
   Numbers stiffness_, damping_, steady_;
   Numbers least_stiffness_; ///< κ
   Numbers at_rest_;         ///< P(y*) of a real hinge
+  Numbers window_;          ///< r within which κ holds, rad; infinite: everywhere
   State<T> rest_;
   T offset_{}, p_{}, q_{}; ///< Σ g²/2κ; p and q of (3)
   T largest_inertia_{1};   ///< I_max of a free base

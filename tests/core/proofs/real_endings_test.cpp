@@ -57,6 +57,22 @@ Scene eager(std::uint64_t seed) {
   return scene;
 }
 
+/// Adds a detent to the hinge's spring: a moment that rises to `height` and falls again within ± `width`, at a share of
+/// the travel before the latched angle.
+void add_detent(Hinge& hinge, double share, double width, double height) {
+  const double travel = hinge.stowed - hinge.latched;
+  const auto angle = [&](double from_latched) { return hinge.latched + from_latched * travel; };
+  const auto line = [&](double x) {
+    return std::lerp(hinge.spring.torque_latched, hinge.spring.torque_stowed, x);
+  };
+  const double half = width / std::abs(travel);
+  const std::vector<double> shares{1, share + half, share, share - half, 0};
+  std::vector<double> angles, torques;
+  for (const double x : shares) angles.push_back(angle(x)), torques.push_back(line(x));
+  torques[2] += height;
+  hinge.spring.table = torque_table(angles, torques, Interpolation::linear);
+}
+
 } // namespace
 
 TEST_CASE("the wind of its own flight opens a wing that has no energy of its own") {
@@ -116,6 +132,29 @@ TEST_CASE("with real hinges and smoothed latches, an early end misses no latch a
     deployed += out.status == Status::deployed && out.t_end < 60;
   }
   CHECK(deployed >= 10);
+}
+
+TEST_CASE(
+    "with detents steeper than the latches are stiff, an early end misses no latch and no peak",
+    "[long]") {
+  int deployed = 0, final = 0, steep = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    CAPTURE(seed);
+    Draws draws(seed);
+    Scene scene = eager(seed);
+    for (Hinge& hinge : scene.hinges) {
+      hinge.latch = Latch{draws.log_uniform(300, 10'000), draws.log_uniform(2, 50)};
+      // some so near to the latched angle that the wing may come back to them
+      const double width = draws.log_uniform(1e-3, 0.01), height = draws.uniform(1, 20);
+      add_detent(hinge, draws.log_uniform(0.05, 0.9), width, height);
+      steep += height / width > hinge.latch->stiffness;
+    }
+    check_nothing_lost(scene, 10);
+    const Outcome out = Deployment().run(scene, within(1e-8, 60), {});
+    deployed += out.status == Status::deployed, final += out.peaks_final;
+  }
+  CAPTURE(deployed, final, steep);
+  CHECK((deployed > 20 && steep > 40 && final > deployed / 2));
 }
 
 TEST_CASE("with each feature of real hinges, an early end misses no latch and no peak", "[long]") {

@@ -266,6 +266,11 @@ TEST_CASE("each finding of a fit is told on its side of its limit, and not on th
   };
   CHECK_THAT(mode(3.1), Contains("3.1 sd away, 1.5 nats below"));
   CHECK(mode(2.9).empty());
+  const auto cut = [&](long runs) {
+    return told([&](FitResult& result) { result.prediction[0].cut = runs; });
+  };
+  CHECK_THAT(cut(7), Contains("the predicted peaks of tip.latch_time in up to 7 of 2000 runs"));
+  CHECK(cut(0).empty());
   const auto effective = [&](double numbers) {
     return told([&](FitResult& result) { result.channels[1].channel.effective = numbers; });
   };
