@@ -58,6 +58,12 @@ class PartChecks:
                     self.assertEqual([tag for tag, _ in row], ["TH"] + ["TD"] * (len(cells) - 1), caption)
                     self.assertEqual([at_right for _, at_right in row], [at_right for _, at_right in cells], caption)
 
+    def test_the_inputs_stand_from_what_differs_to_what_is_the_same(self):
+        self.open(pages.made_up("cases"))
+        captions = self.run_script("""W.sets[1].inputs.dispersions[0].law = "uniform"; W.inputs();
+            return [...document.querySelectorAll('#inputs table')].map(t => t.caption.textContent)""")
+        self.assertEqual(captions, ["Changes of the nominal scene by case", "Dispersions whose law differs", "Scene of cold", "Dispersions of cold", "Integration settings"])
+
     def test_a_part_that_cannot_be_drawn_says_so_in_its_section_and_the_others_are_drawn(self):
         self.open(pages.made_up("loads"))
         self.run_script("W.sets.forEach(set => set.modes = { wing: set.wing, rest: set.wing.hinges.map(() => 0), modes: [{ frequency: 1, damping_ratio: 0.01, shape: set.wing.hinges.map(() => 1), base: null }] })")

@@ -2,6 +2,8 @@
 #include "montecarlo/foundation/platform/folder_lock.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/montecarlo/analyses/fit/fit_support.hpp"
+#include "tests/montecarlo/margin_support.hpp"
 
 #include <catch2/catch.hpp>
 #include <sys/resource.h>
@@ -214,4 +216,28 @@ TEST_CASE("what a file says does not reach the terminal as it is") {
   const auto [code, out, error] = run_program(folder, {"check", folder.path() / "a\x1b[31mb"});
   CHECK(code == 2);
   CHECK_THAT(error, Catch::Contains(R"(a\x1b[31mb: found no file that can be read)"));
+}
+
+TEST_CASE("on a terminal each command that makes many runs shows how far it is") {
+  const Folder folder;
+  const std::string campaign = folder.write("c.json", quick_campaign(12).dump());
+  const std::string margin = folder.write("m.json", one_panel_margin(90).dump());
+  const std::string panel = folder.write("p.json", panel_campaign(0.01).dump());
+  const std::string tests =
+      folder.write("tests.json", R"({ "tests": [ { "name": "timer", "values": [
+      { "output": "root.latch_time", "value": 2.3, "std": "10 ms" } ] } ],
+    "fit": { "parameters": ["spring"], "starts": 2, "samples": 200 } })");
+  const auto out = [&](const char* name) { return (folder.path() / name).string(); };
+  const auto shows = [](const std::vector<std::string>& arguments,
+                        std::initializer_list<std::string> facts) {
+    CHECK_THAT(shown_on_terminal(arguments), HasFacts(facts));
+  };
+  shows({"run", campaign, "--out", out("run")}, {"12/12 runs"});
+  shows({"sensitivity", campaign, "--samples", "4", "--out", out("design")}, {"24/24 runs"});
+  shows({"margin", margin, "--out", out("margin")}, {"analysis 1 of at most", " runs"});
+  shows({"rare", margin, "--output", "root.latch_rate", "--below=-0.9", "--samples", "100",
+         "--repeats", "2"},
+        {" of at most 2000 runs"});
+  shows({"fit", panel, tests, "--out", out("fit")},
+        {"sampling: ", " runs, effective sample size ", " of 200, split R-hat "});
 }

@@ -2,10 +2,13 @@
 
 #include <sys/wait.h>
 
+#include <array>
+#include <cstdlib>
 #include <fcntl.h>
 #include <spawn.h>
 #include <sstream>
 #include <stdexcept>
+#include <unistd.h>
 
 extern char** environ;
 
@@ -13,9 +16,10 @@ namespace wingspread::test {
 
 const char* const program_path = WINGSPREAD_BINARY;
 
-Program::Program(const Folder& folder, const std::vector<std::string>& arguments,
-                 const std::filesystem::path& out)
-    : out_(out.empty() ? folder.path() / "stdout.txt" : out), error_(folder.path() / "stderr.txt") {
+namespace {
+
+/// Starts the program with its two outputs into these files.
+pid_t start(const std::vector<std::string>& arguments, const char* out, const char* error) {
   std::vector<std::string> words{program_path};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -23,13 +27,22 @@ Program::Program(const Folder& folder, const std::vector<std::string>& arguments
   argv.push_back(nullptr);
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
-  constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
-  posix_spawn_file_actions_addopen(&files, 1, out_.c_str(), flags, 0600);
-  posix_spawn_file_actions_addopen(&files, 2, error_.c_str(), flags, 0600);
-  const int failed = posix_spawn(&process_, argv[0], &files, nullptr, argv.data(), environ);
+  constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY;
+  posix_spawn_file_actions_addopen(&files, 1, out, flags, 0600);
+  posix_spawn_file_actions_addopen(&files, 2, error, flags, 0600);
+  pid_t process = 0;
+  const int failed = posix_spawn(&process, argv[0], &files, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   if (failed != 0) throw std::runtime_error("the program cannot be started");
+  return process;
 }
+
+} // namespace
+
+Program::Program(const Folder& folder, const std::vector<std::string>& arguments,
+                 const std::filesystem::path& out)
+    : out_(out.empty() ? folder.path() / "stdout.txt" : out), error_(folder.path() / "stderr.txt"),
+      process_(start(arguments, out_.c_str(), error_.c_str())) {}
 
 void Program::send(int signal) const { kill(process_, signal); }
 
@@ -44,6 +57,21 @@ Finished Program::finish() const {
 Finished run_program(const Folder& folder, const std::vector<std::string>& arguments,
                      const std::filesystem::path& out) {
   return Program(folder, arguments, out).finish();
+}
+
+std::string shown_on_terminal(const std::vector<std::string>& arguments) {
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+  if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0)
+    throw std::runtime_error("there is no terminal");
+  const pid_t process = start(arguments, "/dev/null", ptsname(terminal));
+  std::string shown;
+  std::array<char, 4096> part{};
+  for (ssize_t got = 0;
+       (got = ::read(terminal, part.data(), part.size())) > 0;) // until it is closed
+    shown.append(part.data(), static_cast<std::size_t>(got));
+  ::close(terminal);
+  waitpid(process, nullptr, 0);
+  return shown;
 }
 
 Json page_data(const std::filesystem::path& page) {

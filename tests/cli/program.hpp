@@ -38,6 +38,9 @@ private:
 [[nodiscard]] Finished run_program(const Folder& folder, const std::vector<std::string>& arguments,
                                    const std::filesystem::path& out = {});
 
+/// What the program writes to standard error where that is a terminal.
+[[nodiscard]] std::string shown_on_terminal(const std::vector<std::string>& arguments);
+
 /// Matches a text that has all of these facts, in this order. The words around them may change.
 class HasFacts final : public Catch::MatcherBase<std::string> {
 public:

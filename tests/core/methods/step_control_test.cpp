@@ -1,7 +1,10 @@
+#include "core/methods/dop853.hpp"
 #include "core/methods/step_control.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <cmath>
 
 using namespace wingspread;
 
@@ -62,4 +65,20 @@ TEST_CASE("after foresee() step control expects steps to become shorter still") 
   CHECK(step_factor(7, error, h, foreseeing) == Approx(0.5 * 0.9 * std::pow(0.5, -1.0 / 8)));
   CHECK(step_factor(7, error, 1.5, foreseeing) == step_factor(7, error, 1.5, plain)); // they grow
   CHECK(step_factor(7, 2.0, h, foreseeing) == step_factor(7, 2.0, h, plain));         // a rejection
+}
+
+// ẋ = t⁶ from 0 to 1: both estimates are sums over the stages. With the coefficients of E. Hairer's dop853.f they are 1.400e-3
+// and 6.479e-2, so that his ε5²/√(ε5² + 0.01 ε3²) is 2.95878531e-4 (computed apart, in Python).
+TEST_CASE("the error of dop853 weighs its two estimates as Hairer's code does") {
+  const auto system = [](const State<double>& /*x*/, State<double>& dxdt, double t) {
+    dxdt.assign(1, std::pow(t, 6));
+  };
+  DormandPrince853<double> formula;
+  const double t = 0, h = 1;
+  const State<double> x(1, 0.0), dxdt(1, 0.0);
+  State<double> x1(1), dxdt1(1), error(1);
+  formula.estimate(system, {t, x, dxdt}, h, x1, dxdt1, error);
+  CHECK(x1[0] == Approx(1.0 / 7).epsilon(1e-13));
+  CHECK(formula.scaled_error(x, x1, dxdt1, error, 0, 1) == Approx(2.9587853e-4).epsilon(1e-7));
+  CHECK(formula.scaled_error(x, x1, dxdt1, error, 0, 1e-3) == Approx(0.29587853).epsilon(1e-7));
 }

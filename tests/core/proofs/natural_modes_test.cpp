@@ -186,6 +186,7 @@ TEST_CASE(
   REQUIRE(frequencies.size() == 3);
   CHECK(frequencies[0] == 0);
   CHECK(frequencies[1] > 0.1);
+  CHECK(modes_of(scene).modes[0].damping_ratio == 0); // what does not swing is not damped
   const Scene wing = seed_scene();
   const WingModes root = modes_of(wing, std::vector<int>{0});
   REQUIRE(root.modes.size() == 1); // the stack of three, folded, about the root

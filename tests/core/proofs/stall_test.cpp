@@ -2,9 +2,11 @@
 #include "core/deployment.hpp"
 #include "core/proofs/stall.hpp"
 #include "tests/core/events/rubbed_wings.hpp"
+#include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace wingspread;
@@ -135,4 +137,50 @@ TEST_CASE("a spring gives energy as far as its rest, also beyond the latched ang
             Approx(before + beyond).epsilon(1e-12));
     }
   }
+}
+
+namespace {
+
+/// (3) of stall.hpp, by trying every angle on a fine grid.
+double most_given_on_grid(const HingeTerms<double>& hinge, bool engaged, double angle) {
+  const auto at = [&](double phi) {
+    const bool latched = engaged || (hinge.has_latch && hinge.sense * (phi - hinge.latched) > 0);
+    return potential(linear_law(hinge, latched), phi) +
+           hinge.kinetic_friction * std::abs(phi - angle);
+  };
+  double least = at(angle);
+  for (int k = -40'000; k <= 40'000; ++k) least = std::min(least, at(angle + 2.5e-4 * k));
+  return potential(linear_law(hinge, engaged), angle) - least;
+}
+
+} // namespace
+
+TEST_CASE(
+    "a hinge gives as much energy as it finds on either side, before its latch, in it and beyond") {
+  Draws draws(31);
+  int backwards = 0, beyond = 0;
+  for (int k = 0; k < 60; ++k) {
+    Scene scene = latching_panel();
+    Hinge& hinge = scene.hinges[0];
+    hinge.stowed = k % 2 == 0 ? -1 : 1, hinge.latched = 0;
+    const double rest = draws.uniform(-2, 1);
+    pull_towards(hinge, rest, draws.uniform(0.3, 2));
+    rub(hinge, k % 3 == 0 ? 0 : draws.uniform(0.02, 0.5));
+    if (k % 5 != 0)
+      hinge.latch = Latch{draws.log_uniform(1, 1e3), 1};
+    else
+      hinge.latch.reset();
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    const double angle = draws.uniform(-1.5, 1.5);
+    const bool engaged = hinge.latch && draws.chance(0.5);
+    const double sense = hinge.stowed < 0 ? 1 : -1, y = sense * angle;
+    if (!engaged && hinge.latch && y > 0) continue; // an open hinge is before its latch
+    CAPTURE(k, rest, angle, engaged);
+    const double expected = most_given_on_grid(wing.hinges[1], engaged, angle);
+    CHECK(detail::most_given(wing.hinges[1], engaged, angle) == Approx(expected).margin(2e-5));
+    backwards += expected > 1e-3 && sense * (rest - angle) < 0;
+    beyond += expected > 1e-3 && sense * (rest - angle) > 0;
+  }
+  CHECK((backwards > 8 && beyond > 8)); // the spring's rest lies on either side
 }

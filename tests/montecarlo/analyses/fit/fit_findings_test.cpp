@@ -152,6 +152,9 @@ TEST_CASE("a prior that is cut on one side only has a limit there, and one that 
       limit_of(R"({ "type": "normal", "mean": 1, "std": 0.05, "truncate": { "lower": 0.95 } })") ==
       0.95);
   CHECK_FALSE(limit_of(R"({ "type": "lognormal", "mu_log": 0, "sigma_log": 0.05 })"));
+  // 3 standard deviations below its mean a normal law has faded out, wherever its zero is
+  CHECK_FALSE(
+      limit_of(R"({ "type": "normal", "mean": 1, "std": 0.05, "truncate": { "lower": 0.85 } })"));
 }
 
 TEST_CASE("the findings name the laws of cases that the written campaign does not have") {

@@ -150,3 +150,23 @@ TEST_CASE("a bent proposal makes short chains where a posterior bends by more th
   const StudentMixture straight({{0, center, covariance}});
   CHECK_FALSE(run_ensemble(target, straight, options, nothing).finished);
 }
+
+TEST_CASE("where the proposal is far too narrow, the default mixture moves on by its stretches") {
+  const auto target = [](std::span<const Eigen::VectorXd> points) { // N(0, I)
+    std::vector<double> logs;
+    for (const Eigen::VectorXd& x : points) logs.push_back(-0.5 * x.squaredNorm());
+    return logs;
+  };
+  const StudentMixture narrow(
+      {{0, Eigen::Vector3d::Zero(), 1e-3 * Eigen::MatrixXd::Identity(3, 3)}});
+  EnsembleOptions options{.walkers = 48, .ess = 1000, .most_evaluations = 300'000};
+  const Ensemble mixed = run_ensemble(target, narrow, options, nothing);
+  REQUIRE(mixed.finished);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Moments found = moments(coordinate(mixed, i));
+    CHECK(std::abs(found.mean) < 4.5 / std::sqrt(1000.0));
+    CHECK(found.std == Approx(1).epsilon(4.5 / std::sqrt(2000.0)));
+  }
+  options.independent = 1;
+  CHECK_FALSE(run_ensemble(target, narrow, options, nothing).finished);
+}

@@ -1,6 +1,7 @@
 #include "montecarlo/analyses/sensitivity/rank_report.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/montecarlo/csv_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -144,4 +145,29 @@ TEST_CASE("effects on peaks that t_end cut are told to be those on the cut value
   const RankSensitivity whole = ranks(15); // of forces there is no proof
   CHECK_THAT(warnings(whole).at(0),
              Catch::StartsWith("in 40 of 40 runs t_end cut the peaks of \"root.peak_force\": "));
+}
+
+TEST_CASE("rank coefficients and their bounds stand under their names, in JSON and CSV") {
+  RankSensitivity all;
+  all.runs = 90;
+  all.dispersions = {"spring"};
+  const RankEffect effect{{0.25, {0.125, 0.375}}, {-0.5, {-0.75, -0.0625}}};
+  all.outputs.push_back({"x.latch_time", 80, 10, {effect}, false, 7});
+  const Json output = sensitivity_json(all, {})["outputs"]["x.latch_time"];
+  CHECK((output["count"] == 80 && output["missing"] == 10 && output["cut"] == 7));
+  CHECK(output["dispersions"]["spring"] ==
+        Json{{"spearman", {{"value", 0.25}, {"lower", 0.125}, {"upper", 0.375}}},
+             {"prcc", {{"value", -0.5}, {"lower", -0.75}, {"upper", -0.0625}}}});
+  const auto rows = rows_by_name(sensitivity_csv(all));
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0] == CsvRow{{"output", "x.latch_time"},
+                          {"dispersion", "spring"},
+                          {"count", "80"},
+                          {"missing", "10"},
+                          {"spearman", "0.25"},
+                          {"spearman_lower", "0.125"},
+                          {"spearman_upper", "0.375"},
+                          {"prcc", "-0.5"},
+                          {"prcc_lower", "-0.75"},
+                          {"prcc_upper", "-0.0625"}});
 }

@@ -126,6 +126,27 @@ TEST_CASE("bounds of draws that depend on each other come from their replicates"
   CHECK(width < 0.25 * (*independent.upper - *independent.lower)); // what the points gain
 }
 
+TEST_CASE("replicates tell what moves an output either way from what moves nothing") {
+  constexpr long runs = 512;
+  const PreparedDesign design({DesignKind::sobol, 5, runs, 8}, {"x0", "x1", "x2"});
+  RunsMade made;
+  made.replication.replicates = 8;
+  Columns x(3);
+  std::vector<double> y;
+  for (long k = 0; k < runs; ++k) {
+    for (std::size_t j = 0; j < 3; ++j)
+      x[j].push_back(design.uniform(static_cast<std::uint64_t>(k), j));
+    y.push_back(x[0].back() - x[1].back());
+    made.replication.of_row.push_back(static_cast<int>(k % 8));
+  }
+  const RankSensitivity all = rank_sensitivity(results_of(x, y), 0.9, made);
+  const auto& effects = all.outputs[0].effects;
+  CHECK((effects[0].seen && effects[0].spearman.value > 0));
+  CHECK((effects[1].seen && effects[1].spearman.value < 0));
+  CHECK_FALSE(effects[2].seen);
+  CHECK(all.idle == std::vector<std::string>{"x2"});
+}
+
 TEST_CASE("runs of one replicate have no bounds, and no dispersion is called idle for it") {
   RunsMade made;
   const Results results = sobol_sum(1, 256, 1, made);

@@ -2,8 +2,14 @@
 #include "montecarlo/analyses/sensitivity/sobol_report.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/montecarlo/csv_support.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -80,4 +86,49 @@ TEST_CASE("indices of peaks that t_end cut are told to be those of the cut value
                                                     "\"root.peak_moment\", \"root.peak_force\": "));
   CHECK(sensitivity_json(all, {})["outputs"]["root.peak_moment"]["cut"] == 24);
   CHECK_THAT(sensitivity_table(all, "t"), Catch::Contains(" · 24 cut by t_end\n"));
+}
+
+TEST_CASE("Sobol' indices stand under their names, in JSON, CSV and the table") {
+  SobolSensitivity all{64, 250, 256, "random", {.resamples = 50}, {"a", "b"}, {}};
+  SobolIndices indices{64, 0, 12.5, 0.75, {}};
+  indices.effects = {{{0.125, {0.0625, 0.25}}, {0.375, {0.3125, 0.5}}, false},
+                     {{-0.03125, {-0.25, 0.015625}}, {0.0078125, {0, 0.09375}}, true}};
+  all.outputs.push_back({"root.latch_time", indices, 3});
+  const Json json = sensitivity_json(all, {});
+  CHECK((json["samples"] == 64 && json["runs"] == 250 && json["partial"] == true));
+  const Json& output = json["outputs"]["root.latch_time"];
+  CHECK((output["rows"] == 64 && output["incomplete"] == 0 && output["cut"] == 3));
+  CHECK((output["mean"] == 12.5 && output["variance"] == 0.75));
+  CHECK(output["dispersions"]["a"] ==
+        Json{{"first", {{"value", 0.125}, {"lower", 0.0625}, {"upper", 0.25}}},
+             {"total", {{"value", 0.375}, {"lower", 0.3125}, {"upper", 0.5}}},
+             {"inert", false}});
+  CHECK(output["dispersions"]["b"]["inert"] == true);
+  const auto rows = rows_by_name(sensitivity_csv(all));
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[1] == CsvRow{{"output", "root.latch_time"},
+                          {"dispersion", "b"},
+                          {"rows", "64"},
+                          {"incomplete", "0"},
+                          {"first", "-0.03125"},
+                          {"first_lower", "-0.25"},
+                          {"first_upper", "0.015625"},
+                          {"total", "0.0078125"},
+                          {"total_lower", "0"},
+                          {"total_upper", "0.09375"}});
+  const std::string table = sensitivity_table(all, "t");
+  const auto numbers_of = [&](const std::string& begin) {
+    const std::string line = table.substr(table.find("\n  " + begin + ' ') + 3 + begin.size());
+    std::vector<double> numbers;
+    std::istringstream words(line.substr(0, line.find('\n')));
+    for (std::string word; words >> word;)
+      if (char* end = nullptr; (void)std::strtod(word.c_str(), &end), end != word.c_str())
+        numbers.push_back(std::strtod(word.c_str(), nullptr));
+    return numbers;
+  };
+  const auto of_a = numbers_of("a");
+  REQUIRE(of_a.size() >= 2);
+  CHECK(of_a.front() == Approx(0.375).margin(6e-4)); // the total first
+  CHECK(std::ranges::any_of(of_a, [](double x) { return std::abs(x - 0.125) < 6e-4; }));
+  CHECK(numbers_of("sum of the first-order") == std::vector<double>{0.094});
 }

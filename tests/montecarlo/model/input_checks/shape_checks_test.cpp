@@ -48,11 +48,16 @@ std::vector<std::string> places(const Scene& scene) {
 TEST_CASE("whether bodies overlap depends neither on the unit of length nor on the base's place",
           "[warnings]") {
   std::mt19937_64 random(17);
-  int warned = 0, quiet = 0;
+  int warned = 0, quiet = 0, folded = 0;
   for (int trial = 0; trial < 400; ++trial) {
-    const Scene scene = random_stack(random);
+    Scene scene = random_stack(random);
+    // two bodies on one side of a hinge, or two hinges on one side of a body
+    if (trial % 4 == 1) scene.hinges[1].child_point.x() *= -1;
+    if (trial % 4 == 2) scene.hinges[1].parent_point.x() *= -1;
     const std::vector<std::string> found = places(scene);
     ++(found.empty() ? quiet : warned);
+    folded += std::ranges::any_of(
+        found, [](const std::string& place) { return place.ends_with("_point"); });
     for (const double factor : {1e-3, 30.0, 1e3}) {
       CAPTURE(trial, factor);
       CHECK(places(scaled(scene, factor)) == found);
@@ -64,4 +69,5 @@ TEST_CASE("whether bodies overlap depends neither on the unit of length nor on t
     CHECK(places(moved) == found);
   }
   CHECK((warned > 50 && quiet > 50)); // or the wings have lost their variety
+  CHECK(folded > 150);
 }

@@ -1,10 +1,13 @@
 #include "montecarlo/model/scene_file/scene_json.hpp"
 #include "montecarlo/model/scene_file/scene_parameter.hpp"
+#include "montecarlo/model/schema/schema.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <map>
 #include <set>
+#include <sstream>
 
 using namespace wingspread;
 
@@ -271,4 +274,61 @@ TEST_CASE("A path that leads nowhere tells what was probably meant", "[parameter
   const ParameterMatches found = resolve(scene, path);
   CHECK(found.matches.empty());
   CHECK(found.expected == expected);
+}
+
+namespace {
+
+/// Path tokens after the owner's name, "latch.stiffness"; empty for the names of owners that have none.
+std::string field_of(const std::string& path) {
+  const bool named = !path.starts_with("base.") && !path.starts_with("environment.");
+  const std::size_t owner = path.find('.');
+  return path.substr((named ? path.find('.', owner + 1) : owner) + 1);
+}
+
+/// Whether a value has a number at a field's place.
+bool has_number(const Json& owner, const std::string& field) {
+  const Json* place = &owner;
+  std::istringstream tokens(field);
+  for (std::string token; std::getline(tokens, token, '.');) {
+    if (place->is_array() && std::stoul(token) < place->size())
+      place = &(*place)[std::stoul(token)];
+    else if (place->is_object() && place->contains(token))
+      place = &(*place)[token];
+    else
+      return false;
+  }
+  return place->is_number();
+}
+
+} // namespace
+
+TEST_CASE("A path leads to a number if and only if the scene's file has it there", "[parameter]") {
+  std::map<std::string, std::set<std::string>>
+      fields; // of each kind of owner, in all specimens together
+  std::vector<Scene> scenes;
+  for (const Json& document : scene_specimens()) {
+    scenes.push_back(read_scene(document));
+    for (const std::string& path : parameter_paths(scenes.back()))
+      fields[path.substr(0, path.find('.'))].insert(field_of(path));
+  }
+  CHECK(fields["hinges"].size() > 40);
+  int there = 0, lacking = 0;
+  for (Scene& scene : scenes) {
+    for (const std::string& path : parameter_paths(scene)) // a default is not written
+      if (path.ends_with(".scale") || path.ends_with(".offset") || path.ends_with(".backlash"))
+        resolve(scene, path).matches.at(0).parameter.in(scene) = 1.125;
+    const Json written = write_scene(scene);
+    for (const char* kind : {"bodies", "hinges", "synchronisations"})
+      for (const Json& owner : written.value(kind, Json::array()))
+        for (const std::string& field : fields[kind]) {
+          if (field.find("stop.") != std::string::npos) continue; // stands by its side in the file
+          const std::string path =
+              std::string(kind) + '.' + owner["name"].get<std::string>() + '.' + field;
+          const bool expected = has_number(owner, field);
+          CAPTURE(scene.name, path);
+          CHECK(resolve(scene, path).matches.empty() != expected);
+          ++(expected ? there : lacking);
+        }
+  }
+  CHECK((there > 200 && lacking > 100));
 }

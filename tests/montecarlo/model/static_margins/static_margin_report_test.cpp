@@ -1,11 +1,13 @@
 #include "montecarlo/engine/runs/static_margin_draws.hpp"
 #include "montecarlo/model/static_margins/static_margin_report.hpp"
+#include "tests/montecarlo/csv_support.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 using namespace wingspread;
@@ -67,6 +69,33 @@ TEST_CASE("static margins as CSV: a cell for each name, and a line for each plac
   REQUIRE(cells.size() == 1 + 3);
   for (const long count : cells)
     CHECK(count == 5 + 11 + 5 * (1 + 2 + 3)); // place; torques; five margins and their spreads
+  const auto rows = rows_by_name(static_margins_csv(report));
+  const DriveMargins& drive = report.cases[0].study.drives.at(0);
+  REQUIRE(rows.size() == drive.travel.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    CsvRow row = rows[k];
+    const TravelPoint& at = drive.travel[k];
+    const auto check = [&](const std::string& name, double value) {
+      CAPTURE(k, name, row[name]);
+      CHECK((row[name].empty() ? std::isnan(value) : std::stod(row[name]) == value));
+    };
+    CHECK((row["case"] == "cold" && row["hinge"] == drive.hinge));
+    check("scale", 1.25), check("travel", at.x), check("angle", at.angle);
+    check("available", at.nominal.available), check("inertia", at.nominal.inertia);
+    check("spring", at.nominal.spring), check("motor", at.nominal.motor);
+    check("friction", at.nominal.friction), check("hysteresis", at.nominal.hysteresis);
+    check("harness", at.nominal.harness), check("adhesion", at.nominal.adhesion);
+    check("acceleration", at.nominal.acceleration), check("delivered", at.nominal.delivered);
+    check("damping", at.nominal.damping);
+    for (std::size_t kind = 0; kind < margin_kind_names.size(); ++kind) {
+      const std::string name(margin_kind_names[kind]);
+      const MarginSpread& spread = at.spread[kind];
+      check(name, at.margins[kind]);
+      check(name + "@0.5", spread.quantiles[0]), check(name + "@0.1", spread.quantiles[1]);
+      check(name + "_share_below_0", spread.share_short), check(name + "_least", spread.least);
+      CHECK(row[name + "_worst_run"] == std::to_string(spread.worst_run));
+    }
+  }
 }
 
 TEST_CASE("curves for the page: the nominal margins, and the draws' quantile at the lowest level",

@@ -75,3 +75,19 @@ TEST_CASE("of replicates the band is each knot's own", "[page]") {
   CHECK(!knots[1].band.lower); // both replicates have one of two: they agree, which says nothing
   CHECK(band_name(2, 0.9) == "Korn-Graubard over 2 replicates, 90 % at each value by itself");
 }
+
+TEST_CASE("the curve of streaming statistics is that of the values where all are kept", "[page]") {
+  const std::vector<double> sorted{-1, 2, 2, 4, 5, 5, 5, 9};
+  Population population(grid_of(sorted));
+  for (std::size_t k = 0; k < sorted.size(); ++k) population.add(sorted[k], static_cast<long>(k));
+  const auto expected = distribution_curve(sorted, {}, 0, 0.9, 129);
+  const auto knots = distribution_curve(RankedPopulation(population), 0.9, 129);
+  REQUIRE(knots.size() == expected.size());
+  for (std::size_t k = 0; k < knots.size(); ++k) {
+    CHECK(knots[k].x == expected[k].x);
+    CHECK(knots[k].p == expected[k].p);
+    CHECK(*knots[k].band.lower == *expected[k].band.lower);
+    CHECK(*knots[k].band.upper == *expected[k].band.upper);
+  }
+  CHECK(distribution_curve(RankedPopulation(Population(grid_of({}))), 0.9, 129).empty());
+}

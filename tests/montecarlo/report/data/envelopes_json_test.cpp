@@ -1,5 +1,6 @@
 #include "montecarlo/report/data/envelopes_json.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
+#include "tests/montecarlo/analyses/fit/fit_support.hpp"
 #include "tests/montecarlo/report/data/page_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -37,6 +38,33 @@ TEST_CASE("envelopes are quantiles of runs made again, on any number of threads"
                             source->results.outputs[0].values.end());
   std::ranges::sort(times); // root.latch_time
   CHECK(json["latch_times"][0] == page_numbers(times, 6));
+}
+
+TEST_CASE("the envelope of a single run is its motion in closed form, from the first instant on",
+          "[page]") {
+  Json json = panel_campaign();
+  json["sampling"]["runs"] = 1;
+  const auto source = made(json);
+  PageDetail detail;
+  detail.envelope_times = 400;
+  const Json found = envelopes_json(*source, detail, 1);
+  const double spring = source->results.draws[0].values[0],
+               friction = source->results.draws[1].values[0];
+  const double latch = panel_latch_time(spring, friction);
+  const double acceleration = (panel_torque * spring - 0.3 * friction) / panel_inertia;
+  int compared = 0;
+  for (std::size_t k = 0; k < found["t"].size(); ++k) {
+    const double t = found["t"][k].get<double>();
+    if (t > 0.98 * latch) break; // the end of the interval between two samples
+    CAPTURE(t);
+    for (const std::size_t level : {0, 3, 6}) {
+      CHECK(found["angles"][0][level][k].get<double>() ==
+            Approx(panel_angle(t, spring, friction)).margin(1e-3));
+      CHECK(found["rates"][0][level][k].get<double>() == Approx(-acceleration * t).margin(2e-3));
+    }
+    ++compared;
+  }
+  CHECK(compared > 300);
 }
 
 TEST_CASE("envelopes have at most so many runs, spread evenly, and a foreign set has none",

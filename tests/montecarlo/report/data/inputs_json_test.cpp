@@ -19,7 +19,9 @@ const Json& entry(const Json& list, const char* key, const std::string& value) {
 
 TEST_CASE("inputs say what a case changes, of the scene and of laws", "[page]") {
   Json json = quick_campaign(5);
+  json["scene"]["hinges"][1]["initial_rate"] = -0.125;
   json["cases"] = parse_json(R"([ { "name": "heavy", "scale": { "bodies.panel_1.inertia": 1.5 },
+    "set": { "hinges.root.harness.offset": 0.25, "hinges.mid.initial_rate": 0 },
     "distributions": { "root_spring": { "type": "constant", "value": 0.9 } } } ])");
   const Campaign whole = campaign_of(json);
   const Campaign heavy = campaigns_of(whole).front();
@@ -32,6 +34,11 @@ TEST_CASE("inputs say what a case changes, of the scene and of laws", "[page]") 
   CHECK(inertia["value"] == whole.scene.bodies[0].inertia);
   CHECK(inertia["case_value"].get<double>() == Approx(1.5 * whole.scene.bodies[0].inertia));
   CHECK(entry(inputs["scene"], "path", "bodies.panel_1.mass")["case_value"].is_null());
+  const Json& added = entry(inputs["scene"], "path", "hinges.root.harness.offset");
+  CHECK((added["value"] == 0 && added["case_value"] == 0.25));
+  const Json& taken = entry(inputs["scene"], "path", "hinges.mid.initial_rate");
+  CHECK((taken["value"] == -0.125 && taken["case_value"] == 0));
+  for (const Json& each : inputs["scene"]) CHECK(each["path"] != "hinges.tip.harness.offset"); // 0
   const Json& spring = entry(inputs["dispersions"], "draw", "root_spring");
   CHECK(spring["law"] == "constant (value 0.9)");
   CHECK(spring["law_before_case"] == "normal (mean 1, std 0.05)");

@@ -1,4 +1,5 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/results/checkpoint/analysis_id.hpp"
 #include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 #include "montecarlo/results/checkpoint/row_records.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
@@ -233,4 +234,23 @@ TEST_CASE("the folder of a study: new, gone on with, finished") {
   std::filesystem::remove(path / "last.json");
   write_file(path / "other.csv", "a\n");
   CHECK_THROWS_WITH(open(true, about), Catch::Contains("found no interrupted study"));
+}
+
+TEST_CASE(
+    "an analysis is identified by its campaign, its runs and their draws, the first and the last") {
+  const Campaign campaign = campaign_of(quick_campaign(10));
+  const auto at_points = [&](long run, double first) { // so far only that run has another point
+    return RunPlan(campaign, [run, first](long k, std::span<Tails> u) {
+      std::ranges::fill(u, Tails{0.5, 0.5});
+      if (k == run) u[0] = Tails{first, 1 - first};
+    });
+  };
+  const std::string usual = analysis_id(at_points(0, 0.5), {2, 7});
+  CHECK(analysis_id(at_points(0, 0.25), {2, 7}) == usual); // of a run that is not asked for
+  CHECK(analysis_id(at_points(2, 0.25), {2, 7}) != usual);
+  CHECK(analysis_id(at_points(6, 0.25), {2, 7}) != usual);
+  CHECK(analysis_id(at_points(0, 0.5), {2, 8}) != usual);
+  CHECK(analysis_id(at_points(0, 0.5), {1, 7}) != usual);
+  const std::string nothing = analysis_id(at_points(0, 0.5), {2, 2});
+  CHECK(analysis_id(at_points(2, 0.25), {2, 2}) == nothing); // no run, no draw
 }

@@ -180,6 +180,15 @@ TEST_CASE("a preview has the rows that there are, says so, and is taken for noth
   std::vector<long> runs;
   for_each_stored_row(stored, [&](const ResultRow& row) { runs.push_back(row.run); });
   CHECK(runs == std::vector<long>{0, 1, 2, 6, 7});
+  // its gaps are no selection; the same rows of a folder that runs were made into would be
+  Results rows(RunPlan(stored.campaign).names());
+  for_each_stored_row(stored, [&](const ResultRow& row) { rows.append(row); });
+  CHECK_FALSE(gaps_text(stored, rows, false));
+  StoredCampaign own = stored;
+  own.stamp.preview.reset();
+  CHECK_THAT(gaps_text(own, rows, false).value_or(""),
+             Catch::StartsWith("5 of 10 runs, with gaps"));
+  CHECK_FALSE(gaps_text(own, rows, true)); // its goals were reached
   const Json about = parse_json_file(shards.out / summary_file)["wingspread"];
   CHECK(about["preview"] == Json{{"runs", 5}, {"of", 10}});
   CHECK(about["partial"] == Json{{"done", 5}, {"of", 10}});

@@ -3,8 +3,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <sstream>
 
 using namespace wingspread;
 
@@ -45,6 +48,8 @@ TEST_CASE("the worst case fails, or has the least margin", "[comparison]") {
   CaseSummary used = decided("f", Decision::pass, 2);
   used.summary.requirements[0].allowed = 3;
   used.summary.requirements[0].broken = {4, 7};
+  CHECK(worst_case({tight, used, pass}, 0) == 1);
+  used.summary.requirements[0].broken = {4}; // and one of three too
   CHECK(worst_case({tight, used, pass}, 0) == 1);
 }
 
@@ -150,6 +155,17 @@ TEST_CASE("cases stand side by side", "[comparison]") {
   cases[0].name = "a_case_with_a_long_name";
   while (cases.size() < 5) cases.push_back(cases[1]);
   const std::string more = cases_table(cases, "title", "out");
+  const auto cells = [&](const std::string& begin) { // in all lines that begin so
+    std::size_t count = 0;
+    std::istringstream in(more);
+    for (std::string line; std::getline(in, line);)
+      if (std::istringstream words(line.substr(std::min(begin.size(), line.size())));
+          line.starts_with(begin))
+        count += std::distance(std::istream_iterator<std::string>(words), {});
+    return count;
+  };
+  CHECK(cells("OUTCOME") == 5); // each case once, in two blocks
+  CHECK(cells("  runs ") == 5);
   CHECK_THAT(more, Catch::Contains(" a_case_with_a_long_name"));
   CHECK_THAT(more, Catch::Contains("\na_case_with_a_long_name lacks runs of the campaign\n"));
 }

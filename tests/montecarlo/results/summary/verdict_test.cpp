@@ -354,3 +354,22 @@ TEST_CASE("a limit on the other side of zero from every value is found") {
   CHECK_FALSE(judge(at_most(1.5, .5, .5), results).beyond_zero); // not every value
   CHECK_FALSE(judge(at_most(1.5, .5, .5), Results(ResultNames{{}, {"x"}})).beyond_zero);
 }
+
+TEST_CASE("a limit between zero and the values, or among them, is on their side") {
+  for (const double sign : {1.0, -1.0}) {
+    Results far(ResultNames{{}, {"x"}}), both(ResultNames{{}, {"x"}});
+    for (const double value : {0.75, 0.9})
+      far.append({static_cast<long>(far.size()), Status::deployed, {}, {sign * value}, "", ""});
+    for (const double value : {-0.75, 0.9})
+      both.append({static_cast<long>(both.size()), Status::deployed, {}, {sign * value}, "", ""});
+    for (const double limit : {0.5, 0.8, 2.0}) {
+      CAPTURE(sign, limit);
+      CHECK_FALSE(judge(at_most(sign * limit, .5, .5), far).beyond_zero);
+      CHECK_FALSE(judge(at_least(sign * limit, .5, .5), far).beyond_zero);
+      CHECK(judge(at_most(-sign * limit, .5, .5), far).beyond_zero);
+      CHECK(judge(at_least(-sign * limit, .5, .5), far).beyond_zero);
+      CHECK_FALSE(judge(at_most(sign * limit, .5, .5), both).beyond_zero);
+      CHECK_FALSE(judge(at_least(sign * limit, .5, .5), both).beyond_zero);
+    }
+  }
+}
