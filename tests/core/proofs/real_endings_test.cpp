@@ -137,24 +137,25 @@ TEST_CASE("with real hinges and smoothed latches, an early end misses no latch a
 TEST_CASE(
     "with detents steeper than the latches are stiff, an early end misses no latch and no peak",
     "[long]") {
-  int deployed = 0, final = 0, steep = 0;
+  int deployed = 0, final = 0; // of the wings with such a detent
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     CAPTURE(seed);
     Draws draws(seed);
     Scene scene = eager(seed);
+    bool steep = false;
     for (Hinge& hinge : scene.hinges) {
       hinge.latch = Latch{draws.log_uniform(300, 10'000), draws.log_uniform(2, 50)};
       // some so near to the latched angle that the wing may come back to them
       const double width = draws.log_uniform(1e-3, 0.01), height = draws.uniform(1, 20);
       add_detent(hinge, draws.log_uniform(0.05, 0.9), width, height);
-      steep += height / width > hinge.latch->stiffness;
+      steep = steep || height / width > hinge.latch->stiffness;
     }
     check_nothing_lost(scene, 10);
     const Outcome out = Deployment().run(scene, within(1e-8, 60), {});
-    deployed += out.status == Status::deployed, final += out.peaks_final;
+    deployed += steep && out.status == Status::deployed, final += steep && out.peaks_final;
   }
-  CAPTURE(deployed, final, steep);
-  CHECK((deployed > 20 && steep > 40 && final > deployed / 2));
+  CAPTURE(deployed, final);
+  CHECK((deployed > 10 && final > deployed / 2));
 }
 
 TEST_CASE("with each feature of real hinges, an early end misses no latch and no peak", "[long]") {
