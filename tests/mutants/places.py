@@ -64,7 +64,8 @@ class Finder:
 
     def visit(self, cursor, parent):
         kind = cursor.kind
-        if kind == Kind.STATIC_ASSERT or (kind == Kind.VAR_DECL and re.match(r"(static )?constexpr\b", self.of(cursor))):
+        constant = kind in (Kind.VAR_DECL, Kind.DECL_STMT) and re.match(r"(static )?constexpr\b", self.of(cursor))
+        if kind == Kind.STATIC_ASSERT or constant:  # a statement: of two constants in one the second does not begin with constexpr
             return
         children = list(cursor.get_children())
         if kind == Kind.CASE_STMT or (kind == Kind.IF_STMT and re.match(r"if\s+constexpr", self.of(cursor))):
