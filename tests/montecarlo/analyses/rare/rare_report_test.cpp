@@ -3,7 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <iterator>
 #include <limits>
+#include <sstream>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -69,6 +71,51 @@ TEST_CASE("the text of a rare event has each sentence where the estimate is such
           CHECK_FALSE(has(text, "MOST LIKELY"));
           CHECK_FALSE(has(text, "STRATA"));
         }
+}
+
+TEST_CASE("each repeat has a row of its own numbers, and each stratum, the largest part first",
+          "[rare]") {
+  RareResult result = result_of({repeat_of(true), repeat_of(true), repeat_of(false)});
+  std::vector<SubsetEstimate>& repeats = result.strata[0].estimates;
+  repeats[1].probability = 0.0125, repeats[1].variation = 0.375, repeats[1].evaluations = 4321;
+  repeats[1].levels.resize(2);
+  repeats[1].levels[0].threshold = 2.5, repeats[1].levels[1].threshold = 0.5;
+  repeats[2].probability = 3e-5, repeats[2].variation = 0.5;
+  RareOptions options;
+  options.event = {"root.peak_moment", 100, true};
+  const auto words_of = [](const std::string& text, const std::string& label) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with("  " + label)) {
+        std::istringstream in(line.substr(2 + label.size()));
+        return std::vector<std::string>{std::istream_iterator<std::string>(in), {}};
+      }
+    return std::vector<std::string>{};
+  };
+  using Words = std::vector<std::string>;
+  std::string text = rare_text(result, options, campaign_with(1));
+  CHECK(words_of(text, "1 ")[0] == "0.001");
+  // a level at the distance 2.5 below the limit of 100
+  CHECK(words_of(text, "2 ") == Words{"0.0125", "38", "%", "4321", "97.5", "99.5"});
+  CHECK(words_of(text, "3 ")[0] == "≲");
+
+  for (const double probability : {1e-4, 2e-3}) {
+    StratumEstimate part = result.strata[0];
+    part.stratum.rare = {{probability < 1e-3 ? "seldom" : "often", 1.0}};
+    part.stratum.probability = probability;
+    part.estimate.interval = {0.25, 0.5}, part.estimate.probability = 0.375;
+    part.estimate.evaluations = 77, part.estimate.reached = true;
+    result.strata.push_back(part);
+  }
+  result.strata[0].stratum.probability = 0.9979;
+  result.strata[0].estimate.interval = {1e-8, 2e-8};
+  text = rare_text(result, options, campaign_with(1));
+  CAPTURE(text);
+  const auto often = text.find("often = 1"), seldom = text.find("seldom = 1");
+  REQUIRE((often != text.npos && seldom != text.npos));
+  CHECK(often < seldom);
+  CHECK(seldom < text.find("no rare value"));
+  CHECK(words_of(text, "often = 1") == Words{"0.002", "0.375", "0.00075", "77"});
 }
 
 TEST_CASE("unphysical draws are among the warnings, of the file as of the terminal", "[rare]") {
