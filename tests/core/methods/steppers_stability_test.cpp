@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <complex>
+#include <map>
 #include <numbers>
+#include <string>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -175,4 +177,18 @@ TEST_CASE("the latched wing rings out at 14.0 ms with rk4 and not at 14.8, dopri
   CHECK_FALSE(stays_bounded(Adaptive<double, DormandPrince853<double>>(), 34e-3));
   CHECK(stays_bounded(Adaptive<double, RosenbrockW<double>>(), 1));
   CHECK(stays_bounded(Seulex<double>(), 1));
+}
+
+// As their authors state them: Runge-Kutta 1901; Cash & Karp 1990; Dormand & Prince 1980; Fehlberg 1968; Prince & Dormand 1981
+// with Hairer's estimate; Rang & Angermann 2005. Methods that choose their order have none to state.
+TEST_CASE("the stated orders are those of the formulas") {
+  const std::map<std::string, int> orders{
+      {"runge_kutta4", 4}, {"cash_karp54", 5},  {"dopri5", 5}, {"fehlberg78", 8},
+      {"dop853", 8},       {"rosenbrock_w", 3}, {"taylor", 16}};
+  for (const MethodInfo& method : methods()) {
+    CAPTURE(method.name);
+    const auto stated = orders.find(method.name);
+    CHECK(method.order == (stated == orders.end() ? 0 : stated->second));
+  }
+  for (const auto& [name, order] : orders) CHECK(info(name).order == order);
 }
