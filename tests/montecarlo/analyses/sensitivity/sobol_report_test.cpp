@@ -1,6 +1,7 @@
 #include "montecarlo/analyses/sensitivity/saltelli.hpp"
 #include "montecarlo/analyses/sensitivity/sobol_report.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 #include "tests/montecarlo/csv_support.hpp"
 
@@ -131,4 +132,12 @@ TEST_CASE("Sobol' indices stand under their names, in JSON, CSV and the table") 
   CHECK(of_a.front() == Approx(0.375).margin(6e-4)); // the total first
   CHECK(std::ranges::any_of(of_a, [](double x) { return std::abs(x - 0.125) < 6e-4; }));
   CHECK(numbers_of("sum of the first-order") == std::vector<double>{0.094});
+  // each number under its heading
+  const auto end_of = [&](const std::string& begin, const std::string& word) {
+    const auto from = table.find("\n  " + begin + ' ') + 1;
+    return count_characters(table.substr(from, table.find(word, from) + word.size() - from));
+  };
+  CHECK(end_of("a", "0.375") == end_of("dispersion", "total"));
+  CHECK(end_of("a", "0.125") == end_of("dispersion", "first"));
+  CHECK(end_of("sum of the first-order", "0.094") == end_of("dispersion", "first"));
 }
