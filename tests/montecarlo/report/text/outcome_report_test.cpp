@@ -279,6 +279,21 @@ TEST_CASE("a free base's largest changes are those that its motion shows") {
   CHECK(outcome_text(scene, failed).find("LARGEST CHANGE") == std::string::npos);
 }
 
+TEST_CASE("whether peaks are final is told where there are peaks, of moments or of forces") {
+  const Scene scene = read_scene_file(three_panel_file());
+  const Outcome both = simulate(scene, 1);
+  const auto told = [&](bool moments, bool forces) {
+    Outcome outcome = both;
+    if (!moments) outcome.peak_moment.clear();
+    if (!forces) outcome.peak_force.clear();
+    return outcome_json(scene, outcome)["peaks_final"];
+  };
+  CHECK(told(true, true) == false);
+  CHECK(told(true, false) == false);
+  CHECK(told(false, true) == false);
+  CHECK(told(false, false).is_null());
+}
+
 TEST_CASE("each table of loads stands where its loads are known, and none of a run that failed") {
   Scene scene = read_scene_file(three_panel_file());
   scene.hinges[1].release.emplace();
