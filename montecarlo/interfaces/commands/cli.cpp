@@ -138,8 +138,16 @@ std::string error_text(const CLI::ParseError& error) {
   if (std::regex_match(words, found, std::regex("Could not convert: (.+?) = (.*)")))
     return fmt::format("{}: found \"{}\", expected {}", found.str(1), found.str(2),
                        found.str(2).find(',') == std::string::npos ? "a number" : "numbers");
-  if (std::regex_match(words, found, std::regex("(.+): 1 required (.+) missing")))
-    return fmt::format("{}: found no value, expected {}", found.str(1), found.str(2));
+  if (std::regex_match(words, found, std::regex("(.+): 1 required (.+) missing"))) {
+    const std::string type = found.str(2);
+    return fmt::format("{}: found no value, expected {}", found.str(1),
+                       type == "TEXT"                     ? "a value"
+                       : type == "FLOAT" || type == "INT" ? "a number"
+                                                          : type);
+  }
+  if (std::regex_match(words, found, std::regex("(.+): At least (.+) required but received (.+)")))
+    return fmt::format("{}: found {}, expected {} values", found.str(1), found.str(3),
+                       found.str(2));
   return words;
 }
 

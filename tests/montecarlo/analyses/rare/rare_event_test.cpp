@@ -35,6 +35,13 @@ RareResult estimate(const Json& campaign, const RareOptions& options, const Thre
   return estimate_rare_event(campaign_of(campaign), options, evaluator, untold);
 }
 
+/// The limit state of the nominal wing with this static friction, N·m, at its first hinge.
+double with_static_friction(const LimitState& limit_state, const Campaign& campaign, double level) {
+  Scene scene = campaign.scene;
+  scene.hinges[0].friction.static_level = level;
+  return limit_state.of(scene, Deployment().run(scene, campaign.integration, limit_state.goal()));
+}
+
 } // namespace
 
 TEST_CASE("a wing that stalls once in a thousand, or once in a million") {
@@ -117,11 +124,7 @@ TEST_CASE("a wing that creeps runs out of time") {
 TEST_CASE("a wing that its spring barely breaks loose is near to staying stowed") {
   const Campaign campaign = campaign_of(one_panel(0.5));
   const LimitState limit_state(campaign, {});
-  const auto at = [&](double level) {
-    Scene scene = campaign.scene;
-    scene.hinges[0].friction.static_level = level;
-    return limit_state.of(scene, Deployment().run(scene, campaign.integration, limit_state.goal()));
-  };
+  const auto at = [&](double level) { return with_static_friction(limit_state, campaign, level); };
   CHECK(at(1.7) == Approx(0.2)); // 0.3 of the 1.5 N·m that the nominal spring has left
   CHECK(at(1.99) > 0);
   CHECK(at(1.99) < at(1.98));
@@ -133,11 +136,7 @@ TEST_CASE("a motor helps to break the wing loose, with its torque at rest") {
   Motor& motor = campaign.scene.hinges[0].motor.emplace();
   motor.rate = 0.5, motor.gain = 10, motor.torque_limit = 1.25; // at rest 1.25 N·m
   const LimitState limit_state(campaign, {});
-  const auto at = [&](double level) {
-    Scene scene = campaign.scene;
-    scene.hinges[0].friction.static_level = level;
-    return limit_state.of(scene, Deployment().run(scene, campaign.integration, limit_state.goal()));
-  };
+  const auto at = [&](double level) { return with_static_friction(limit_state, campaign, level); };
   CHECK(at(2.7) == Approx(0.2)); // 0.55 of the 2.75 N·m that spring and motor have left
   CHECK(at(3.24) > 0);
   CHECK(at(3.26) == -1);
