@@ -2,9 +2,7 @@
 
 import bisect
 import collections
-import csv
 import json
-import pathlib
 import subprocess
 
 import pages
@@ -47,7 +45,7 @@ class OwnChecks:
         self.open(pages.reported("cold", folder))
         self.verdict_numbers("cold")
         self.motion_numbers()
-        rows = list(csv.DictReader((folder / "runs.csv").open()))
+        rows = pages.rows_of(folder)
         down = [row for row in rows if row["status"] != "deployed"]
         self.assertTrue(down)
         for one in self.run_script("return W.set().requirements"):
@@ -113,8 +111,7 @@ class OwnChecks:
             if not self.run_script("return document.getElementById('kernel')"):
                 self.skipTest("the program was built without the kernel")
             one_set = self.run_script("return W.set()")
-            folder = pathlib.Path(one_set["folder"])
-            rows = list(csv.DictReader((folder / "runs.csv").open()))
+            rows = pages.rows_of(one_set["folder"])
             runs = [int(row["run"]) for row in rows if row["status"] != "deployed"][:2] + list(range(count))
             made = self.driver.execute_async_script("""const [runs, done] = arguments, W = window.wingspread, set = W.set();
                 W.kernel.of(set).then(kernel => done(runs.map(run => { kernel.draw(run); const made = kernel.run([]);
@@ -145,7 +142,7 @@ class OwnChecks:
             self.assertIsInstance(motion, dict, motion)
             file = pages.SCRATCH / f"{campaign}_{run}.csv"
             subprocess.run([pages.PROGRAM, "replay", motion["folder"], "--run", str(run), "--out", file, "--dt", "0.002"], check=True, capture_output=True)
-            rows = [{name: float(value) for name, value in row.items() if value} for row in csv.DictReader(file.open())]
+            rows = [{name: float(value) for name, value in row.items() if value} for row in pages.table_of(file)]
             times = [row["t"] for row in rows]
             self.assertEqual(motion["t"], sorted(motion["t"]))
             self.assertGreater(len(motion["t"]), 50)
@@ -176,7 +173,7 @@ class OwnChecks:
         caption = "Outputs of this run beside the campaign's"
         shown = lambda: self.run_script("return [...document.querySelectorAll('.any-run caption')].some(one => one.textContent === arguments[0])", caption)
         self.wait(shown)
-        rows = list(csv.DictReader((pathlib.Path(self.run_script("return W.set().folder")) / "runs.csv").open()))
+        rows = pages.rows_of(self.run_script("return W.set().folder"))
         last = lambda: next(row for row in self.table(caption) if row[0] == "deployment time")
         self.assertLessEqual(abs(parsed(last()[2])[0][0] - float(rows[7]["deployment_time"])), 2 * parsed(last()[2])[0][1])
         self.assertIn("run 7", self.one('.choice[aria-pressed="true"]').text)

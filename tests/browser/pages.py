@@ -1,6 +1,7 @@
 """A headless Chromium with the pages that the tests look at: made-up ones, and the program's own where there is a program."""
 
 import base64
+import csv
 import json
 import os
 import pathlib
@@ -68,6 +69,17 @@ def real(campaign, runs):
 def compared(campaign, runs, *options):
     """The page of a campaign beside the same with these options."""
     return reported(f"{campaign}_compared", made(campaign, runs), made(campaign, runs, f"{campaign}_changed", *options))
+
+
+def table_of(path):
+    """The rows of a CSV file, each a dict by column."""
+    with open(path) as file:
+        return list(csv.DictReader(file))
+
+
+def rows_of(folder):
+    """The rows of a results folder's runs.csv."""
+    return table_of(pathlib.Path(folder) / "runs.csv")
 
 
 def resize(driver, width, height=1000):

@@ -53,7 +53,7 @@ class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.driver = pages.browser()
-        cls.driver.set_script_timeout(60)
+        cls.driver.set_script_timeout(300)  # a loaded machine takes long; what hangs is still seen
 
     @classmethod
     def tearDownClass(cls):
@@ -72,7 +72,7 @@ class Page(unittest.TestCase):
     def run_script(self, script, *arguments):
         return self.driver.execute_script("const W = window.wingspread; " + script, *arguments)
 
-    def wait(self, happened, seconds=10):
+    def wait(self, happened, seconds=60):
         end = time.monotonic() + seconds
         while not happened():
             self.assertLess(time.monotonic(), end, "it did not happen")
