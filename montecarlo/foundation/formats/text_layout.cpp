@@ -24,6 +24,11 @@ std::string given_digits(double value) {
   return static_cast<std::size_t>(digits) > most_given_digits ? fmt::format("{:.6g}", value) : all;
 }
 
+/// An angle or a rate in degrees. Twelve digits: the conversion from degrees and back costs a rounding.
+std::string in_degrees(double value) {
+  return fmt::format("{:.12g}", value * 180 / std::numbers::pi);
+}
+
 } // namespace
 
 std::size_t count_characters(std::string_view text) {
@@ -123,13 +128,17 @@ std::string degrees_text(double radians) {
   return fmt::format("{:.4g}", degrees == 0 ? 0 : degrees); // no "-0"
 }
 
+double factor_as_written(double limit, std::string_view unit) {
+  if (unit != "rad" && unit != "rad/s") return 1;
+  const double degrees = 180 / std::numbers::pi;
+  return in_degrees(limit).size() < fmt::format("{}", limit).size() ? degrees : 1;
+}
+
 std::string as_written(double value, std::string_view unit) {
   const std::string number = given_digits(value);
-  if (unit != "rad" && unit != "rad/s")
+  if (factor_as_written(value, unit) == 1)
     return unit.empty() ? number : fmt::format("{} {}", number, unit);
-  // twelve digits: the conversion from degrees and back costs a rounding
-  const std::string degrees = fmt::format("{:.12g}", value * 180 / std::numbers::pi);
-  if (degrees.size() >= fmt::format("{}", value).size()) return fmt::format("{} {}", number, unit);
+  const std::string degrees = in_degrees(value);
   const bool is_exact = degrees.size() <= most_given_digits;
   return fmt::format("{} deg{}",
                      is_exact ? degrees : fmt::format("{:.6g}", value * 180 / std::numbers::pi),

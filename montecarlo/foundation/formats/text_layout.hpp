@@ -48,6 +48,9 @@ inline constexpr int table_width = 100;
 /// digits has six: "56.4924 N·m" of "500 in*lbf".
 [[nodiscard]] std::string as_written(double value, std::string_view unit);
 
+/// By what to multiply a value in `unit` so that it has the unit in which as_written states `limit`: 180/π or 1.
+[[nodiscard]] double factor_as_written(double limit, std::string_view unit);
+
 /// "timed out" of "timed_out".
 [[nodiscard]] std::string spaced(std::string_view name);
 

@@ -252,4 +252,10 @@ std::string to_string(const Requirement& requirement) {
   return requirement.group.empty() ? text : text + " in group " + requirement.group;
 }
 
+double in_unit_of_limit(const Requirement& requirement, double value) {
+  const std::optional<double> limit = requirement.max ? requirement.max : requirement.min;
+  return limit ? value * factor_as_written(*limit, parse_output_name(requirement.output).unit)
+               : value;
+}
+
 } // namespace wingspread

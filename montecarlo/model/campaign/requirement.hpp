@@ -62,4 +62,7 @@ void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requi
 /// "root.peak_moment ≤ 400 N·m, 99.73 % at 90 %"; with a name, "NAME: …".
 [[nodiscard]] std::string to_string(const Requirement& requirement);
 
+/// A value of the output, in SI, in the unit in which to_string states the limit: a rate in deg/s beside "≤ 60 deg/s".
+[[nodiscard]] double in_unit_of_limit(const Requirement& requirement, double value);
+
 } // namespace wingspread

@@ -10,13 +10,13 @@ namespace wingspread {
 namespace {
 
 std::string describe_vector(const Eigen::Vector2d& vector) {
-  return fmt::format("({}, {})", vector.x(), vector.y());
+  return fmt::format("({}, {})", as_written(vector.x(), ""), as_written(vector.y(), ""));
 }
 
 /// ", times 1.2, plus 0.1 N·m"; empty parts for 1 and 0.
 std::string describe_change(double scale, double offset = 0) {
-  return (scale == 1 ? "" : fmt::format(", times {}", scale)) +
-         (offset == 0 ? "" : fmt::format(", plus {} N·m", offset));
+  return (scale == 1 ? "" : ", times " + as_written(scale, "")) +
+         (offset == 0 ? "" : ", plus " + as_written(offset, "N·m"));
 }
 
 /// Constant motions, then ", acceleration and rate by a table of 5 times from 0 to 10 s, linear, times 1.2".
@@ -26,7 +26,7 @@ std::string describe_prescribed(const Base& base) {
   if (!table || !table->gives_acceleration())
     text += fmt::format(", acceleration {} m/s²", describe_vector(base.acceleration));
   if (!table || !table->gives_turning())
-    text += fmt::format(", angular acceleration {} rad/s²", base.angular_acceleration);
+    text += ", angular acceleration " + as_written(base.angular_acceleration, "rad/s²");
   if (!table) return text;
   const std::string turning = table->gives_rate()      ? "rate"
                               : table->gives_turning() ? "angular acceleration"
@@ -35,7 +35,7 @@ std::string describe_prescribed(const Base& base) {
   const std::vector<double>& time = table->columns().time;
   return text + fmt::format(", {}{}{} by a table of {} times from {} to {} s, {}{}",
                             table->gives_acceleration() ? "acceleration" : "", both, turning,
-                            time.size(), time.front(), time.back(),
+                            time.size(), as_written(time.front(), ""), as_written(time.back(), ""),
                             interpolation_names[static_cast<std::size_t>(table->interpolation())],
                             describe_change(base.table_scale));
 }
@@ -51,7 +51,7 @@ std::string describe_base(const Base& base) {
     text += describe_prescribed(base);
   text += fmt::format(", angle {} deg", degrees_text(base.angle));
   if (base.motion == BaseMotion::prescribed && base.table && base.table->gives_rate()) return text;
-  return text + fmt::format(", rate {} rad/s", base.rate);
+  return text + ", rate " + as_written(base.rate, "rad/s");
 }
 
 std::string describe_table(const TorqueTable& table) {
@@ -67,9 +67,9 @@ std::string describe_torque(const char* name, const HingeTorque& torque) {
   const bool is_line = torque.table == nullptr;
   if (is_line && torque.torque_stowed == 0 && torque.torque_latched == 0 && torque.offset == 0)
     return "";
-  const std::string law =
-      is_line ? fmt::format("{} to {} N·m", torque.torque_stowed, torque.torque_latched)
-              : describe_table(*torque.table);
+  const std::string law = is_line ? fmt::format("{} to {}", as_written(torque.torque_stowed, ""),
+                                                as_written(torque.torque_latched, "N·m"))
+                                  : describe_table(*torque.table);
   return fmt::format("; {} {}{}", name, law, describe_change(torque.scale, torque.offset));
 }
 
@@ -77,8 +77,9 @@ std::string describe_torque(const char* name, const HingeTorque& torque) {
 std::string describe_hysteresis(const Hinge& hinge) {
   if (!hinge.spring.table || !hinge.spring.table->both_ways()) return "";
   const double scale = hinge.friction.scale;
-  return fmt::format(", its hysteresis as friction{}",
-                     scale == 1 ? "" : fmt::format(", times {} (friction.scale)", scale));
+  return fmt::format(
+      ", its hysteresis as friction{}",
+      scale == 1 ? "" : fmt::format(", times {} (friction.scale)", as_written(scale, "")));
 }
 
 /// Empty for a hinge without friction.
@@ -87,10 +88,11 @@ std::string describe_friction(const Friction& friction) {
   const double static_level = friction.static_level.value_or(friction.coulomb);
   if (friction.coulomb == 0 && friction.viscous == 0 && static_level == 0) return "";
   const std::string model =
-      exact ? fmt::format("exact, static {} N·m", static_level)
-            : fmt::format("regularized at {} rad/s", friction.regularization_rate);
-  return fmt::format("; friction {} N·m, {} N·m·s/rad, {}{}", friction.coulomb, friction.viscous,
-                     model, describe_change(friction.scale));
+      exact ? "exact, static " + as_written(static_level, "N·m")
+            : "regularized at " + as_written(friction.regularization_rate, "rad/s");
+  return fmt::format("; friction {}, {}, {}{}", as_written(friction.coulomb, "N·m"),
+                     as_written(friction.viscous, "N·m·s/rad"), model,
+                     describe_change(friction.scale));
 }
 
 std::string describe_damper_law(const Damper& damper) {
@@ -98,13 +100,14 @@ std::string describe_damper_law(const Damper& damper) {
   case DamperLaw::viscous:
     break;
   case DamperLaw::power:
-    return fmt::format("{} N·m·(s/rad)^{}, linear below {} rad/s", damper.coefficient,
-                       damper.exponent, damper.regularization_rate);
+    return fmt::format("{}^{}, linear below {}", as_written(damper.coefficient, "N·m·(s/rad)"),
+                       as_written(damper.exponent, ""),
+                       as_written(damper.regularization_rate, "rad/s"));
   case DamperLaw::eddy_current:
-    return fmt::format("of eddy currents, {} N·m at {} rad/s", damper.peak_torque,
-                       damper.peak_rate);
+    return fmt::format("of eddy currents, {} at {}", as_written(damper.peak_torque, "N·m"),
+                       as_written(damper.peak_rate, "rad/s"));
   }
-  return fmt::format("{} N·m·s/rad", damper.coefficient);
+  return as_written(damper.coefficient, "N·m·s/rad");
 }
 
 std::string describe_damper(const std::optional<Damper>& damper) {
@@ -119,8 +122,8 @@ std::string describe_damper(const std::optional<Damper>& damper) {
 
 std::string describe_stop(const char* name, const std::optional<Stop>& stop) {
   if (!stop) return "";
-  return fmt::format("; {} {:.7g} N·m/rad, {} s/rad, gap {} deg", name, stop->stiffness,
-                     stop->dissipation, degrees_text(stop->gap));
+  return fmt::format("; {} {:.7g} N·m/rad, {}, gap {} deg", name, stop->stiffness,
+                     as_written(stop->dissipation, "s/rad"), degrees_text(stop->gap));
 }
 
 /// "; held until 0.2 s after root latches, never released".
@@ -139,12 +142,13 @@ std::string describe_release(const Scene& scene, const Hinge& hinge) {
     case Release::Event::passed:
       return fmt::format("{} has turned by {} deg", other(), degrees_text(release.angle));
     }
-    return fmt::format("{} s", release.time);
+    return as_written(release.time, "s");
   };
-  const std::string delay = release.delay == 0 ? "" : fmt::format("{} s after ", release.delay);
-  const std::string spring = hinge.hold ? fmt::format(" by {} N·m/rad, {} N·m·s/rad",
-                                                      hinge.hold->stiffness, hinge.hold->damping)
-                                        : "";
+  const std::string delay = release.delay == 0 ? "" : as_written(release.delay, "s after ");
+  const std::string spring =
+      hinge.hold ? fmt::format(" by {}, {}", as_written(hinge.hold->stiffness, "N·m/rad"),
+                               as_written(hinge.hold->damping, "N·m·s/rad"))
+                 : "";
   return fmt::format("; held{} until {}{}{}", spring, delay, event(),
                      release.fails == 0 ? "" : ", but never released (fails)");
 }
@@ -155,12 +159,12 @@ std::string describe_motor(const std::optional<Motor>& motor) {
   const std::string rate =
       motor->table
           ? fmt::format("by a table of {} times from {} to {} s, {}{}", motor->time.size(),
-                        motor->time.front(), motor->time.back(),
+                        as_written(motor->time.front(), ""), as_written(motor->time.back(), ""),
                         interpolation_names[static_cast<std::size_t>(motor->interpolation)],
                         describe_change(motor->scale))
-          : fmt::format("at {} rad/s", motor->rate);
-  return fmt::format("; motor {}, {} N·m·s/rad up to {} N·m", rate, motor->gain,
-                     motor->torque_limit);
+          : "at " + as_written(motor->rate, "rad/s");
+  return fmt::format("; motor {}, {} up to {}", rate, as_written(motor->gain, "N·m·s/rad"),
+                     as_written(motor->torque_limit, "N·m"));
 }
 
 std::string describe_latch(const std::optional<Latch>& latch) {
@@ -171,15 +175,15 @@ std::string describe_latch(const std::optional<Latch>& latch) {
           : fmt::format(", backlash {} deg in all (±{})", degrees_text(latch->backlash),
                         degrees_text(latch->backlash / 2));
   const std::string damping = latch->dissipation
-                                  ? fmt::format("dissipation {} s/rad", *latch->dissipation)
-                                  : fmt::format("{} N·m·s/rad", latch->damping);
+                                  ? "dissipation " + as_written(*latch->dissipation, "s/rad")
+                                  : as_written(latch->damping, "N·m·s/rad");
   const std::string capture = latch->capture_rate ? fmt::format(", engages up to {} deg/s",
                                                                 degrees_text(*latch->capture_rate))
                                                   : "";
-  const std::string holding =
-      latch->holding_moment
-          ? fmt::format(", lets go of a load towards stowed from {} N·m on", *latch->holding_moment)
-          : "";
+  const std::string holding = latch->holding_moment
+                                  ? fmt::format(", lets go of a load towards stowed from {} on",
+                                                as_written(*latch->holding_moment, "N·m"))
+                                  : "";
   return fmt::format("; latch {:.7g} N·m/rad, {}{}{}{}", latch->stiffness, damping, backlash,
                      capture, holding);
 }
@@ -187,25 +191,24 @@ std::string describe_latch(const std::optional<Latch>& latch) {
 std::string describe_flexible(const Body& body) {
   if (!body.flexible) return "";
   const Flexible& flexible = *body.flexible;
-  const std::string given = flexible.frequency
-                                ? fmt::format("{} Hz clamped", *flexible.frequency)
-                                : fmt::format("{} N·m²", *flexible.bending_stiffness);
-  return fmt::format("; bends, {}, damping ratio {}, as {} segments", given, flexible.damping_ratio,
-                     flexible.joints + 1);
+  const std::string given = flexible.frequency ? as_written(*flexible.frequency, "Hz clamped")
+                                               : as_written(*flexible.bending_stiffness, "N·m²");
+  return fmt::format("; bends, {}, damping ratio {}, as {} segments", given,
+                     as_written(flexible.damping_ratio, ""), flexible.joints + 1);
 }
 
 std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
   const std::string parent = hinge.parent == base_index ? "base" : scene.bodies[hinge.parent].name;
   if (hinge.joint)
     return fmt::format(
-        "{}: {} to {}; elastic joint at {} deg, {:.7g} N·m/rad, {} N·m·s/rad{}", hinge.name, parent,
+        "{}: {} to {}; elastic joint at {} deg, {:.7g} N·m/rad, {}{}", hinge.name, parent,
         scene.bodies[hinge.child].name, degrees_text(hinge.stowed), hinge.joint->stiffness,
-        hinge.joint->damping,
-        hinge.initial_rate == 0 ? "" : fmt::format(", from {} rad/s", hinge.initial_rate));
+        as_written(hinge.joint->damping, "N·m·s/rad"),
+        hinge.initial_rate == 0 ? "" : ", from " + as_written(hinge.initial_rate, "rad/s"));
   std::string text =
       fmt::format("{}: {} to {}, {} to {} deg", hinge.name, parent, scene.bodies[hinge.child].name,
                   degrees_text(hinge.stowed), degrees_text(hinge.latched));
-  if (hinge.initial_rate != 0) text += fmt::format(", from {} rad/s", hinge.initial_rate);
+  if (hinge.initial_rate != 0) text += ", from " + as_written(hinge.initial_rate, "rad/s");
   return text + describe_torque("spring", hinge.spring) + describe_hysteresis(hinge) +
          describe_torque("harness", hinge.harness) + describe_friction(hinge.friction) +
          describe_damper(hinge.damper) + describe_stop("stop", hinge.stop) +
@@ -217,20 +220,20 @@ std::string describe_body(const Body& body) {
   std::string text =
       fmt::format("{}: mass {:.6g} kg, inertia {:.6g} kg·m²", body.name, body.mass, body.inertia);
   if (const auto& plate = body.plate)
-    text += fmt::format("; plate from {} to {} m, {} m wide, drag coefficient {}",
-                        describe_vector(plate->from), describe_vector(plate->to), plate->width,
-                        plate->drag_coefficient);
+    text += fmt::format("; plate from {} to {} m, {} wide, drag coefficient {}",
+                        describe_vector(plate->from), describe_vector(plate->to),
+                        as_written(plate->width, "m"), as_written(plate->drag_coefficient, ""));
   return text + describe_flexible(body);
 }
 
 std::string describe_loop(const Scene& scene, const Synchronisation& loop) {
   const std::string ratio = loop.table ? fmt::format("by a table of {} travels", loop.travel.size())
-                                       : fmt::format("ratio {}", loop.ratio);
+                                       : "ratio " + as_written(loop.ratio, "");
   const std::string preload =
-      loop.preload ? fmt::format(", preload {} N·m", *loop.preload) : ", never slack";
-  return fmt::format("{}: {} to {}, {}; {} N·m/rad, {} N·m·s/rad{}", loop.name,
-                     scene.hinges[loop.first].name, scene.hinges[loop.second].name, ratio,
-                     loop.stiffness, loop.damping, preload);
+      loop.preload ? ", preload " + as_written(*loop.preload, "N·m") : ", never slack";
+  return fmt::format("{}: {} to {}, {}; {}, {}{}", loop.name, scene.hinges[loop.first].name,
+                     scene.hinges[loop.second].name, ratio, as_written(loop.stiffness, "N·m/rad"),
+                     as_written(loop.damping, "N·m·s/rad"), preload);
 }
 
 /// Empty without gravity and air.
@@ -239,7 +242,7 @@ std::string describe_environment(const Environment& environment) {
   if (!environment.gravity.isZero(0))
     text += fmt::format("  gravity: {} m/s²\n", describe_vector(environment.gravity));
   if (environment.air_density != 0)
-    text += fmt::format("  air: {} kg/m³\n", environment.air_density);
+    text += fmt::format("  air: {}\n", as_written(environment.air_density, "kg/m³"));
   return text;
 }
 

@@ -12,13 +12,19 @@ namespace {
 /// The hinges that the scene's author named: those of the segmented scene up to the joints.
 std::size_t named_hinges(const WingModes& modes) { return modes.wing.joints.size(); }
 
+/// An angle of a shape to three decimals, without a "-0.000".
+std::string three_decimals(double angle) {
+  const std::string text = fmt::format("{:.3f}", angle);
+  return text == "-0.000" ? "0.000" : text;
+}
+
 std::string shape_text(const WingModes& modes, const NaturalMode& mode) {
   const Scene& scene = modes.wing.scene;
   std::string text;
   for (std::size_t h = 0; h < named_hinges(modes); ++h)
-    text +=
-        fmt::format("{}{}={:.3f}", text.empty() ? "" : ", ", scene.hinges[h].name, mode.shape[h]);
-  if (scene.base.motion == BaseMotion::free) text += fmt::format(", base={:.3f}", mode.base_angle);
+    text += fmt::format("{}{}={}", text.empty() ? "" : ", ", scene.hinges[h].name,
+                        three_decimals(mode.shape[h]));
+  if (scene.base.motion == BaseMotion::free) text += ", base=" + three_decimals(mode.base_angle);
   return text;
 }
 

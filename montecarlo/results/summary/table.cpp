@@ -280,12 +280,15 @@ std::string requirements(const Summary& summary, std::string_view folder) {
                                  "broken", "allowed", "observed", "guaranteed");
   for (const Verdict& verdict : summary.requirements) {
     const bool share = verdict.requirement.output == deployed_output;
+    const auto beside_limit = [&](const std::optional<double>& value) {
+      return value ? in_digits(in_unit_of_limit(verdict.requirement, *value)) : "–";
+    };
     text += fmt::format(
         "{}{:<10}{:>8}{:>8}{:>13}{:>13}\n", in_column("  " + to_string(verdict.requirement), 46),
         to_string(verdict.decision), verdict.failures(),
         verdict.allowed ? std::to_string(*verdict.allowed) : "–",
-        share ? percent(verdict.share) : in_digits_if_any(verdict.observed),
-        share ? percent(verdict.guaranteed_share) : in_digits_if_any(verdict.guaranteed));
+        share ? percent(verdict.share) : beside_limit(verdict.observed),
+        share ? percent(verdict.guaranteed_share) : beside_limit(verdict.guaranteed));
     if (verdict.decision != Decision::pass || verdict.joint)
       text += "    " + wrapped(evidence(verdict), 4) + '\n';
     text += broken_runs(verdict, folder);

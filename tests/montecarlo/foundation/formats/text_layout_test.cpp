@@ -59,6 +59,11 @@ TEST_CASE("angles and rates are printed as their author wrote them", "[text_layo
   CHECK(as_written(123456.789, "N") == "123456.789 N"); // written so
   CHECK(as_written(0.12345678901234, "rad") == "7.07355 deg");
   CHECK(as_written(3, "") == "3");
+  // a value beside the limit gets the limit's unit
+  CHECK(factor_as_written(5 * std::numbers::pi / 180, "rad/s") == 180 / std::numbers::pi);
+  CHECK(factor_as_written(-12.5 * std::numbers::pi / 180, "rad") == 180 / std::numbers::pi);
+  CHECK(factor_as_written(1.5, "rad/s") == 1);
+  CHECK(factor_as_written(5 * std::numbers::pi / 180, "N·m") == 1);
 }
 
 TEST_CASE("text that goes on a line is broken at blanks, and no word is cut", "[text_layout]") {

@@ -1,8 +1,12 @@
 #include "montecarlo/model/scene_file/describe_scene.hpp"
 #include "montecarlo/model/scene_file/scene_json.hpp"
+#include "montecarlo/model/scene_file/scene_parameter.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <numbers>
+#include <regex>
 
 using namespace wingspread;
 
@@ -82,4 +86,28 @@ TEST_CASE("A torque is described unless it is 0 along the whole travel", "[descr
     CHECK(told(R"({"torque_stowed": 0, "torque_latched": 0.5})"));
     CHECK(told(R"({"torque_stowed": 0, "torque_latched": 0, "offset": 0.5})"));
   }
+}
+
+TEST_CASE("No number of a description has the digits of a conversion, and rates are as written",
+          "[describe]") {
+  for (Scene scene : {read_scene(test::small_scene()), read_scene(test::real_scene())}) {
+    for (const std::string& path : parameter_paths(scene))
+      for (const ParameterMatch& match : resolve(scene, path).matches)
+        match.parameter.in(scene) /= 0.9;
+    const std::string text = describe(scene);
+    CAPTURE(text);
+    CHECK(text.find("1.11") != std::string::npos);
+    CHECK_FALSE(std::regex_search(text, std::regex("[0-9.]{12}")));
+  }
+  Scene scene = read_scene(test::real_scene());
+  const double degree = std::numbers::pi / 180;
+  scene.base.motion = BaseMotion::free;
+  scene.base.rate = 3 * degree;
+  scene.hinges[0].initial_rate = -4 * degree;
+  scene.hinges[0].friction.regularization_rate = degree;
+  scene.hinges[1].damper->peak_rate = 20 * degree;
+  const std::string text = describe(scene);
+  for (const char* part :
+       {", rate 3 deg/s", ", from -4 deg/s", "regularized at 1 deg/s", "2 N·m at 20 deg/s"})
+    CHECK_THAT(text, Catch::Contains(part));
 }

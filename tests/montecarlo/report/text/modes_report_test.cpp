@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <sstream>
+
 using namespace wingspread;
 
 TEST_CASE("Modes are told lowest first, in text without the joints of flexible bodies") {
@@ -34,4 +36,33 @@ TEST_CASE("The base of a free wing is part of a mode's shape") {
   const auto turns = [&](std::size_t k) { return std::abs(modes->modes[k].base_angle); };
   CHECK(std::min(turns(0), turns(1)) < 1e-9);
   CHECK(std::max(turns(0), turns(1)) > 1e-3);
+}
+
+TEST_CASE("Every number of the modes' text is the mode's") {
+  const std::optional<WingModes> modes = natural_modes(oracle::symmetric_tree());
+  REQUIRE(modes);
+  REQUIRE(modes->modes.size() > 2);
+  std::istringstream text(modes_text(*modes));
+  CHECK_FALSE(text.str().find("-0.000") != std::string::npos);
+  std::string word;
+  std::getline(text, word);
+  CHECK(word.find("frequency, Hz") < word.find("damping ratio"));
+  for (std::size_t k = 0; k < modes->modes.size(); ++k) {
+    const NaturalMode& mode = modes->modes[k];
+    double number = 0, frequency = 0, damping = 0;
+    text >> number >> frequency >> damping;
+    CHECK(number == static_cast<double>(k + 1));
+    CHECK(frequency == Approx(mode.frequency).epsilon(1e-4)); // five digits
+    CHECK(damping == Approx(mode.damping_ratio).epsilon(1e-4).margin(1e-12));
+    std::vector<double> shape = mode.shape;
+    shape.push_back(mode.base_angle);
+    for (std::size_t h = 0; h < shape.size(); ++h) {
+      text >> word;
+      const auto equals = word.find('=');
+      REQUIRE(equals != std::string::npos);
+      const bool is_base = h + 1 == shape.size();
+      CHECK(word.substr(0, equals) == (is_base ? "base" : modes->wing.scene.hinges[h].name));
+      CHECK(std::stod(word.substr(equals + 1)) == Approx(shape[h]).margin(5.1e-4));
+    }
+  }
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 using namespace wingspread;
@@ -222,6 +223,26 @@ TEST_CASE("the table shows what the campaign asks for, and which runs to look at
   summary.requirements[1] = summary.requirements[0];
   CHECK_THAT(summary_table(summary, "t", "out"),
              Catch::Contains("  Joint confidence of 2 requirements: at least 80 %.\n"));
+}
+
+TEST_CASE("a requirement's values have the unit of its limit") {
+  Results results(ResultNames{{"k"}, {"tip.latch_rate"}});
+  for (long run = 0; run < 100; ++run) {
+    const double rate = static_cast<double>(run) * std::numbers::pi / 180; // run deg/s
+    results.append({run, Status::deployed, {0.}, {rate}, "tip", ""});
+  }
+  Summary summary = summarize(results, {});
+  const Requirement in_degrees{"", "tip.latch_rate", std::numbers::pi / 3, {}, .5, .9},
+      in_radians{"", "tip.latch_rate", 1.5, {}, .5, .9};
+  summary.requirements = {judge(in_degrees, results), judge(in_radians, results)};
+  const std::string table = summary_table(summary, "t", "");
+  // 60 runs keep to 60 deg/s. The largest of the lower half turns at 49 deg/s; by P(Bin(100, 1/2) ≤ 43) ≤ 0.1, 43 may be above
+  CHECK_THAT(table,
+             Catch::Contains("  tip.latch_rate ≤ 60 deg/s, 50 % at 90 %     pass            39"
+                             "      43       49.000       56.000"));
+  CHECK_THAT(table,
+             Catch::Contains("  tip.latch_rate ≤ 1.5 rad/s, 50 % at 90 %    pass            14"
+                             "      43      0.85521      0.97738"));
 }
 
 TEST_CASE("tolerance limits say by which rule runs rank, and why there is none") {
