@@ -156,7 +156,7 @@ public:
   /// the rates of hinges that come to rest to zero, and lets holds go.
   /// @param record to which the events are appended
   /// @return whether the right-hand side has changed
-  [[nodiscard]] bool happen(const std::optional<Due<T>>& due, Step<T>& step, LatchRecord record) {
+  [[nodiscard]] bool apply(const std::optional<Due<T>>& due, Step<T>& step, LatchRecord record) {
     const auto hinge_of = [&](Event event) { return due && due->event == event ? due->hinge : 0; };
     const bool passes = due && due->event == Event::edge && due->edge == Edge::pass;
     const int latching = passes ? due->hinge : hinge_of(Event::latch);

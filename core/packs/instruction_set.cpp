@@ -68,7 +68,8 @@ int lanes_of(InstructionSet set) {
 }
 
 Occupancy& Occupancy::operator+=(const Occupancy& other) {
-  tries += other.tries, busy += other.busy, scalar += other.scalar, returns += other.returns;
+  trial_steps += other.trial_steps, busy += other.busy, scalar += other.scalar,
+      returns += other.returns;
   in_lanes += other.in_lanes;
   for (std::size_t k = 0; k < outside.size(); ++k) outside[k] += other.outside[k];
   return *this;

@@ -26,11 +26,11 @@ inline constexpr std::array cause_names{"start",   "method", "limit",  "event",
 
 /// How well the lanes of engines were used.
 struct Occupancy {
-  long tries = 0;      ///< trial steps made by engines, all lanes counted
-  long busy = 0;       ///< made by engines in lanes with a run
-  long scalar = 0;     ///< made outside engines
-  long returns = 0;    ///< trial steps by engines after which a lane needed its run
-  double in_lanes = 0; ///< time in engines, s
+  long trial_steps = 0; ///< trial steps made by engines, all lanes counted
+  long busy = 0;        ///< made by engines in lanes with a run
+  long scalar = 0;      ///< made outside engines
+  long returns = 0;     ///< trial steps by engines after which a lane needed its run
+  double in_lanes = 0;  ///< time in engines, s
   std::array<double, cause_names.size()> outside{}; ///< time with one run at a time, by Cause, s
   Occupancy& operator+=(const Occupancy& other);
 };

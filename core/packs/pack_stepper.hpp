@@ -43,7 +43,7 @@ public:
     holds_.resize(at_);
     events_.resize(at_, wing_.real.size());
     rtol_ = atol_ = dense_tolerance_ = P(1.0);
-    step_.t = step_.h = scaled_error_ = judged_ = factor_ = busy_ = t_end_ = none;
+    step_.t = step_.h = scaled_error_ = judged_ = factor_ = busy_ = end_of_stretch_ = none;
     first_round_ = last_round_ = last_step_ = evaluations_before_ = none;
     history_ = {none, {}, {none, none, {none, none, none}}};
     system_.want_forces(shape.forces);
@@ -83,7 +83,7 @@ public:
     if constexpr (M == BaseMotion::free) free_.load(lane, task);
     rtol_.v[lane] = task.tolerance.rtol, atol_.v[lane] = task.tolerance.atol;
     dense_tolerance_.v[lane] = task.dense_tolerance;
-    t_end_.v[lane] = task.t_end;
+    end_of_stretch_.v[lane] = task.end_of_stretch;
     first_round_.v[lane] = now;
     last_round_.v[lane] = now + static_cast<double>(task.most_trial_steps);
     last_step_.v[lane] = task.history.steps + static_cast<double>(task.most_steps);
@@ -196,7 +196,7 @@ private:
     if constexpr (M != BaseMotion::prescribed) return next;
     if (work_.stuck == 0) return next;
     const P from = select(accepted, P(step_.t + step_.h), step_.t);
-    const P most = time_of_base(wing_.base, work_.driven, from, P(t_end_ - from));
+    const P most = time_of_base(wing_.base, work_.driven, from, P(end_of_stretch_ - from));
     return select(holds_.lanes(), smaller(next, most), next);
   }
 
@@ -208,7 +208,8 @@ private:
     const Mask tried_enough = last_round_ < P(static_cast<double>(round_));
     // Both margins are far wider than the limits at which a run alone stops a step, 4 and 8 roundings
     // of the time (Stepping::plan, advance): the run decides the cases between.
-    const Mask near_limit = !(next > P(1e-9) * now) || !(next < P(0.999999) * (t_end_ - now));
+    const Mask near_limit =
+        !(next > P(1e-9) * now) || !(next < P(0.999999) * (end_of_stretch_ - now));
     const Mask may_leave = history_.held_back.may_leave(step_.h, P(history_.steps + P(1.0)));
     const Mask accepted_enough = history_.steps >= last_step_;
     Mask asks = busy && (tried_enough || near_limit || (accepted && may_leave));
@@ -316,7 +317,7 @@ private:
   Formula formula_;
   Step<P> step_;
   State<P> error_;
-  P rtol_, atol_, dense_tolerance_, t_end_;
+  P rtol_, atol_, dense_tolerance_, end_of_stretch_;
   P scaled_error_, judged_, factor_; ///< of the last trial step: as in LaneResult
   std::vector<P> overtravel_;
   std::vector<P> motor_energy_, motor_work_; ///< up to the step's start; over the step, J

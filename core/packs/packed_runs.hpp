@@ -63,7 +63,7 @@ public:
       for (int l = 0; l < engine_.width(); ++l)
         if (has(asking, l)) resume(l, next, done);
     }
-    count_.tries = (engine_.rounds() - before) * engine_.width();
+    count_.trial_steps = (engine_.rounds() - before) * engine_.width();
     return count_;
   }
 

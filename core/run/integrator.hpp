@@ -95,7 +95,7 @@ public:
             .held_before = holds ? run_.held_before.data() : nullptr,
             .excess_before = holds ? events_.excess_before().data() : nullptr,
             .base = peaks_.base(),
-            .t_end = static_cast<double>(stepping_.end_of_stretch()),
+            .end_of_stretch = static_cast<double>(stepping_.end_of_stretch()),
             .most_trial_steps = asks_for_plain_step() ? stepping_.tries_left() : 0,
             .most_steps = diary_.is_watched() // it takes samples inside every step
                               ? 0

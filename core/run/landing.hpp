@@ -104,7 +104,7 @@ public:
   /// @param record to which the events are added
   /// @return whether anything happened; the right-hand side has then changed
   [[nodiscard]] bool apply_events(const LatchRecord& record) {
-    const bool happened = events_.happen(due_, run_.step, record);
+    const bool happened = events_.apply(due_, run_.step, record);
     run_.next_release = events_.releases().next();
     return happened;
   }

@@ -54,7 +54,7 @@ struct LaneTask {
       held_before; ///< 1 … n: moments on stuck hinges at the state, N·m; null: none sticks
   const double* excess_before; ///< 1 … n: of their friction over its limit, N·m; null: none sticks
   const BaseExcursion<double>& base; ///< of a free base, so far
-  double t_end;                      ///< Stepping::end_of_stretch: the run makes the step to it, s
+  double end_of_stretch;             ///< Stepping::end_of_stretch: the run makes the step to it, s
   long most_trial_steps;             ///< after so many the run must judge the next trial step
   long most_steps;                   ///< the same, after so many accepted steps
   long evaluations;                  ///< so far

@@ -160,9 +160,9 @@ public:
         data_(data_of(spec.tests)), runs_(spec.tests, spec.parameters, space_, *evaluator_),
         values_(campaign, spec, space_) {}
 
-  FitResult run(BatchLog* log, const std::function<void(const EnsembleState&)>& told) {
+  FitResult run(BatchLog* log, const std::function<void(const EnsembleState&)>& report_progress) {
     search_modes();
-    sample(log, told);
+    sample(log, report_progress);
     summarize_parameters();
     summarize_held();
     summarize_channels();
@@ -193,7 +193,7 @@ private:
     }
   }
 
-  void sample(BatchLog* log, const std::function<void(const EnsembleState&)>& told) {
+  void sample(BatchLog* log, const std::function<void(const EnsembleState&)>& report_progress) {
     const LogDensity density = [&](std::span<const FitPoint> points) {
       const auto make = [&] {
         const std::vector<Prediction> predictions = runs_.predict(points, RunAccuracy::campaign);
@@ -212,7 +212,7 @@ private:
                               .most_evaluations = most,
                               .independent = independent_moves};
     const StudentMixture proposal = proposal_about(modes_, data_, runs_, campaign_.sampling.seed);
-    const Ensemble ensemble = run_ensemble(density, proposal, how, told);
+    const Ensemble ensemble = run_ensemble(density, proposal, how, report_progress);
     result_.finished = ensemble.finished;
     result_.sampler = ensemble.state;
     points_ = points_of(ensemble);
@@ -371,8 +371,8 @@ private:
 
 FitResult fit_campaign(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,
                        const std::atomic<bool>& stop, BatchLog* log,
-                       const std::function<void(const EnsembleState&)>& told) {
-  return Study(campaign, spec, options, stop).run(log, told);
+                       const std::function<void(const EnsembleState&)>& report_progress) {
+  return Study(campaign, spec, options, stop).run(log, report_progress);
 }
 
 void refuse_unpredictable(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,

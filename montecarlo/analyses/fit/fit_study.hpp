@@ -118,10 +118,10 @@ void refuse_unpredictable(const Campaign& campaign, const FitSpec& spec, const F
 
 /// @param log recorded batches of the sampler; may be null
 /// @throws Stopped
-[[nodiscard]] FitResult fit_campaign(const Campaign& campaign, const FitSpec& spec,
-                                     const FitOptions& options, const std::atomic<bool>& stop,
-                                     BatchLog* log,
-                                     const std::function<void(const EnsembleState&)>& told);
+[[nodiscard]] FitResult
+fit_campaign(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,
+             const std::atomic<bool>& stop, BatchLog* log,
+             const std::function<void(const EnsembleState&)>& report_progress);
 
 /// Identifies the study for --resume: tests, measured numbers and campaign.
 [[nodiscard]] Json about_fit(const Campaign& campaign, const FitSpec& spec);

@@ -41,9 +41,9 @@ public:
   };
 
   /// g and status of the runs at the points, in their order. @throws Stopped
-  /// @param told called with the number of finished runs
+  /// @param report_progress called with the number of finished runs
   [[nodiscard]] std::vector<Judged> judge(std::span<const NormalPoint> points,
-                                          const std::function<void(long)>& told) {
+                                          const std::function<void(long)>& report_progress) {
     points_ = points;
     const RunRange all{0, std::ssize(points)};
     std::vector<Judged> judged;
@@ -52,7 +52,7 @@ public:
         judged.push_back({row.outputs.front(), row.status,
                           is_cut(peak_, row.peaks_final.value_or(PeaksFinal::unknown)),
                           row.status == Status::deployed && row.reason == latches_may_let_go});
-      told(std::ssize(judged));
+      report_progress(std::ssize(judged));
     };
     if (evaluator_.make(plan_, all, {keep}) < all.size()) throw Stopped{};
     return judged;
@@ -172,10 +172,10 @@ private:
     std::vector<NormalPoint> moved;
     for (const NormalPoint& point : points) moved.push_back(within(stratum, point));
     std::vector<double> values;
-    const auto told = [&](long now) {
+    const auto report_progress = [&](long now) {
       progress_({0, 0, made_ + now, std::max(most_, made_ + now)});
     };
-    for (const auto& [value, status, cut, open] : runs_.judge(moved, told)) {
+    for (const auto& [value, status, cut, open] : runs_.judge(moved, report_progress)) {
       values.push_back(value);
       ++result_.statuses[static_cast<std::size_t>(status)];
       result_.cut += cut, result_.open_latches += open;

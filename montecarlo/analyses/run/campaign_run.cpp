@@ -25,8 +25,8 @@ public:
   explicit OverallTally(long runs) : ended_{.total = runs} {}
 
   /// The tally of all cases so far. @param own the tally of the case that is running
-  [[nodiscard]] Tally with(const Tally& own) const {
-    Tally all = ended_;
+  [[nodiscard]] RunCounts with(const RunCounts& own) const {
+    RunCounts all = ended_;
     all.done += own.done;
     all.before += own.before;
     all.invalid += own.invalid;
@@ -36,18 +36,18 @@ public:
     return all;
   }
   /// Adds a case that has ended. If `until` ended it early, the total loses the runs that were not made.
-  void add_case(const Tally& own) {
+  void add_case(const RunCounts& own) {
     ended_ = with(own);
     ended_.total -= own.total - own.done;
   }
 
 private:
-  Tally ended_; ///< counts of the cases that have ended; the total is that of all cases
+  RunCounts ended_; ///< counts of the cases that have ended; the total is that of all cases
 };
 
 /// Counts the runs that a folder has before run_folder makes the others. In a new folder of streaming statistics it
 /// first makes the pilot. @return false if the evaluator was stopped during the pilot
-bool count_earlier_runs(const FolderWriter& folder, Evaluator& /*evaluator*/, Tally& tally) {
+bool count_earlier_runs(const FolderWriter& folder, Evaluator& /*evaluator*/, RunCounts& tally) {
   const Results& results = folder.results();
   tally.done = std::ssize(results.runs);
   tally.invalid = std::ranges::count(results.status, Status::invalid);
@@ -57,7 +57,7 @@ bool count_earlier_runs(const FolderWriter& folder, Evaluator& /*evaluator*/, Ta
   tally.before = tally.done;
   return true;
 }
-bool count_earlier_runs(StreamingFolder& folder, Evaluator& evaluator, Tally& tally) {
+bool count_earlier_runs(StreamingFolder& folder, Evaluator& evaluator, RunCounts& tally) {
   if (!folder.begin(evaluator)) return false;
   const StreamingStatistics& made = folder.statistics();
   tally.done = made.runs();
@@ -75,9 +75,9 @@ bool complete_runs(Folder& folder, const RunPlan& plan, const ThreadPool& pool,
                    const RunCallbacks& callbacks, OverallTally& overall) {
   const auto start = std::chrono::steady_clock::now();
   const auto evaluator = evaluator_of(pool, callbacks.begin_runs());
-  Tally tally{.total = folder.stored().runs().size()};
+  RunCounts tally{.total = folder.stored().runs().size()};
   if (!count_earlier_runs(folder, *evaluator, tally)) return true;
-  const auto show = [&](const Tally& own) { callbacks.show_progress(overall.with(own)); };
+  const auto show = [&](const RunCounts& own) { callbacks.show_progress(overall.with(own)); };
   show(tally);
   const bool interrupted = make_runs(folder, plan, *evaluator, tally, show);
   folder.finish();
@@ -172,8 +172,8 @@ Results run_in_memory(const StoredCampaign& stored, const RunPlan& plan, const T
                       const std::atomic<bool>& stop) {
   RowsInMemory rows(stored, plan.names());
   const auto evaluator = evaluator_of(pool, stop);
-  Tally tally;
-  make_runs(rows, plan, *evaluator, tally, [](const Tally&) {});
+  RunCounts tally;
+  make_runs(rows, plan, *evaluator, tally, [](const RunCounts&) {});
   return std::move(rows).take();
 }
 

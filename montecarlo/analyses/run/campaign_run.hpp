@@ -46,7 +46,7 @@ struct RunCallbacks {
   std::function<const std::atomic<bool>&()> begin_runs;
   /// Called with the tally over all cases, before a folder's first batch and after every batch. Calls come one at a
   /// time, from any thread of the pool.
-  std::function<void(const Tally&)> show_progress;
+  std::function<void(const RunCounts&)> show_progress;
   /// Called when the folder's runs are on disk and only its statistics are missing.
   /// @return whether to make the statistics now; `wingspread analyze` can make them later
   std::function<bool(const RunsKept&)> begin_statistics;

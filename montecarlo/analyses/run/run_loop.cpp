@@ -4,7 +4,7 @@
 
 namespace wingspread {
 
-void count_rows(const Batch& batch, Tally& tally) {
+void count_rows(const Batch& batch, RunCounts& tally) {
   const auto count = [&](Status status) {
     return std::ranges::count(batch.rows, status, &ResultRow::status);
   };

@@ -10,7 +10,7 @@
 namespace wingspread {
 
 /// Counts rows by their status into the tally.
-void count_rows(const Batch& batch, Tally& tally);
+void count_rows(const Batch& batch, RunCounts& tally);
 
 /// Collects rows in memory, with the functions of FolderWriter that make_runs calls.
 class RowsInMemory {
@@ -38,7 +38,7 @@ private:
 /// @param show  called with the tally after every batch, one call at a time
 /// @return whether the evaluator was stopped before the last run
 template <class Rows, class Show>
-bool make_runs(Rows& rows, const RunPlan& plan, Evaluator& evaluator, Tally& tally,
+bool make_runs(Rows& rows, const RunPlan& plan, Evaluator& evaluator, RunCounts& tally,
                const Show& show) {
   const auto keep = [&](const Batch& batch) {
     rows.add(batch);

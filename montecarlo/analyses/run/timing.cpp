@@ -38,28 +38,30 @@ void write_timing(const std::filesystem::path& folder, const SessionTiming& timi
   const long made = timing.tally.done - timing.tally.before;
   const Occupancy& lanes = evaluator.occupancy();
   const Json occupancy =
-      lanes.tries > 0 ? Json(static_cast<double>(lanes.busy) / static_cast<double>(lanes.tries))
-                      : Json();
+      lanes.trial_steps > 0
+          ? Json(static_cast<double>(lanes.busy) / static_cast<double>(lanes.trial_steps))
+          : Json();
   Json outside = Json::object(); // shares of the time
   double all = lanes.in_lanes;
   for (const double seconds : lanes.outside) all += seconds;
   for (std::size_t k = 0; k < lanes.outside.size(); ++k)
     outside[cause_names[k]] = lanes.outside[k] / std::max(all, 1e-9);
   const double runs_per_second = static_cast<double>(made) / std::max(timing.seconds, 1e-9);
-  write_file(folder / timing_file, json_text({{"host", host_name()},
-                                              {"math_library", math_library()},
-                                              {"processors", std::thread::hardware_concurrency()},
-                                              {"ranks", evaluator.ranks()},
-                                              {"threads", thread_count(pool.threads)},
-                                              {"instruction_set", to_string(pool.set)},
-                                              {"lanes", lanes_of(pool.set)},
-                                              {"lane_occupancy", occupancy},
-                                              {"outside_lanes", lanes.tries > 0 ? outside : Json()},
-                                              {"runs", made},
-                                              {"runs_before", timing.tally.before},
-                                              {"seconds", timing.seconds},
-                                              {"runs_per_second", runs_per_second},
-                                              {"interrupted", timing.interrupted}}));
+  write_file(folder / timing_file,
+             json_text({{"host", host_name()},
+                        {"math_library", math_library()},
+                        {"processors", std::thread::hardware_concurrency()},
+                        {"ranks", evaluator.ranks()},
+                        {"threads", thread_count(pool.threads)},
+                        {"instruction_set", to_string(pool.set)},
+                        {"lanes", lanes_of(pool.set)},
+                        {"lane_occupancy", occupancy},
+                        {"outside_lanes", lanes.trial_steps > 0 ? outside : Json()},
+                        {"runs", made},
+                        {"runs_before", timing.tally.before},
+                        {"seconds", timing.seconds},
+                        {"runs_per_second", runs_per_second},
+                        {"interrupted", timing.interrupted}}));
 }
 
 void add_accuracy_timing(const std::filesystem::path& folder, const Summary& summary) {

@@ -11,7 +11,7 @@ namespace wingspread {
 
 /// How long a session took to make runs.
 struct SessionTiming {
-  Tally tally;        ///< at its end
+  RunCounts tally;    ///< at its end
   double seconds = 0; ///< wall time
   bool interrupted = false;
 };

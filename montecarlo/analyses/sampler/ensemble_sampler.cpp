@@ -197,7 +197,7 @@ double StudentMixture::log_density(const Eigen::VectorXd& at) const {
 
 Ensemble run_ensemble(const LogDensity& density, const StudentMixture& proposal,
                       const EnsembleOptions& options,
-                      const std::function<void(const EnsembleState&)>& told) {
+                      const std::function<void(const EnsembleState&)>& report_progress) {
   Walkers walkers(density, proposal, options);
   Ensemble ensemble;
   double check = first_check;
@@ -205,7 +205,7 @@ Ensemble run_ensemble(const LogDensity& density, const StudentMixture& proposal,
   while (!ensemble.finished) {
     while (static_cast<double>(walkers.steps()) < check) walkers.step();
     ensemble.state = walkers.state();
-    told(ensemble.state);
+    report_progress(ensemble.state);
     ensemble.finished = ensemble.state.ess >= options.ess && ensemble.state.r_hat <= options.r_hat;
     check = std::ceil(check * next_check);
     const auto more = static_cast<long>(check) - walkers.steps();

@@ -81,9 +81,10 @@ struct Ensemble {
 
 /// Moves the walkers until ESS and R̂ are reached, or the evaluations are used up. Pure if the density is:
 /// interruption, threads and lanes change nothing.
-/// @param told called after each diagnosis
-[[nodiscard]] Ensemble run_ensemble(const LogDensity& density, const StudentMixture& proposal,
-                                    const EnsembleOptions& options,
-                                    const std::function<void(const EnsembleState&)>& told);
+/// @param report_progress called after each diagnosis
+[[nodiscard]] Ensemble
+run_ensemble(const LogDensity& density, const StudentMixture& proposal,
+             const EnsembleOptions& options,
+             const std::function<void(const EnsembleState&)>& report_progress);
 
 } // namespace wingspread

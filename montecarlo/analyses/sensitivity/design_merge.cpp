@@ -44,7 +44,7 @@ void merge_designs(const std::vector<std::filesystem::path>& folders,
     const SaltelliDesign design = read_design(folder);
     parts.push_back({folder, folder, stamp_of(design), runs_of(design)});
   }
-  refuse_strangers(parts, design_file);
+  refuse_other_campaigns(parts, design_file);
   whole.shard.reset();
   refuse_other_folder(out, whole);
   const RunPlan plan = saltelli_plan(whole.campaign, whole.rows);

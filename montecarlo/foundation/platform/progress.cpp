@@ -29,7 +29,7 @@ std::string bar(double share) {
 namespace {
 
 /// From 0 to 1.
-double share_of(const Tally& tally) {
+double share_of(const RunCounts& tally) {
   if (tally.total == 0) return 1;
   return std::min(1.0, static_cast<double>(tally.done) / static_cast<double>(tally.total));
 }
@@ -38,15 +38,15 @@ double share_of(const Tally& tally) {
 
 bool is_terminal(std::FILE* stream) { return isatty(fileno(stream)) == 1; }
 
-Tally tally_of(const StudyProgress& progress, long before) {
-  Tally tally{.done = progress.runs, .total = progress.most_runs, .before = before};
+RunCounts counts_of(const StudyProgress& progress, long before) {
+  RunCounts tally{.done = progress.runs, .total = progress.most_runs, .before = before};
   tally.analysis = progress.analysis;
   tally.analyses = progress.most_analyses;
   tally.at_most = true;
   return tally;
 }
 
-std::string progress_line(const Tally& tally, double seconds) {
+std::string progress_line(const RunCounts& tally, double seconds) {
   std::string text = bar(share_of(tally));
   if (tally.analyses > 0)
     text += fmt::format(" analysis {} of at most {} ·", tally.analysis, tally.analyses);
@@ -78,7 +78,7 @@ double Progress::seconds() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
-void Progress::show(const Tally& tally) {
+void Progress::show(const RunCounts& tally) {
   if (!stream_) return;
   const auto now = Clock::now();
   if (shown_ && tally.done < tally.total && now - last_ < std::chrono::milliseconds(100)) return;

@@ -8,7 +8,7 @@
 namespace wingspread {
 
 /// Numbers that the progress line shows.
-struct Tally {
+struct RunCounts {
   long done = 0, total = 0;
   long before = 0;  ///< runs of `done` that an earlier session made
   long invalid = 0; ///< runs with an unphysical draw
@@ -26,12 +26,12 @@ struct StudyProgress {
 };
 
 /// @param before runs that an earlier session made
-[[nodiscard]] Tally tally_of(const StudyProgress& progress, long before);
+[[nodiscard]] RunCounts counts_of(const StudyProgress& progress, long before);
 
 /// One line: a bar, done of total, runs per second, time left, and counts of runs that did not deploy. The time left
 /// is omitted if the total is an upper bound.
 /// @param seconds since this session began
-[[nodiscard]] std::string progress_line(const Tally& tally, double seconds);
+[[nodiscard]] std::string progress_line(const RunCounts& tally, double seconds);
 
 /// Shows the line on a terminal. Writes nothing to other streams.
 class Progress {
@@ -43,7 +43,7 @@ public:
 
   /// Rewrites the line at most ten times a second, and always when all runs are done. Does nothing if the share done is
   /// smaller than one shown before, so that the bar never runs backwards.
-  void show(const Tally& tally);
+  void show(const RunCounts& tally);
 
   /// Ends the line, so that other text can be printed; the next line is shown below that text.
   void pause();

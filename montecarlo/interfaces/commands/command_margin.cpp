@@ -121,7 +121,7 @@ int make_margin_shard(const Campaign& campaign, const MarginOptions& options, co
   try {
     const long runs =
         run_first_scales(campaign, shard, evaluator, [&](const StudyProgress& so_far) {
-          progress.show(tally_of(so_far, folder.log().read()));
+          progress.show(counts_of(so_far, folder.log().read()));
         });
     warn_if_damaged(folder.log(), options.out);
     folder.log().sync();
@@ -163,7 +163,7 @@ int run_margin_study(const MarginOptions& options) {
   MarginResult result;
   try {
     const auto show = [&](const StudyProgress& so_far) {
-      progress.show(tally_of(so_far, folder.log().read() + evaluator.read()));
+      progress.show(counts_of(so_far, folder.log().read() + evaluator.read()));
     };
     find_margin(campaign, evaluator, show, result);
   } catch (const Stopped&) {

@@ -142,7 +142,7 @@ int rare(const RareCommandOptions& given) {
   Progress progress(stderr);
   try {
     const auto show = [&](const StudyProgress& so_far) {
-      progress.show(tally_of(so_far, folder ? folder->log().read() : 0));
+      progress.show(counts_of(so_far, folder ? folder->log().read() : 0));
     };
     const RareResult result = estimate_rare_event(campaign, options, evaluator, show);
     return write_result(result, options, campaign, given, folder.get());

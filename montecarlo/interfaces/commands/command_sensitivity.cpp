@@ -142,7 +142,7 @@ bool make_design_runs(const RunPlan& plan, RunRange own, RunRange remaining, con
   const Interrupt interrupt;
   Progress progress(stderr);
   const long before = remaining.first - own.first;
-  Tally tally{.done = before, .total = own.size(), .before = before};
+  RunCounts tally{.done = before, .total = own.size(), .before = before};
   const auto keep = [&](const Batch& batch) {
     sink.take(batch);
     tally.done += std::ssize(batch.rows);

@@ -36,15 +36,15 @@ std::optional<std::string> fixed_runs(const StoredCampaign& there, const Campaig
 
 /// Adds problems if the campaign differs from the stored one: the first values that differ, or the hashes if only the
 /// order of keys differs.
-/// @param told pointer of a value that is already reported
-void refuse_differences(const StoredCampaign& there, const Campaign& ours, std::string_view told,
-                        std::vector<Problem>& problems) {
+/// @param reported pointer of a value that is already reported
+void refuse_differences(const StoredCampaign& there, const Campaign& ours,
+                        std::string_view reported, std::vector<Problem>& problems) {
   const std::string file = (there.folder / campaign_file).string();
   const std::string hash = campaign_hash(ours.resolved);
   if (there.stamp.hash == hash) return;
   std::vector<Difference> all = find_differences(there.campaign.resolved, ours.resolved);
   std::string reason = all.empty() ? "the same values in another order" : "";
-  std::erase_if(all, [&](const Difference& each) { return each.pointer == told; });
+  std::erase_if(all, [&](const Difference& each) { return each.pointer == reported; });
   // Earlier extensions are not the user's: a campaign that is the same otherwise continues them.
   const auto is_extension = [](const Difference& each) {
     return each.pointer == "/sampling/extended_from";

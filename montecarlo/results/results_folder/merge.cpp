@@ -116,7 +116,7 @@ Merging merging_of(const std::vector<std::filesystem::path>& folders, const std:
     parts.push_back({its, folder, stored.stamp, stored.runs()});
     if (parts.size() == 1) whole = std::move(stored);
   }
-  refuse_strangers(parts, campaign_file);
+  refuse_other_campaigns(parts, campaign_file);
   refuse_stopping(whole);
   for (Part& part : not_begun) {
     part.own = shard_runs(whole.campaign.sampling.runs, part.stamp.shard);
@@ -168,7 +168,7 @@ std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& f
   std::vector<Part> tops;
   for (const auto& folder : folders)
     tops.push_back({folder, folder, read_stored_campaign(folder).stamp, {}, {}});
-  refuse_strangers(tops, campaign_file);
+  refuse_other_campaigns(tops, campaign_file);
   StoredCampaign whole = read_stored_campaign(folders.front());
   PartFaults faults;
   std::vector<Merging> mergings; // all cases are checked before anything is written

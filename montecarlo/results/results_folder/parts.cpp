@@ -167,7 +167,7 @@ void tell_differences(const Part& part, const Part& first, const char* file,
 
 } // namespace
 
-void refuse_strangers(const std::vector<Part>& parts, const char* file) {
+void refuse_other_campaigns(const std::vector<Part>& parts, const char* file) {
   const Part& first = parts.front();
   std::vector<Problem> problems;
   for (const Part& part : parts) {

@@ -63,7 +63,7 @@ struct ShardMaker {
 /// Refuses folders that do not belong together.
 /// @param file name of the file in each folder that has the stamp
 /// @throws SpecError with each folder of another campaign, seed or version than the first folder, and each preview
-void refuse_strangers(const std::vector<Part>& parts, const char* file);
+void refuse_other_campaigns(const std::vector<Part>& parts, const char* file);
 
 /// Adds a problem for each folder that repeats runs of an earlier one.
 void find_doubles(const std::vector<Part>& parts, PartFaults& faults);

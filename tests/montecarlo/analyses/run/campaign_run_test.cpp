@@ -16,13 +16,13 @@ namespace {
 struct Caller {
   long stop_after = -1; ///< runs of all cases; −1: never
   bool wants_statistics = true;
-  std::vector<Tally> tallies{};
+  std::vector<RunCounts> tallies{};
   std::vector<RunsKept> kept{};
   std::atomic<bool> stop = false;
 
   CampaignResults run(const RunRequest& request) {
     return run_campaign(request, {[&]() -> const std::atomic<bool>& { return stop; },
-                                  [&](const Tally& tally) {
+                                  [&](const RunCounts& tally) {
                                     tallies.push_back(tally);
                                     stop = stop_after >= 0 && tally.done >= stop_after;
                                   },
@@ -117,8 +117,9 @@ TEST_CASE("cases are run one after the other, and their progress adds up", "[cas
   CHECK(std::filesystem::exists(folder.path() / "r" / cases_file));
   CHECK(caller.kept.at(1).of_case == "cold");
   CHECK(caller.tallies.back().done == 80);
-  CHECK(std::ranges::is_sorted(caller.tallies, {}, &Tally::done));
-  CHECK(std::ranges::all_of(caller.tallies, [](const Tally& tally) { return tally.total == 80; }));
+  CHECK(std::ranges::is_sorted(caller.tallies, {}, &RunCounts::done));
+  CHECK(std::ranges::all_of(caller.tallies,
+                            [](const RunCounts& tally) { return tally.total == 80; }));
 }
 
 TEST_CASE("cases that are stopped have no comparison, and one case alone can be run", "[cases]") {

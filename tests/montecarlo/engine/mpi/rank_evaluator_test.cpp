@@ -73,7 +73,7 @@ TEST_CASE("rows and lines are the same whatever the number of ranks", "[parallel
       CHECK(lines(evaluator, plan, {0, 2}) + lines(evaluator, plan, {2, 2}) +
                 lines(evaluator, plan, {2, 300}) ==
             whole);
-      CHECK(evaluator.occupancy().tries > 0);
+      CHECK(evaluator.occupancy().trial_steps > 0);
     }
 }
 

@@ -46,11 +46,11 @@ TEST_CASE("nothing is written to what is no terminal") {
 }
 
 TEST_CASE("a study's line says which analysis is under way, and that its totals are bounds") {
-  Tally tally =
-      tally_of({.analysis = 7, .most_analyses = 31, .runs = 12'400, .most_runs = 62'000}, 2'400);
+  RunCounts tally =
+      counts_of({.analysis = 7, .most_analyses = 31, .runs = 12'400, .most_runs = 62'000}, 2'400);
   CHECK(progress_line(tally, 10) == "████░░░░░░░░░░░░░░░░░░░░ analysis 7 of at most 31 · 12400 of "
                                     "at most 62000 runs · 1000 runs/s");
-  tally = tally_of({.runs = 300, .most_runs = 1000}, 0); // of what has no analyses to speak of
+  tally = counts_of({.runs = 300, .most_runs = 1000}, 0); // of what has no analyses to speak of
   CHECK(progress_line(tally, 3) ==
         "███████░░░░░░░░░░░░░░░░░ 300 of at most 1000 runs · 100 runs/s");
 }
