@@ -160,6 +160,14 @@ TEST_CASE("a longer Sobol' design begins with the shorter one; a Latin hypercube
   CHECK_FALSE(begins(DesignKind::latin_hypercube));
 }
 
+TEST_CASE("a design that says nothing of replicates is one") {
+  for (const DesignKind kind : kinds) {
+    const PreparedDesign unsaid({kind, 5, 64}, {"a"}), one({kind, 5, 64, 1}, {"a"});
+    for (std::uint64_t run = 0; run < 64; ++run)
+      CHECK(unsaid.uniform(run, 0) == one.uniform(run, 0));
+  }
+}
+
 TEST_CASE("the order in which dispersions are listed changes no draw of any design") {
   const std::vector<std::string> forth{"a", "b", "c", "d"}, back{"d", "c", "b", "a"};
   CHECK(order_by_name({"b", "a.2", "a", "\xC3\xA9"}) == std::vector<std::size_t>{2, 1, 0, 3});

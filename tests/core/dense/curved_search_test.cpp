@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -62,6 +64,31 @@ TEST_CASE("the largest value is found, at an end or inside, and none below the f
     CHECK(calls == 0);
   }
   CHECK(inside > 100);
+}
+
+TEST_CASE("samples exclude no crest between them, and exclude those that their parts' bound does") {
+  int missed_by_samples = 0, excluded = 0, kept = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const Wave wave{1, 0.5 + 0.007 * (k % 1000), 0.61 * k, 2};
+    std::array<Sampled<double>, 5> samples;
+    std::ranges::transform(std::array{0., 0.2, 0.5, 0.7, 1.}, samples.begin(), [&](double s) {
+      return Sampled<double>{s, wave(s)};
+    });
+    double most = 0, sampled = 0;
+    for (int n = 0; n <= 1000; ++n) most = std::max(most, wave(n / 1000.0));
+    for (const auto& [s, value] : samples) sampled = std::max(sampled, value);
+    const double ends = std::max(wave(0), wave(1));
+    const double floor = k % 3 == 0 ? 0 : sampled + (k % 3 == 1 ? 0.5 : 1.5) * (most - sampled);
+    const bool may = may_crest_between(samples, Bulge<double>{wave.rise()}, floor, 1e-9);
+    CAPTURE(k, floor, most, sampled);
+    if (most > std::max(ends, floor) + 1e-9) CHECK(may);
+    missed_by_samples += may && most > floor && sampled <= std::max(ends, floor);
+    // a part of 0.3 rises by at most 0.09 of the rise over the whole
+    const bool surely_not = sampled + 0.09 * wave.rise() <= floor;
+    if (surely_not) CHECK_FALSE(may);
+    excluded += surely_not, kept += may;
+  }
+  CHECK(std::min({missed_by_samples, excluded, kept}) > 50);
 }
 
 TEST_CASE("a search ends, whatever its bound says") {

@@ -1,5 +1,6 @@
 // Kinks of laws: steps of implicit methods and of extrapolation end there, for their error estimates do not see them.
 #include "core/deployment.hpp"
+#include "core/events/kinks.hpp"
 #include "tests/support/closed_forms.hpp"
 #include "tests/support/random_cases.hpp"
 #include "tests/support/real_scenes.hpp"
@@ -150,4 +151,48 @@ TEST_CASE(
       CAPTURE(method, rtol, work.steps);
       CHECK(work.rejected <= 10);
     }
+}
+
+TEST_CASE("a state is moved across a kink of strands by two roundings, whichever hinge is locked") {
+  int moved_first = 0, moved_second = 0;
+  RealFeatures features;
+  features.loops = true;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Draws draws(seed);
+    RandomScene options;
+    options.bodies = 2 + static_cast<int>(seed % 4), options.motion = BaseMotion::fixed;
+    const Scene scene = with_real_hinges(random_scene(seed, options), seed, features);
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    State<double> x;
+    system.start(x);
+    const Layout& at = system.layout();
+    for (int i = 1; i <= at.bodies; ++i) x[at.angle(i)] += draws.uniform(-1, 1);
+    for (int k = 0; k < static_cast<int>(wing.loops.size()); ++k) {
+      const LoopTerms<double>& loop = wing.loops[k];
+      for (const int locked : {0, loop.first, loop.second}) {
+        for (int i = 1; i <= at.bodies; ++i)
+          system.set_contact(i, i == locked ? Contact::stuck : Contact::none);
+        const auto elastic = [&](const State<double>& state) {
+          return system.state_of(loop, state).elastic;
+        };
+        const Kink<double> kink{Kink<double>::Of::strands, k, elastic(x), draws.sign()};
+        const double rounding = beyond_rounding(system, kink, x);
+        const double gear = system.state_of(loop, x).gear;
+        if (std::abs(gear) < 0.05) continue; // one rounding of the angle may be more than the way
+        State<double> y = x;
+        cross(system, kink, y);
+        CAPTURE(seed, k, locked, gear);
+        CHECK(kink.way * (elastic(y) - elastic(x)) > rounding);
+        CHECK(kink.way * (elastic(y) - elastic(x)) < 4 * rounding);
+        const int moves = locked == loop.second ? loop.first : loop.second;
+        y[at.angle(moves)] = x[at.angle(moves)];
+        CHECK(y == x);
+        ++(moves == loop.first ? moved_first : moved_second);
+      }
+    }
+  }
+  CHECK(std::min(moved_first, moved_second) > 50);
 }

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -101,6 +102,23 @@ TEST_CASE("a wing without series gets dop853 in place of taylor") {
   CHECK(methods_used(Deployment().run(scene, how, {})) == "taylor");
   scene.hinges[1].stop = Stop{500, 0.2, 0};
   CHECK(methods_used(Deployment().run(scene, how, {})) == "dop853");
+}
+
+TEST_CASE("the step that auto counts as held back is a share of the explicit method's stable one") {
+  const auto check = [](double rtol, bool series, Method first, double stable) {
+    MethodChoice choice(within(rtol, 1), series);
+    REQUIRE(choice.active() == first);
+    choice.restart(0, 0, std::numeric_limits<double>::infinity(), true);
+    for (const double radius : {1e-2, 1., 3e5}) {
+      CAPTURE(rtol, series, radius);
+      choice.set_radius(radius, 0, 0);
+      CHECK(choice.first_step(1e9) == Approx(0.5 * stable / radius));
+      CHECK(choice.held_back().shortest == Approx(choice::held_back_share * stable / radius));
+    }
+  };
+  check(1e-8, true, Method::taylor, TaylorSeries<double>::stable_real);
+  check(1e-8, false, Method::dop853, DormandPrince853<double>::stable_real);
+  check(1e-2, true, Method::dopri5, DormandPrince5<double>::stable_real);
 }
 
 TEST_CASE("auto keeps its first method if nothing is stiff") {

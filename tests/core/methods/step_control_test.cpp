@@ -2,11 +2,64 @@
 #include "core/methods/step_control.hpp"
 #include "tests/support/random_scenes.hpp"
 
+#include <Eigen/Core>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace wingspread;
+
+namespace {
+
+/// ẋ = A x.
+struct LinearSystem {
+  Eigen::MatrixXd A;
+  void operator()(const State<double>& x, State<double>& dxdt, double /*t*/) const {
+    dxdt.resize(x.size());
+    Eigen::Map<Eigen::VectorXd>(dxdt.data(), A.rows()) = A * vector_of(x);
+  }
+  static Eigen::Map<const Eigen::VectorXd> vector_of(const State<double>& x) {
+    return {x.data(), static_cast<Eigen::Index>(x.size())};
+  }
+};
+
+} // namespace
+
+TEST_CASE("step control: the first step is that of the source, with the exact second derivative") {
+  int bent = 0, sloped = 0, cut = 0, grown = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    oracle::Draws draws(900 + trial);
+    const int n = 1 + trial % 4, order = 3 + trial % 6;
+    LinearSystem system{Eigen::MatrixXd(n, n)};
+    for (double& a : system.A.reshaped())
+      a = draws.uniform(0, 1) < 0.3 ? 0 : draws.uniform(-1, 1) * draws.log_uniform(1e-2, 1e3);
+    State<double> x(n), dxdt, scratch(n), dscratch(n);
+    for (double& v : x) v = draws.uniform(0, 1) < 0.2 ? 0 : draws.uniform(-2, 2);
+    system(x, dxdt, 0);
+    const double rtol = draws.log_uniform(1e-12, 1e-2), atol = draws.log_uniform(1e-14, 1e-4);
+    const double longest = draws.log_uniform(1e-6, 10);
+    const auto size_of = [&](const Eigen::VectorXd& v) {
+      const auto scale = atol + rtol * LinearSystem::vector_of(x).array().abs();
+      return (v.array().abs() / scale).maxCoeff();
+    };
+    const Eigen::VectorXd first = system.A * LinearSystem::vector_of(x), second = system.A * first;
+    const double d0 = size_of(LinearSystem::vector_of(x)), d1 = size_of(first);
+    const double d2 = size_of(second),
+                 h0 = std::min(d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1, longest);
+    const double largest = std::max(d1, d2);
+    const double h1 =
+        largest > 1e-15 ? std::pow(0.01 / largest, 1.0 / (order + 1)) : std::max(1e-6, 1e-3 * h0);
+    const double h =
+        first_step(system, x, dxdt, 0.0, order, rtol, atol, longest, scratch, dscratch);
+    CAPTURE(trial, h0, h1, longest);
+    CHECK(h == Approx(std::min({100 * h0, h1, longest})).epsilon(1e-3));
+    const bool by_size = h1 < std::min(100 * h0, longest) && largest > 1e-15;
+    bent += by_size && d2 > 2 * d1, sloped += by_size && d1 > 2 * d2;
+    cut += longest < std::min(100 * h0, h1), grown += 100 * h0 < std::min(h1, longest);
+  }
+  CHECK(std::min({bent, sloped, cut, grown}) >= 10);
+}
 
 TEST_CASE("step control: a scalar and a lane of a pack get the same factor") {
   using P = Pack<4>;

@@ -7,6 +7,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
 using namespace wingspread;
 using namespace wingspread::oracle;
 using std::numbers::pi;
@@ -111,4 +116,64 @@ TEST_CASE("a moment that keeps its direction over a step does so wherever it is 
   CHECK(kept >= 80);
   CHECK(kept_regularized >= 20);
   CHECK(turning >= 100);
+}
+
+TEST_CASE(
+    "the moment over a step is the system's at the states there, motors and their tables with it") {
+  int saturated = 0, within_limit = 0;
+  RealFeatures features;
+  features.backlash = features.air = false;
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    Draws draws(700 + seed);
+    RandomScene options;
+    options.bodies = 1 + static_cast<int>(seed % 4), options.motion = BaseMotion::fixed;
+    Scene scene = with_real_hinges(random_scene(seed, options), seed, features);
+    for (Hinge& hinge : scene.hinges) {
+      if (draws.chance(0.3)) continue;
+      Motor motor;
+      motor.rate = draws.uniform(-1, 1), motor.scale = draws.uniform(0.5, 2);
+      motor.gain = draws.log_uniform(0.1, 10), motor.torque_limit = draws.log_uniform(0.1, 10);
+      if (draws.chance(0.5))
+        motor.table = std::make_shared<Curve>(std::vector<double>{0, 0.5, 1},
+                                              std::vector<double>{0, draws.uniform(-2, 2), 1},
+                                              Interpolation::monotone, Beyond::constant);
+      hinge.motor = motor;
+    }
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    if (wing.motors.empty()) continue;
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    Step<double> step;
+    system.start(step.x);
+    const Layout& at = system.layout();
+    step.t = 0.1, step.h = draws.log_uniform(1e-3, 0.3);
+    for (int i = 1; i <= at.bodies; ++i) {
+      step.x[at.angle(i)] += draws.uniform(0, 1) * wing.hinges[i].sense;
+      step.x[at.rate(i)] = draws.uniform(-1, 1);
+      system.start_motor(i, 0.0);
+    }
+    system.find_sides(step.x);
+    step.dxdt.resize(at.size()), step.dxdt1.resize(at.size());
+    system(step.x, step.dxdt, step.t);
+    step.x1 = step.x;
+    for (int k = 0; k < at.size(); ++k) step.x1[k] += step.h * step.dxdt[k];
+    system(step.x1, step.dxdt1, step.t + step.h);
+    State<double> x(at.size());
+    for (int i = 1; i <= at.bodies; ++i) {
+      const MomentOverStep moment(system, step, i);
+      for (const double s : {0., 0.2, 0.5, 0.9, 1.}) {
+        step.interpolate(at, s, x);
+        system.set_commands(step.t + s * step.h);
+        const double exact = system.moment(x, i);
+        CAPTURE(seed, i, s);
+        CHECK(moment(s) == Approx(exact).epsilon(1e-9).margin(1e-9));
+        CHECK(std::abs(exact) <= moment.most() * (1 + 1e-9));
+        if (!wing.motors[i].present) continue;
+        const double wanted = wing.motors[i].gain * std::abs(work.motors[i].now - x[at.rate(i)]);
+        ++(wanted > wing.motors[i].limit ? saturated : within_limit);
+      }
+    }
+  }
+  CHECK(std::min(saturated, within_limit) > 100);
 }

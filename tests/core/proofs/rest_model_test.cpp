@@ -3,6 +3,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 using namespace wingspread;
 using oracle::Draws;
 using oracle::Latched;
@@ -30,6 +34,81 @@ TEST_CASE(
     CHECK(model.is_tuned_for(rates));
     model.remainders[1].tuned_for = 0;
     CHECK((model.is_tuned_for(rates) && !model.depends_on_rates()));
+  }
+}
+
+TEST_CASE("two bodies load each other by no more than their turns let them, and by little less") {
+  for (int trial = 0; trial < 400; ++trial) {
+    Draws draws(7700 + trial);
+    const double c = draws.chance(0.2) ? 0 : draws.uniform(0, 2),
+                 s = draws.chance(0.4) ? 0 : draws.uniform(0, 2);
+    RestModel model;
+    model.parents = {0, 0};
+    model.pushed = Eigen::VectorXd::Zero(3);
+    model.pairs = {{1, 2, 0, c, s}};
+    HingeVector u(2);
+    u << draws.log_uniform(1e-4, 0.2), draws.log_uniform(1e-4, 0.2);
+    BodyVector accelerations(3), rates(3);
+    for (int k = 0; k < 3; ++k)
+      accelerations(k) = draws.uniform(0, 2), rates(k) = draws.uniform(0, 2);
+    const double way = u.sum();
+    double inertia = 0, turning = 0; // of c cos ω + s sin ω: what ω changes, and the slope
+    for (int k = -500; k <= 500; ++k) {
+      const double turn = way * k / 500;
+      inertia = std::max(inertia, std::abs(c * (1 - std::cos(turn)) + s * std::sin(turn)));
+      turning = std::max(turning, std::abs(c * std::sin(turn) + s * std::cos(turn)));
+    }
+    const RestModel::Turned off = model.bound_turns(u, accelerations, rates);
+    CAPTURE(trial, way, c, s);
+    const auto check = [&](double bound, double exact) {
+      CHECK(bound >= exact * (1 - 1e-12));
+      CHECK(bound <= exact * (1 + way * way));
+    };
+    check(off.moments(1), inertia * accelerations(2) + turning * rates(2) * rates(2));
+    check(off.moments(2), inertia * accelerations(1) + turning * rates(1) * rates(1));
+    check(off.momentum, inertia * (rates(1) + rates(2)));
+  }
+}
+
+TEST_CASE(
+    "an energy bounds the turn of one body against another, and one state attains the bound") {
+  for (int trial = 0; trial < 300; ++trial) {
+    Draws draws(8800 + trial);
+    const int n = 2 + draws.below(6);
+    std::vector<int> parents(n + 1, 0);
+    Eigen::VectorXd kappa(n + 1), apart(n + 1);
+    RestModel::EnergyOfTurns turns{draws.log_uniform(0.1, 10), BodyVector::Zero(n + 1),
+                                   BodyVector::Zero(n + 1)};
+    for (int i = 1; i <= n; ++i) {
+      parents[i] = draws.below(i);
+      kappa(i) = draws.log_uniform(0.1, 10),
+      apart(i) = draws.chance(0.3) ? 0 : draws.uniform(-1, 1);
+      turns.softness(i) = turns.softness(parents[i]) + 1 / kappa(i);
+      turns.apart(i) = turns.apart(parents[i]) + std::abs(apart(i));
+    }
+    const int k = 1 + draws.below(n), l = draws.below(k);
+    Eigen::VectorXd sense =
+        Eigen::VectorXd::Zero(n + 1); // of each hinge in the turn of k against l
+    for (int i = k; i != 0; i = parents[i]) sense(i) += 1;
+    for (int i = l; i != 0; i = parents[i]) sense(i) -= 1;
+    int meet = k;
+    for (int other = l; meet != other;)
+      (meet > other ? meet : other) = parents[std::max(meet, other)];
+    const double bound = turns.turn(k, l, meet);
+    // at the extreme the energy is shared by softness, and the rests are apart in the sense of the turn
+    const double soft = (sense.array().square() / kappa.array()).tail(n).sum();
+    double most = 0;
+    for (int i = 1; i <= n; ++i)
+      most += sense(i) *
+              (turns.size * sense(i) / kappa(i) / std::sqrt(soft) + sense(i) * std::abs(apart(i)));
+    CAPTURE(trial, n, k, l, meet);
+    CHECK(bound == Approx(most).epsilon(1e-9));
+    for (int state = 0; state < 20; ++state) {
+      Eigen::VectorXd way = Eigen::VectorXd::Zero(n + 1);
+      for (int i = 1; i <= n; ++i) way(i) = draws.uniform(-1, 1);
+      way *= turns.size / std::sqrt((kappa.array() * way.array().square()).tail(n).sum());
+      CHECK(std::abs(sense.tail(n).dot((way + apart).tail(n))) <= bound * (1 + 1e-12));
+    }
   }
 }
 
