@@ -27,7 +27,10 @@ void read_preview(const JsonCursor& at, std::optional<Preview>& preview) {
   object.required("runs", runs, "an integer, ≥ 1");
   object.required("of", of, "an integer, > runs");
   object.refuse_others();
-  preview = {runs, of};
+  if (runs >= 1 && of > runs)
+    preview = {runs, of};
+  else if (object.is_object())
+    at.refuse(fmt::format("{} of {}", runs, of), "1 ≤ runs < of");
 }
 
 } // namespace

@@ -92,7 +92,7 @@ TEST_CASE("one bad sample is named with its time, not the whole trace") {
   std::string text = "t,th\n";
   for (int k = 0; k <= 80; ++k)
     text += csv_cell(0.02 * k) + "," +
-            csv_cell(panel_angle(0.02 * k, 1.02, 1.1) + (k == 40 ? 1.0 : 1e-3 * std::sin(9 * k))) +
+            csv_cell(panel_angle(0.02 * k, 1.02, 1.1) + (k == 40 ? 0.5 : 1e-3 * std::sin(9 * k))) +
             "\n";
   folder.write("t1.csv", text);
   const Campaign campaign = campaign_of(panel_campaign());
@@ -102,7 +102,11 @@ TEST_CASE("one bad sample is named with its time, not the whole trace") {
   const FitResult result = fitted(campaign, spec);
   REQUIRE(result.channels[0].outliers.size() == 1);
   CHECK(result.channels[0].outliers[0].time == Approx(0.8));
-  CHECK(result.channels[0].outliers[0].sigmas == Approx(200).epsilon(0.1));
+  CHECK(result.channels[0].outliers[0].sigmas == Approx(100).epsilon(0.1));
+  const double rms = result.channels[0].rms, rest = result.channels[0].rest_rms,
+               bad = 0.005 * result.channels[0].outliers[0].sigmas;
+  CHECK(80 * rest * rest == Approx(81 * rms * rms - bad * bad).epsilon(1e-6));
+  CHECK((rest > 0 && rest < 0.3 * rms));
   const std::string first = fit_findings(result, spec).front();
   CHECK_THAT(first, Catch::StartsWith("root.angle of \"one way\": 1 of 81 numbers is far from the "
                                       "rest: ") &&

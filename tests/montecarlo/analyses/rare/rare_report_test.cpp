@@ -2,6 +2,7 @@
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <iterator>
 #include <limits>
@@ -185,5 +186,9 @@ TEST_CASE("the text of the likeliest run has the eight largest deviations", "[ra
     CHECK(has(text, "1 others, at most 0.50") == (dispersions == 9));
     CHECK_FALSE(has(text, "correlated"));
     if (dispersions > 1) CHECK(text.find("d1 ") < text.find("d2 ")); // 3 before 1
+    for (std::size_t k = 1; k < dispersions; ++k) { // the draw, and its normal coordinate's sign
+      const double z = result.likeliest->z[k];
+      CHECK(has(text, fmt::format("\n  d{:<39}{:>14.6g}{:>+24.2f}\n", k, 1 + 0.01 * z, z).c_str()));
+    }
   }
 }

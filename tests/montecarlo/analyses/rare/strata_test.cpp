@@ -240,6 +240,26 @@ TEST_CASE("the report of strata has each one's probability, and the sum", "[rare
   CHECK(json["warnings"].empty());
 }
 
+TEST_CASE("levels of common draws end where all strata add less than a thousandth to the sum",
+          "[rare]") {
+  Json json = lid();
+  json["dispersions"] = {normal_law("D", 5, 0.4, "set", "hinges.h.release.delay")};
+  for (int k = 0; k < 5; ++k) // each makes it late by 10 s
+    json["dispersions"].push_back(discrete_law("late" + std::to_string(k), {0, 10}, {0.999, 1e-3},
+                                               "add", "hinges.h.release.delay"));
+  const RareResult found = estimate_of(
+      json, {.event = {"h.latch_time", 12, true}, .samples = 100, .repeats = 1, .smallest = 1e-12});
+  const auto count = static_cast<double>(found.strata.size());
+  CHECK(count > 10);
+  CHECK(found.estimate.probability == Approx(1 - std::pow(0.999, 5)).epsilon(0.01));
+  const double least = 1e-3 * found.estimate.probability / count; // of one stratum
+  for (const SubsetEstimate& estimate : found.strata[0].estimates) {
+    CHECK_FALSE(estimate.reached); // 13 standard deviations away
+    const double last = estimate.last_level * found.strata[0].stratum.probability;
+    CHECK((last < 2 * least && last > least / 20));
+  }
+}
+
 namespace {
 
 /// A stratum of probability w in which the event has the probability p, or at most `upper` if no repeat reached it.

@@ -5,7 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -92,6 +94,44 @@ TEST_CASE("a run that is stopped keeps its runs, and resuming completes the fold
   CHECK(caller.tallies.front().before == part.interrupted->kept);
   (void)run_into(folder.path() / "expected", request.campaign);
   CHECK(contents(folder.path() / "r") == contents(folder.path() / "expected"));
+}
+
+TEST_CASE("who resumes a folder is told at once what its runs ended as, with rows and without") {
+  const Folder folder;
+  Json json = full_campaign(300);
+  json["dispersions"][0]["distribution"]["std"] = 0.6; // some springs are too weak
+  for (const bool streaming : {false, true}) {
+    CAPTURE(streaming);
+    RunRequest request{.campaign = campaign_of(json),
+                       .out = folder.path() / (streaming ? "s" : "r"),
+                       .pool = {.threads = 2},
+                       .streaming = streaming};
+    Caller first;
+    const CampaignResults made = first.run(request);
+    const Summary& summary = made.folders.at(0).summary;
+    const auto counts = [](const Tally& tally) {
+      return std::array{tally.done,   tally.total,   tally.invalid,
+                        tally.failed, tally.stalled, tally.timed_out};
+    };
+    const auto count = [&](Status status) {
+      return summary.statuses[static_cast<std::size_t>(status)].count;
+    };
+    const std::array expected{300L,
+                              300L,
+                              count(Status::invalid),
+                              count(Status::failed),
+                              count(Status::stalled),
+                              count(Status::timed_out)};
+    CHECK((expected[2] > 0 && expected[4] > 0 && expected[5] > 0));
+    CHECK(std::set{expected[2], expected[3], expected[4], expected[5]}.size() == 4);
+    CHECK(counts(first.tallies.back()) == expected);
+    CHECK(first.tallies.back().before == 0);
+    request.resume = true;
+    Caller again;
+    (void)again.run(request);
+    CHECK(counts(again.tallies.front()) == expected);
+    CHECK(again.tallies.front().before == 300);
+  }
 }
 
 TEST_CASE("statistics that the caller does not want are left for later") {

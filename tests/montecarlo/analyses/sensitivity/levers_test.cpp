@@ -89,3 +89,41 @@ TEST_CASE("inputs of one quantity move together where they act alike, and alone 
   CHECK(of(levers_found(campaign, of_one), "panel_2 mass").lever.draws ==
         std::vector<std::string>{"mass.panel_2"});
 }
+
+TEST_CASE("a shift is small or large against half of the range drawn, where the mean is about 0",
+          "[needed]") {
+  int telling = 0; // against the whole range the shift would seem smaller than the factor
+  for (const double slope : {4., 5., 6., 7.})
+    for (const double limit : {11.6, 11.9, 12.2, 12.5}) {
+      Json json = limited_campaign().resolved;
+      json["requirements"][0]["max"] = limit;
+      const Campaign campaign = campaign_of(json);
+      const ResultNames names = RunPlan(campaign).names();
+      const auto column =
+          std::ranges::find(names.outputs, "deployment_time") - names.outputs.begin();
+      std::mt19937_64 random(2);
+      std::normal_distribution<double> normal;
+      Results results(names);
+      for (long run = 0; run < 2000; ++run) {
+        const double spring = 1 + 0.15 * normal(random), temperature = 5 * normal(random);
+        std::vector<double> outputs(names.outputs.size(), 1.0);
+        outputs[static_cast<std::size_t>(column)] = 9 - slope * (spring - 1) - 0.25 * temperature;
+        const std::vector<double> draws{spring, 10 + normal(random), 10 + normal(random),
+                                        10 + normal(random), temperature};
+        results.append({run, Status::deployed, draws, outputs, "root>mid>tip", ""});
+      }
+      const Verdict verdict = judge(campaign.requirements.front(), results);
+      if (verdict.decision != Decision::fail) continue;
+      const auto all = lever_changes(NeededFor::limit, campaign, verdict, results, {}, 0.95, 9);
+      if (!all || all->levers.size() != 2) continue;
+      const bool spring_first = all->levers[0].lever.words == "root spring";
+      const NeededChange &factor = all->levers[spring_first ? 0 : 1].change,
+                         &shift = all->levers[spring_first ? 1 : 0].change;
+      if (!factor.known || !shift.known) continue;
+      const double log = std::log(factor.change), half = (shift.most - shift.least) / 2;
+      CAPTURE(slope, limit, log, shift.change / half);
+      CHECK(spring_first == (log < shift.change / half));
+      telling += spring_first && log > shift.change / (2 * half) ? 1 : 0;
+    }
+  CHECK(telling > 0);
+}

@@ -141,3 +141,18 @@ TEST_CASE("Sobol' indices stand under their names, in JSON, CSV and the table") 
   CHECK(end_of("a", "0.125") == end_of("dispersion", "first"));
   CHECK(end_of("sum of the first-order", "0.094") == end_of("dispersion", "first"));
 }
+
+TEST_CASE("the report of Sobol' indices says what its bounds are") {
+  const auto definition = [](const SobolBounds& bounds) {
+    SobolSensitivity all;
+    all.bounds = bounds;
+    return sensitivity_json(all, {})["definitions"]["bounds"].get<std::string>();
+  };
+  CHECK_THAT(definition({.replicates = 0, .resamples = 250}),
+             Catch::Contains("bootstrap") && Catch::Contains(" 250 "));
+  CHECK(definition({.replicates = 1, .resamples = 250}) == one_replicate);
+  CHECK_THAT(definition({.replicates = 2, .resamples = 250}),
+             Catch::Contains("jackknife") && Catch::Contains(" 2 independent replicates"));
+  CHECK_THAT(definition({.replicates = 8, .resamples = 250}),
+             Catch::Contains("jackknife") && Catch::Contains(" 8 independent replicates"));
+}

@@ -115,10 +115,25 @@ TEST_CASE("a deployment of the library is that of simulate, with its trajectory"
   const api::Outcome outcome = api::simulate(api::from_file(three_panel_file()), {.t_end = 8}, 0.5);
   CHECK(outcome.status == to_string(expected.status));
   REQUIRE(outcome.latches.size() == expected.latches.size());
-  CHECK(outcome.latches[0].time == expected.latches[0].time);
-  CHECK(outcome.latches[0].hinge == scene.hinges[expected.latches[0].hinge].name);
-  CHECK(outcome.peak_moment[0].value == expected.peak_moment[0].value);
+  for (std::size_t k = 0; k < outcome.latches.size(); ++k) {
+    const LatchEvent& latch = expected.latches[k];
+    CHECK(outcome.latches[k].hinge == scene.hinges[latch.hinge].name);
+    CHECK(outcome.latches[k].time == latch.time);
+    CHECK(outcome.latches[k].rate == latch.rates[latch.hinge]);
+    CHECK(outcome.latches[k].rates == latch.rates);
+  }
+  REQUIRE(outcome.peak_moment.size() == expected.peak_moment.size());
+  REQUIRE(outcome.peak_force.size() == expected.peak_force.size());
+  for (std::size_t h = 0; h < outcome.peak_moment.size(); ++h) {
+    CHECK(outcome.hinges[h] == scene.hinges[h].name);
+    CHECK(outcome.peak_moment[h].value == expected.peak_moment[h].value);
+    CHECK(outcome.peak_moment[h].time == expected.peak_moment[h].time);
+    CHECK(outcome.peak_force[h].value == expected.peak_force[h].value);
+    CHECK(outcome.peak_force[h].time == expected.peak_force[h].time);
+  }
+  CHECK(outcome.t_end == expected.t_end);
   CHECK(outcome.angles == expected.final.angles);
+  CHECK(outcome.rates == expected.final.rates);
   CHECK(parse_json(outcome.json)["work"]["steps"] == expected.work.steps);
   REQUIRE(outcome.trajectory.size() == 13);
   CHECK(outcome.trajectory[1].name == "root.angle");

@@ -71,3 +71,31 @@ TEST_CASE("whether bodies overlap depends neither on the unit of length nor on t
   CHECK((warned > 50 && quiet > 50)); // or the wings have lost their variety
   CHECK(folded > 150);
 }
+
+TEST_CASE("two bodies have one place when stowed only if both are modelled without thickness",
+          "[warnings]") {
+  // a root and a panel folded back onto it: their hinge points lie on their axes (thin) or beside them
+  for (const bool inner_thin : {true, false})
+    for (const bool outer_thin : {true, false}) {
+      Scene scene;
+      scene.bodies = {{"inner", 1, 1}, {"outer", 1, 1}};
+      scene.hinges.resize(2);
+      Hinge &root = scene.hinges[0], &mid = scene.hinges[1];
+      root.name = "root", root.parent = base_index, root.child = 0;
+      root.stowed = std::numbers::pi / 2;
+      root.child_point = {-0.5, inner_thin ? 0 : 0.02};
+      mid.name = "mid", mid.parent = 0, mid.child = 1;
+      mid.stowed = std::numbers::pi;
+      mid.child_point = {-0.5, outer_thin ? 0 : 1e-4};
+      mid.parent_point = {0.5, outer_thin ? 0 : 1e-4};
+      if (inner_thin) mid.parent_point.y() = 0;
+      CAPTURE(inner_thin, outer_thin);
+      InputWarnings warnings({"wing.json", ""});
+      check_shape(scene, warnings);
+      const bool told = std::ranges::any_of(warnings.list(), [](const InputWarning& warning) {
+        return to_string(warning).find("inner and outer have their centres of mass in one place") !=
+               std::string::npos;
+      });
+      CHECK(told == !(inner_thin && outer_thin));
+    }
+}

@@ -111,3 +111,24 @@ TEST_CASE("No number of a description has the digits of a conversion, and rates 
        {", rate 3 deg/s", ", from -4 deg/s", "regularized at 1 deg/s", "2 N·m at 20 deg/s"})
     CHECK_THAT(text, Catch::Contains(part));
 }
+
+TEST_CASE("Friction is described unless all its levels are 0", "[describe]") {
+  const auto told = [](const char* friction) {
+    Json document = test::small_scene();
+    document["hinges"][1]["friction"] = parse_json(friction);
+    const std::string text = describe(read_scene(document));
+    const std::string line = text.substr(text.find("    mid:"));
+    const std::size_t from = line.find("friction");
+    return from == line.npos ? "" : line.substr(from, line.find("; ", from) - from);
+  };
+  CHECK(told(R"({ "coulomb": 0, "viscous": 0, "regularization_rate": 0.002 })").empty());
+  CHECK(told(R"({ "model": "exact", "coulomb": 0, "static": 0 })").empty());
+  CHECK(told(R"({ "coulomb": 0.5, "viscous": 0, "regularization_rate": 0.25 })") ==
+        "friction 0.5 N·m, 0 N·m·s/rad, regularized at 0.25 rad/s");
+  CHECK(told(R"({ "coulomb": 0, "viscous": 0.125, "regularization_rate": 0.25 })") ==
+        "friction 0 N·m, 0.125 N·m·s/rad, regularized at 0.25 rad/s");
+  CHECK(told(R"({ "model": "exact", "coulomb": 0, "viscous": 0.125 })") ==
+        "friction 0 N·m, 0.125 N·m·s/rad, exact, static 0 N·m");
+  CHECK(told(R"({ "model": "exact", "coulomb": 0, "static": 0.75 })") ==
+        "friction 0 N·m, 0 N·m·s/rad, exact, static 0.75 N·m");
+}

@@ -55,7 +55,8 @@ TEST_CASE("static margins as JSON: every number of the study, with the factors b
     CHECK(its["draws"]["worst_run"] == spread.worst_run);
     CHECK(its["draws"]["least"] == spread.least);
     CHECK(its["draws"]["share_below_0"] == spread.share_short);
-    CHECK(its["draws"]["quantiles"][1] == Json{{"p", 0.1}, {"value", spread.quantiles[1]}});
+    CHECK(its["draws"]["quantiles"] == Json{{{"p", 0.5}, {"value", spread.quantiles[0]}},
+                                            {{"p", 0.1}, {"value", spread.quantiles[1]}}});
   }
 }
 

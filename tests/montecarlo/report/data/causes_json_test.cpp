@@ -189,6 +189,27 @@ TEST_CASE(
   CHECK(unknown["needs"][0]["change"].is_null());
 }
 
+TEST_CASE("a requirement that a single run fails has a block too, and one that none fails has none",
+          "[page][needed]") {
+  const auto times = [](const PageSource& source) {
+    const auto at = std::ranges::find(source.results.outputs, "deployment_time", &Column::name);
+    std::vector<double> sorted(at->values.begin(), at->values.end());
+    std::ranges::sort(sorted, std::ranges::greater{});
+    return sorted;
+  };
+  const std::vector<double> sorted = times(*slow_set(9));
+  for (const long late : {0, 1, 2}) {
+    const auto k = static_cast<std::size_t>(late);
+    const auto source = slow_set(k == 0 ? sorted[0] + 0.01 : (sorted[k - 1] + sorted[k]) / 2);
+    Verdict verdict = source->summary.requirements.front();
+    verdict.allowed = 0, verdict.decision = Decision::fail; // as if none might
+    CHECK(verdict.failures() == late);
+    const Json blocks = changes_json(*source, verdict);
+    REQUIRE(blocks.size() == (late > 0 ? 1 : 0));
+    if (late > 0) CHECK(blocks[0]["for"] == "limit");
+  }
+}
+
 TEST_CASE("the page has the latches whose damping makes most of the nominal peak", "[page]") {
   const auto source = made(quick_campaign(20));
   source->summary.latch_jumps = {{"root", 200, 350}};

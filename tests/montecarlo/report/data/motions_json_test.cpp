@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <functional>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -144,4 +145,45 @@ TEST_CASE("a motion is drawn until its ring is over, though a proof ended the ru
   }
   CHECK(largest > 0);
   CHECK(left <= 0.05);
+}
+
+TEST_CASE("a motion has the base's path beside those of the hinges, each in its own column",
+          "[page]") {
+  Json json = quick_campaign(1);
+  json["scene"]["base"] = parse_json(R"({ "motion": "free", "mass": 60, "inertia": 20 })");
+  const auto source = made(json);
+  const Json motion = motions_json(*source, {}, 1)[0];
+  Goal goal = goal_of(source->stored.campaign.outputs);
+  goal.to_t_end = true;
+  std::vector<Sample> samples;
+  (void)Deployment().run(nominal_scene(source->stored.campaign),
+                         source->stored.campaign.integration, goal,
+                         [&](const Sample& sample) { samples.push_back(sample); });
+  const auto times = motion["t"].get<std::vector<double>>();
+  struct Column {
+    const Json& values;
+    std::function<double(const Sample&)> of;
+    double swing; ///< at least: it tells the columns apart
+  };
+  const std::vector<Column> columns{
+      {motion["base"]["x"], [](const Sample& one) { return one.base_position.x(); }, 0.05},
+      {motion["base"]["y"], [](const Sample& one) { return one.base_position.y(); }, 0.05},
+      {motion["base"]["angle"], [](const Sample& one) { return one.base_angle; }, 0.05},
+      {motion["angles"][0], [](const Sample& one) { return one.angles[0]; }, 1},
+      {motion["angles"][2], [](const Sample& one) { return one.angles[2]; }, 1},
+      {motion["rates"][1], [](const Sample& one) { return one.rates[1]; }, 0.1}};
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    double least = 1e9, most = -1e9;
+    for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
+      const auto at = std::ranges::find(times, rounded(samples[k].t));
+      if (at == times.end() || samples[k + 1].t == samples[k].t || // both sides of a latch
+          (k > 0 && samples[k - 1].t == samples[k].t))
+        continue;
+      const double value = columns[c].values[static_cast<std::size_t>(at - times.begin())];
+      CAPTURE(c, samples[k].t);
+      CHECK(value == Approx(columns[c].of(samples[k])).margin(1e-3));
+      least = std::min(least, value), most = std::max(most, value);
+    }
+    CHECK(most - least > columns[c].swing);
+  }
 }

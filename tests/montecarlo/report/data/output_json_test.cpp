@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <numeric>
+#include <tuple>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -70,4 +71,71 @@ TEST_CASE("a histogram has no more bins than the page has room for", "[page]") {
   CHECK(outputs_json(*source, detail, 1)[0]["histogram"]["counts"].size() == 80);
   detail.bins = 200;
   CHECK(outputs_json(*source, detail, 1)[0]["histogram"]["counts"].size() == 150);
+}
+
+TEST_CASE(
+    "an output's numbers stand under their names: moments, quantiles, tolerance limits, curves",
+    "[page]") {
+  Json json = full_campaign(120);
+  json["statistics"] = parse_json(R"({ "quantiles": [0.05, 0.9], "confidence": 0.8,
+    "tolerance": [ { "probability": 0.9, "confidence": 0.75, "side": "upper" },
+                   { "probability": 0.8, "confidence": 0.95, "side": "both" },
+                   { "probability": 0.7, "confidence": 0.6, "side": "lower" } ] })");
+  const auto source = made(json);
+  const Json outputs = outputs_json(*source, {}, 1);
+  const auto same_bounds = [](const Json& shown, const Bounds& bounds) {
+    CHECK(shown["lower"] == page_number(bounds.lower));
+    CHECK(shown["upper"] == page_number(bounds.upper));
+  };
+  int limited = 0;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const Json& shown = outputs[i];
+    const OutputSummary& summary = source->summary.outputs[i];
+    const Moments& moments = summary.moments;
+    CAPTURE(summary.name);
+    CHECK(shown["name"] == summary.name);
+    for (const auto& [key, value] : {std::pair("mean_error", summary.mean_error),
+                                     {"std", moments.std},
+                                     {"min", moments.min},
+                                     {"max", moments.max},
+                                     {"skewness", moments.skewness},
+                                     {"kurtosis", moments.kurtosis}})
+      CHECK(shown[key] == page_number(value));
+    REQUIRE(shown["quantiles"].size() == 2);
+    for (std::size_t q = 0; q < 2; ++q) {
+      const Json& quantile = shown["quantiles"][q];
+      CHECK(quantile["p"] == (q == 0 ? 0.05 : 0.9));
+      CHECK(quantile["value"] == page_number(summary.quantiles[q].all.value));
+      same_bounds(quantile, summary.quantiles[q].all.bounds);
+      if (!summary.quantiles[q].among) continue;
+      CHECK(quantile["among"]["value"] == page_number(summary.quantiles[q].among->value));
+      same_bounds(quantile["among"], summary.quantiles[q].among->bounds);
+    }
+    const Json& limits = shown["tolerance_limits"];
+    REQUIRE(limits.size() == 3);
+    CHECK(limits[0]["text"] == "90 % at 75 %, upper");
+    CHECK(limits[1]["text"] == "80 % at 95 %, both");
+    CHECK(limits[2]["text"] == "70 % at 60 %, lower");
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Bounds& bounds = summary.tolerance_limits[k].limits;
+      same_bounds(limits[k], bounds);
+      limited += bounds.lower || bounds.upper ? 1 : 0;
+    }
+    const Json& curve = shown["curve"];
+    for (std::size_t k = 0; k < curve["x"].size(); ++k) {
+      if (!curve["lower"][k].is_null()) CHECK(curve["lower"][k] <= curve["p"][k]);
+      if (!curve["upper"][k].is_null()) CHECK(curve["upper"][k] >= curve["p"][k]);
+      if (k > 0) CHECK((curve["x"][k] >= curve["x"][k - 1] && curve["p"][k] >= curve["p"][k - 1]));
+    }
+    const Json& way = shown["convergence"];
+    CHECK(way["quantile_p"] == 0.9);
+    for (const auto& [value, lower, upper] :
+         {std::tuple("mean", "lower", "upper"), {"quantile", "quantile_lower", "quantile_upper"}})
+      for (std::size_t k = 0; k < way["runs"].size(); ++k) {
+        if (way[value][k].is_null()) continue;
+        if (!way[lower][k].is_null()) CHECK(way[lower][k] <= way[value][k]);
+        if (!way[upper][k].is_null()) CHECK(way[upper][k] >= way[value][k]);
+      }
+  }
+  CHECK(limited > 10);
 }

@@ -3,9 +3,12 @@
 #include "montecarlo/report/drawing/wing_drawing.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
+#include <Eigen/Core>
 #include <catch2/catch.hpp>
 
+#include <sstream>
 #include <string>
+#include <vector>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -43,4 +46,48 @@ TEST_CASE(
   CHECK(count(draw_wing(read_scene(json)), "#c62828") == 2); // arc and head of the deployed view
   json["hinges"][0]["name"] = "a<b & c";
   CHECK(draw_wing(read_scene(json)).find(">a&lt;b &amp; c<") != std::string::npos);
+}
+
+namespace {
+
+/// The numbers after each of these keys in all lines that have the mark, e.g. the x and y of texts.
+std::vector<Eigen::Vector2d> drawn_at(const std::string& svg, const std::string& mark,
+                                      const std::string& x, const std::string& y) {
+  std::vector<Eigen::Vector2d> found;
+  std::istringstream in(svg);
+  for (std::string line; std::getline(in, line);) {
+    if (line.find(mark) == line.npos) continue;
+    const auto number = [&](const std::string& key) {
+      return std::stod(line.substr(line.find(' ' + key + "=\"") + key.size() + 3));
+    };
+    found.emplace_back(number(x), number(y));
+  }
+  return found;
+}
+
+} // namespace
+
+TEST_CASE("each name of a drawing stands at what it names, in each view") {
+  WingDesign design;
+  design.panels = 4, design.damper = 0;
+  const Scene scene = scene_of(design);
+  const std::string svg = draw_wing(scene);
+  const auto hinges = drawn_at(svg, "class=\"hinge\"", "cx", "cy");
+  const auto centres = drawn_at(svg, " r=\"2.5\"", "cx", "cy");
+  const auto base = drawn_at(svg, "stroke-width=\"6\"", "x1", "y1");
+  const std::size_t h = scene.hinges.size(), b = scene.bodies.size();
+  REQUIRE((hinges.size() == 3 * h && centres.size() == 3 * b && base.size() == 3));
+  const auto check = [&](const std::string& name, const std::vector<Eigen::Vector2d>& places,
+                         std::size_t first, std::size_t each) {
+    const auto names = drawn_at(svg, '>' + name + '<', "x", "y");
+    REQUIRE(names.size() == 3);
+    for (std::size_t view = 0; view < 3; ++view) {
+      CAPTURE(name, view, names[view].transpose(), places[view * each + first].transpose());
+      CHECK((names[view] - places[view * each + first]).norm() < 130); // of 1200 px
+    }
+  };
+  for (std::size_t k = 0; k < h; ++k) check(scene.hinges[k].name, hinges, k, h);
+  for (std::size_t k = 0; k < b; ++k) check(scene.bodies[k].name, centres, k, b);
+  check("base", base, 0, 1);
+  CHECK((base[2] - centres[3 * b - 1]).norm() > 700); // the deployed wing fills the width
 }

@@ -163,6 +163,26 @@ TEST_CASE("the commands that make what is missing are the ones to type") {
   (void)run_into(odd, shards.campaign, {.shard = Shard{2, 2}});
   CHECK(shards.commands({odd}) ==
         Commands{"wingspread run 'two halves/campaign.json' --out shard_1_of_2 --shard 1/2"});
+  // the number is the folder's own only where it stands once, and is no part of a longer one
+  for (const auto& [name, other] :
+       std::vector<std::pair<const char*, const char*>>{{"2", "1"},
+                                                        {"a-2.b", "a-1.b"},
+                                                        {"2_of", "1_of"},
+                                                        {"run 2!", "'run 1!'"},
+                                                        {"12", ""},
+                                                        {"20", ""},
+                                                        {"a29b", ""},
+                                                        {"v02", ""},
+                                                        {"2 of 2", ""},
+                                                        {"second", ""}}) {
+    CAPTURE(name);
+    const auto half = shards.folder.path() / name;
+    std::filesystem::rename(odd, half);
+    const std::string expected = *other == '\0' ? "shard_1_of_2" : other;
+    CHECK_THAT(shards.commands({half}).at(0),
+               Catch::EndsWith(" --out " + expected + " --shard 1/2"));
+    std::filesystem::rename(half, odd);
+  }
   CHECK(shards.refusal({odd, parts[0]}) == "found no folder with runs 3 to 4, expected folders "
                                            "with all of the campaign's 10 runs");
   CHECK(shell_word("it's") == R"('it'\''s')");

@@ -3,6 +3,9 @@
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <utility>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -43,4 +46,25 @@ TEST_CASE("no object of a stamp has a key that is not read") {
   };
   CHECK(message_for(stamp_json(stamp)).empty());
   CHECK(objects_with_unread_keys(stamp_json(stamp), message_for) == std::vector<std::string>{});
+}
+
+TEST_CASE("a stamp's shard and preview that cannot be are refused with their numbers") {
+  const auto problems = [](const char* key, Json value) {
+    Json json = stamp_json(stamp_of(campaign_of(quick_campaign(10)), {}));
+    json[key] = std::move(value);
+    return problems_of(Json{{stamp_key, json}}, [](const JsonCursor& at) { (void)read_stamp(at); });
+  };
+  for (const auto& [index, of] : {std::pair(1L, 1L), {1L, 3L}, {3L, 3L}, {1L, most_shards}})
+    CHECK(problems("shard", {{"index", index}, {"of", of}}).empty());
+  for (const auto& [index, of] :
+       {std::pair(0L, 3L), {-2L, 3L}, {4L, 3L}, {0L, 0L}, {1L, most_shards + 1}})
+    CHECK_THAT(problems("shard", {{"index", index}, {"of", of}}),
+               Catch::StartsWith("/wingspread/shard: ") &&
+                   Catch::Contains(fmt::format("found {} of {}, ", index, of)));
+  for (const auto& [runs, of] : {std::pair(1L, 2L), {9L, 10L}})
+    CHECK(problems("preview", {{"runs", runs}, {"of", of}}).empty());
+  for (const auto& [runs, of] : {std::pair(0L, 3L), {-2L, 3L}, {3L, 3L}, {4L, 3L}})
+    CHECK_THAT(problems("preview", {{"runs", runs}, {"of", of}}),
+               Catch::StartsWith("/wingspread/preview: ") &&
+                   Catch::Contains(fmt::format("found {} of {}, ", runs, of)));
 }

@@ -67,8 +67,14 @@ TEST_CASE("outputs that the tolerance does not decide are named") {
       Catch::StartsWith("in 2 of the 10 runs repeated at a tighter tolerance root.final_angle "
                         "moves by more than 1 %") &&
           Catch::Contains("smaller rtol and atol; if it moves still"));
-  summary.accuracy->moved_outputs = {"a", "b", "c", "d", "e"};
-  CHECK_THAT(warnings(summary).at(0), Catch::Contains("a, b, c and 2 more outputs move by more"));
+  std::vector<std::string>& moved = summary.accuracy->moved_outputs;
+  moved = {"a", "b", "c"};
+  for (const char* named :
+       {"a, b, c move by more", "a, b, c, d move by more", // not "1 more"
+        "a, b, c and 2 more outputs move by more", "a, b, c and 3 more outputs move by more"}) {
+    CHECK_THAT(warnings(summary).at(0), Catch::Contains(std::string("tolerance ") + named));
+    moved.emplace_back(1, static_cast<char>('a' + moved.size()));
+  }
 }
 
 TEST_CASE("a warning of several cases is told once, with its cases") {
