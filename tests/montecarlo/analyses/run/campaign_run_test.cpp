@@ -109,7 +109,7 @@ TEST_CASE("who resumes a folder is told at once what its runs ended as, with row
     Caller first;
     const CampaignResults made = first.run(request);
     const Summary& summary = made.folders.at(0).summary;
-    const auto counts = [](const Tally& tally) {
+    const auto counts = [](const RunCounts& tally) {
       return std::array{tally.done,   tally.total,   tally.invalid,
                         tally.failed, tally.stalled, tally.timed_out};
     };
