@@ -99,7 +99,9 @@ TEST_CASE("a run that is stopped keeps its runs, and resuming completes the fold
 TEST_CASE("who resumes a folder is told at once what its runs ended as, with rows and without") {
   const Folder folder;
   Json json = full_campaign(300);
-  json["dispersions"][0]["distribution"]["std"] = 0.6; // some springs are too weak
+  json["dispersions"][0]["distribution"]["std"] = 0.6; // some springs are weaker than friction
+  json["scene"]["hinges"][0]["friction"] = {{"model", "exact"}, {"coulomb", 0.3}};
+  json["integration"]["t_end"] = 12;
   for (const bool streaming : {false, true}) {
     CAPTURE(streaming);
     RunRequest request{.campaign = campaign_of(json),
