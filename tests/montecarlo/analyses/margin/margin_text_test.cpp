@@ -3,6 +3,8 @@
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 
+#include <fmt/format.h>
+
 #include <numbers>
 #include <sstream>
 
@@ -146,4 +148,31 @@ TEST_CASE("the text of a margin says what is recommended, and what it costs", "[
   CHECK(prints(text_of(), "with a value: -28.648 now, -42.972 recommended"));
   search.confirmation = search.seen.at(1.75);
   CHECK(prints(text_of(), "1000 runs of seed 99: NOT confirmed"));
+}
+
+TEST_CASE(
+    "the text of a margin: shares with bounds, what is not met, gaps, cut peaks, a longer range",
+    "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(runs_of_window));
+  MarginResult result = made_up_window(campaign);
+  MarginSearch& search = result.searches[0];
+  search.seen[0.4] = search.seen.at(0.5);
+  search.seen.at(1.75)[0].verdicts[1].cut = 3;
+  const std::string text = margin_text({campaign, result, {}});
+  CAPTURE(text);
+  CHECK(prints(text, "searched from 0.5 to 2, extended to 0.4 … 2 to find the edges"));
+  CHECK(prints(text, "40 of 1000 runs break it, 12 allowed t_end cut the peak in 3 of them"));
+  CHECK(prints(text, "up to 50 % apart (1 and 1.5)"));
+  const std::string rows = text.substr(text.find("\nSCALE"));
+  CHECK(words_after(rows, "SCALE")[1] == "95");
+  for (const auto& [scale, cases] : search.seen) {
+    CAPTURE(scale);
+    const DeployedShare deployed = deployed_share(cases[0], 0.95);
+    std::string wanted =
+        percent(deployed.share) + ' ' + percent_range(deployed.bounds.lower, deployed.bounds.upper);
+    if (scale < 1) wanted += " deployed"; // what stalls breaks the other too, and is told once
+    if (scale > 1.5) wanted += " root.latch_rate";
+    const auto words = words_after(rows, fmt::format("  {} ", scale));
+    CHECK(fmt::format("{}", fmt::join(words, " ")) == wanted);
+  }
 }
