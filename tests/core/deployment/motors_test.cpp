@@ -213,3 +213,29 @@ TEST_CASE("a stuck hinge is torn loose by a rising command") {
   CHECK(relative(out.latches[0].time, t) < 1e-8);
   CHECK(relative(out.latches[0].rates[0], motion(t).rate) < 1e-8);
 }
+
+TEST_CASE("before the latch a motor's peak moment is a closed form: at the start, at its limit, "
+          "braking, rising") {
+  constexpr double spring = 0.02; // beside the motor, so that its sign counts
+  const auto check_peak = [](Scene scene, double t_end, double peak) {
+    scene.hinges[0].spring.torque_stowed = scene.hinges[0].spring.torque_latched = spring;
+    for (const Scene& way : {scene, other_sense(scene)}) {
+      const Outcome out = run_everywhere(way, 1e-11, t_end, true);
+      REQUIRE(out.latches.empty());
+      REQUIRE(out.peak_moment.size() == 1);
+      CHECK(relative(out.peak_moment[0].value, peak) < 1e-9);
+    }
+  };
+  for (const double c : {0.3, 3.0}) {
+    CAPTURE(c);
+    check_peak(driven(at_rate(0.05, c, 1e6)), 2, spring + c * 0.05);
+    check_peak(driven(at_rate(0.05, c, 0.01)), 2, spring + 0.01);
+    Scene thrown = thrown_panel(0.2); // faster than the motor, which brakes it
+    thrown.hinges[0].motor = at_rate(0.05, c, 1e6);
+    check_peak(thrown, 1, c * (0.2 - 0.05) - spring);
+    // commanded a t, it lags: I ẍ = f + c (a t − ẋ) has ẍ = a + (f/I − a) exp(−c t/I), which rises
+    const double a = 0.05, end = 2;
+    check_peak(driven(by_table({0, 10}, {0, 10 * a}, c, 1e6)), end,
+               I * (a + (spring / I - a) * std::exp(-c * end / I)));
+  }
+}
