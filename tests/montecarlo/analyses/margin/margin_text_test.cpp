@@ -176,3 +176,21 @@ TEST_CASE(
     CHECK(fmt::format("{}", fmt::join(words, " ")) == wanted);
   }
 }
+
+TEST_CASE(
+    "static margins are those of the present springs, and of the recommended if they are others",
+    "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(runs_of_window));
+  MarginResult result = made_up_window(campaign);
+  MarginSearch& search = result.searches[0];
+  const auto scales_told = [&](double recommended) {
+    search.recommended = recommended, search.confirmation = search.seen.at(1.5);
+    std::vector<double> scales;
+    for (const CaseMargins& each : margin_report(campaign, result).static_margins.cases)
+      scales.push_back(each.scale);
+    return scales;
+  };
+  CHECK(scales_told(1) == std::vector<double>{1});
+  CHECK(scales_told(1.5) == std::vector<double>{1, 1.5});
+  CHECK(scales_told(2) == std::vector<double>{1, 2});
+}
