@@ -5,6 +5,7 @@
     tests/mutants/mutants.py --seed 7 --count 60      others
     tests/mutants/mutants.py --part montecarlo/results '.*/statistics/.*cpp' page
     tests/mutants/mutants.py --unseen                 again those that no test saw
+    tests/mutants/mutants.py --near --count 400       many at once, each against the tests of its room alone
 
 The faults are drawn, not listed: an operator exchanged, a sign, a bound, a term, condition or statement dropped, a constant
 changed, arguments exchanged. The seed draws files by their length, and in each a place by its function's name and text (places.py
@@ -124,13 +125,13 @@ def make_copy(faults):
     return lines
 
 
-def targets(faults, quick):
+def targets(faults, which):
     """What ninja builds for the stages of these faults."""
-    binaries = {stage[0] for fault in faults.values() for stage in stages(fault["file"], quick)} - {"page"}
+    binaries = {stage[0] for fault in faults.values() for stage in stages(fault["file"], *which)} - {"page"}
     return ["all"] if "ctest" in binaries else [f"test_{name}" for name in sorted(binaries)]
 
 
-def build(faults, jobs, quick, tests_from):
+def build(faults, jobs, which, tests_from):
     """Compiles the copy; @return the faults that compile."""
     changed = {"wingspread_" + fault["file"].split("/")[0] for fault in faults.values()}
     changed |= {"wingspread_pack_avx2", "wingspread_pack_avx512"} if "wingspread_core" in changed else set()
@@ -142,7 +143,7 @@ def build(faults, jobs, quick, tests_from):
     while True:
         lines = make_copy(faults)
         subprocess.run(["cmake", "-S", COPY, "-B", BUILD, *options], check=True, stdout=subprocess.DEVNULL)
-        built = subprocess.run(["ninja", "-C", BUILD, f"-j{jobs}", "-k0", *targets(faults, quick)], capture_output=True, text=True)
+        built = subprocess.run(["ninja", "-C", BUILD, f"-j{jobs}", "-k0", *targets(faults, which)], capture_output=True, text=True)
         if built.returncode == 0:
             return faults
         wrong = set()
@@ -189,8 +190,8 @@ def what_failed(text):
     return "no output"
 
 
-def stages(name, quick):
-    """Commands that test a file of the product, the closest tests first."""
+def stages(name, quick, near=False):
+    """Commands that test a file of the product, the closest tests first; if `near`, those of its room, or of its wing."""
     if name.endswith(".js"):
         return [["page"]]
     part, folder = name.split("/")[0], pathlib.PurePath(name).parent
@@ -200,6 +201,9 @@ def stages(name, quick):
     wing = [test.stem for test in SOURCE.glob(f"tests/{folder.parent}/**/*_test.cpp") if test not in tests] if len(folder.parts) > 2 else []
     found = [["hdf5"]] if folder.name == "export" else []
     found += [[part, ",".join(f"[#{stem}]" for stem in some)] for some in (own, room, wing) if some]
+    if near:
+        closest = [some for some in (own, room) if some] or [some for some in (wing,) if some]
+        return [[part, ",".join(f"[#{stem}]" for stem in some)] for some in closest] or [[part]]
     others = ["cli", "ctest"] if part == "montecarlo" else ["montecarlo", "cli"]
     return [*found, [part], *[[other] for other in others if not quick or (part == "montecarlo" and other == "cli")]]
 
@@ -249,11 +253,11 @@ class Clock:
         return self.known[key]
 
 
-def meet(number, fault, clock, quick):
+def meet(number, fault, clock, which):
     """@return which test sees it, or None; and whether any test reached it"""
     with tempfile.TemporaryDirectory() as folder:
         scratch = pathlib.Path(folder)
-        for stage in stages(fault["file"], quick):
+        for stage in stages(fault["file"], *which):
             passes, text = meet_stage(stage, number, fault, clock.limit(stage), scratch)
             if not passes:
                 return {"seen": f"{stage[0]}: {what_failed(text)}"}
@@ -290,6 +294,7 @@ def main():
     parser.add_argument("--part", nargs="+", help="sources: the beginnings of their names, as regular expressions, or page")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--quick", action="store_true", help="core meets core's tests alone, montecarlo not those of ctest")
+    parser.add_argument("--near", action="store_true", help="only the tests of the fault's room, or of its wing where the room has none")
     parser.add_argument("--tests-from", type=os.path.abspath, help="a finished build, e.g. build/release, whose tests are linked if no header has a fault")
     parser.add_argument("--list", action="store_true", help="draw only")
     parser.add_argument("--unseen", action="store_true", help="of the last call's faults those that no test saw")
@@ -303,11 +308,12 @@ def main():
         for number, fault in faults.items():
             print(f"{number:4} {fault['file']} {fault['function']}: {fault['old']}  ->  {fault['new']}")
         return
-    compiled = build(faults, arguments.jobs, arguments.quick, arguments.tests_from) if any(not fault["file"].endswith(".js") for fault in faults.values()) else faults
+    which = (arguments.quick, arguments.near)
+    compiled = build(faults, arguments.jobs, which, arguments.tests_from) if any(not fault["file"].endswith(".js") for fault in faults.values()) else faults
     chosen = {number: fault for number, fault in compiled.items() if not arguments.unseen or last["seen"].get(str(number), 0) is None}
     clock, results = Clock(), {}
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        waiting = {pool.submit(meet, number, fault, clock, arguments.quick): number for number, fault in chosen.items()}
+        waiting = {pool.submit(meet, number, fault, clock, which): number for number, fault in chosen.items()}
         for done in concurrent.futures.as_completed(waiting):
             number = waiting[done]
             results[number] = done.result()
