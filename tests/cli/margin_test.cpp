@@ -94,8 +94,12 @@ TEST_CASE("check bounds the runs of margin, and their time") {
                                     std::to_string(bounds.most) + " (about "}));
   const long runs = margin_of(campaign).runs;
   CHECK((bounds.least <= runs && runs <= bounds.most));
-  json.erase("margin");
-  CHECK_THAT(program({"check", program.file(json)}).out, !Catch::Contains("cost of margin"));
+  for (const char* key : {"margin", "requirements"}) {
+    Json without = json;
+    without.erase(key);
+    const Finished told = program({"check", program.file(without)});
+    CHECK_THAT(told.out, Catch::Contains("cost: ") && !Catch::Contains("cost of margin"));
+  }
 }
 
 TEST_CASE("margin's files have the same bytes for any threads", "[parallel]") {
