@@ -4,16 +4,27 @@ export OMP_WAIT_POLICY=passive # a thread that waits sleeps: spinning, it would 
 
 tests_from=() # the build whose test objects the sanitizers' builds link
 
-# build_and_test PRESET TARGETS [ctest's options …]
-build_and_test() {
+# build PRESET TARGETS
+build() {
   local preset=$1 targets=$2
-  shift 2
   echo "== $preset"
   cmake --preset "$preset" "${tests_from[@]}" "${cmake_options[@]}" >/dev/null
   # shellcheck disable=SC2086 # the targets are words
   cmake --build --preset "$preset" --target $targets
+}
+
+# test_preset PRESET [ctest's options …]
+test_preset() {
+  local preset=$1
+  shift
   # one more than there are processors: some tests wait, for a browser, for ranks, for an interruption
   ctest --test-dir "build/$preset" --no-tests=error --output-on-failure --parallel "$(($(nproc) + 1))" "$@"
+}
+
+# build_and_test PRESET TARGETS [ctest's options …]
+build_and_test() {
+  build "$1" "$2"
+  test_preset "$1" "${@:3}"
 }
 
 check_rooms() {
