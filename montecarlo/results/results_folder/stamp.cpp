@@ -12,24 +12,24 @@ constexpr const char* stamp_expected = "what `wingspread run` wrote: version, se
 void read_shard(const JsonCursor& at, std::optional<Shard>& shard) {
   JsonObject object(at, "an object with index and of");
   std::int64_t index = 0, of = 0;
-  object.required("index", index, "an integer, ≥ 1");
-  object.required("of", of, "an integer, ≥ index");
+  const bool has_index = object.required("index", index, "an integer, ≥ 1");
+  const bool has_of = object.required("of", of, "an integer, ≥ index");
   object.refuse_others();
   if (index >= 1 && index <= of && of <= most_shards)
     shard = {index, of};
-  else if (object.is_object())
+  else if (has_index && has_of)
     at.refuse(fmt::format("{} of {}", index, of), "1 ≤ index ≤ of");
 }
 
 void read_preview(const JsonCursor& at, std::optional<Preview>& preview) {
   JsonObject object(at, "an object with runs and of");
   std::int64_t runs = 0, of = 0;
-  object.required("runs", runs, "an integer, ≥ 1");
-  object.required("of", of, "an integer, > runs");
+  const bool has_runs = object.required("runs", runs, "an integer, ≥ 1");
+  const bool has_of = object.required("of", of, "an integer, > runs");
   object.refuse_others();
   if (runs >= 1 && of > runs)
     preview = {runs, of};
-  else if (object.is_object())
+  else if (has_runs && has_of)
     at.refuse(fmt::format("{} of {}", runs, of), "1 ≤ runs < of");
 }
 

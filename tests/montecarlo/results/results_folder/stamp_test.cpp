@@ -67,4 +67,9 @@ TEST_CASE("a stamp's shard and preview that cannot be are refused with their num
     CHECK_THAT(problems("preview", {{"runs", runs}, {"of", of}}),
                Catch::StartsWith("/wingspread/preview: ") &&
                    Catch::Contains(fmt::format("found {} of {}, ", runs, of)));
+  // a key that is missing is refused once, without a number that nobody wrote
+  CHECK_THAT(problems("shard", {{"index", 1}}),
+             Catch::Contains("/of: found nothing") && !Catch::Contains(" of 0"));
+  CHECK_THAT(problems("preview", {{"runs", 3}}),
+             Catch::Contains("/of: found nothing") && !Catch::Contains(" of 0"));
 }
