@@ -49,13 +49,9 @@ TEST_CASE("what is no results folder is refused, with the reason") {
         "/wingspread/hash: found 1, expected a string, the campaign's hash"},
        {"/wingspread/shard/index", "3", "/wingspread/shard: found 3 of 2, expected 1 ≤ index ≤ of"},
        {"/wingspread/shard/of", "",
-        "/wingspread/shard/of: found nothing, expected an integer, ≥ index\n"
-        "FILE: /wingspread/shard: found 1 of 0, expected 1 ≤ index ≤ of"}}));
+        "/wingspread/shard/of: found nothing, expected an integer, ≥ index"}}));
   const auto file = folder.write(campaign_file, spoil(good, {pointer, value, message}).dump());
-  std::string expected = file.string() + ": " + message;
-  if (const auto at = expected.find("FILE"); at != std::string::npos)
-    expected.replace(at, 4, file.string());
-  CHECK(message_of(read) == expected);
+  CHECK(message_of(read) == file.string() + ": " + message);
 }
 
 TEST_CASE("a campaign that was changed after it was run is refused") {
