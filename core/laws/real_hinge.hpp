@@ -53,6 +53,14 @@ template <class T> struct RealHingeTerms {
   /// Whether the latch's law changes at the latched angle, or at the ends of its backlash.
   [[nodiscard]] bool has_latch_edge() const { return has_backlash || dissipation.present; }
   [[nodiscard]] bool has_tables() const { return spring.curve || harness.curve || friction.level; }
+  /// Whether it has any law of (1).
+  [[nodiscard]] bool has_law() const {
+    return has_tables() || has_damper || stop.present || far_stop.present || dissipation.present;
+  }
+  /// Whether it has any edge (mechanics/edges.hpp).
+  [[nodiscard]] bool has_edge() const {
+    return stop.present || far_stop.present || capture.present || has_window || has_latch_edge();
+  }
 };
 
 /// Calls visit(rate, acts, stop) for each rate at which the damper's law or a stop's has a kink. `acts`: whether the

@@ -215,9 +215,9 @@ protected:
 
   [[gnu::noinline]] void add_real_moments(const State<T>& x) {
     for (int i = 1; i < static_cast<int>(wing_.real.size()); ++i)
-      work_.nonlinear[i] = work_.nonlinear[i] + of_real_hinge(x, i);
+      if (wing_.real[i].has_law()) work_.nonlinear[i] = work_.nonlinear[i] + of_real_hinge(x, i);
     for (int i = 1; i < motors_end(); ++i)
-      if (any(work_.motors[i].runs > T(0)))
+      if (wing_.motors[i].present && any(work_.motors[i].runs > T(0)))
         work_.nonlinear[i] = work_.nonlinear[i] + of_motor(x, i);
     for (const LoopTerms<T>& loop : wing_.loops) {
       const LoopState<T> state = state_of(loop, x);

@@ -53,7 +53,7 @@ public:
       const HingeTerms<P>& hinge = wing.hinges[i];
       if (hinge.has_latch && !has_capture(wing, i))
         found = found || (waits(i) && may_engage(system, step, i));
-      if (wing.can_let_go) found = found || (!waits(i) && may_let_go(system, step, i));
+      if (wing.can_let_go) found = found || may_let_go(system, step, i);
       if (!wing.real.empty())
         found = found || (!system.is_locked(i) && may_pass_edge(system, step, i));
       if (wing.can_stick) found = found || (slides(i) && may_come_to_rest(system, step, i));
@@ -104,6 +104,7 @@ private:
   [[nodiscard]] Mask may_pass_edge(const AnySystem& system, const Step<P>& step, int i) const {
     const auto& wing = system.wing();
     Mask any{};
+    if (!wing.real[i].has_edge()) return any;
     const Quintic<P> angle = angle_of(system, step, i);
     for (int e = 0; e < edges_of_hinge; ++e) {
       const Edge edge = static_cast<Edge>(e);
@@ -119,14 +120,16 @@ private:
     return any;
   }
 
-  /// The first test of first_letting_go.
+  /// The first test of first_letting_go, where the latch is engaged.
   template <class AnySystem>
-  [[nodiscard]] static Mask may_let_go(const AnySystem& system, const Step<P>& step, int i) {
+  [[nodiscard]] Mask may_let_go(const AnySystem& system, const Step<P>& step, int i) const {
     const CaptureTerms<P>& latch = system.wing().real[i].capture;
+    const Mask engaged = latch.may_let_go() && !waits(i);
+    if (!any(engaged)) return engaged;
     const Quintic<P> angle = angle_of(system, step, i);
-    return latch.may_let_go() &&
-           !(latch.most_excess(hull(angle), hull(step.rate(system.layout().angle(i),
-                                                           system.layout().freedoms()))) < P(0.0));
+    const Layout& at = system.layout();
+    const Quintic<P> rate = step.rate_of(angle, at.angle(i), at.freedoms());
+    return engaged && !(latch.most_excess(hull(angle), hull(rate)) < P(0.0));
   }
 
   /// The first test of Releases::first_passage.

@@ -23,7 +23,8 @@ public:
   void resize(const Layout& at) {
     const P none(0.0);
     moments_.assign(at.bodies + 1, {none, none});
-    may_rise_.assign(at.bodies + 1, Mask{});
+    for (std::vector<Mask>* v : {&may_rise_, &may_rise_inside_, &hold_may_rise_inside_})
+      v->assign(at.bodies + 1, Mask{});
     forces_ = holds_ = raised_moments_ = raised_forces_ = raised_holds_ = moments_;
     before_.assign(at.bodies + 1, none), at_end_.assign(at.bodies + 1, {none, none});
     levers_.assign(at.bodies + 1, {none, none, {none, none}, none});
@@ -92,10 +93,15 @@ public:
     return in_doubt;
   }
 
-  /// Copies which peaks may rise over the last step out of a lane in which search_step searched it.
+  /// Copies how peaks may rise over the last step out of a lane in which search_step searched it.
   void unload_search(int lane, LaneResult& result) const {
-    for (std::size_t i = 1; shape_.moments && i < may_rise_.size(); ++i)
-      (*result.moments_may_rise)[i] = may_rise_[i].bits[lane] != 0 ? 1 : 0;
+    for (std::size_t i = 1; shape_.moments && i < may_rise_.size(); ++i) {
+      const Rise at_most = may_rise_inside_[i].bits[lane] != 0 ? Rise::inside : Rise::to_ends;
+      (*result.moments_rise)[i] = may_rise_[i].bits[lane] != 0 ? at_most : Rise::none;
+    }
+    for (std::size_t i = 1; shape_.holds && i < result.holds_rise->size(); ++i)
+      (*result.holds_rise)[i] =
+          hold_may_rise_inside_[i].bits[lane] != 0 ? Rise::inside : Rise::to_ends;
     result.forces_may_rise = force_may_rise_.bits[lane] != 0;
   }
 
@@ -131,7 +137,7 @@ private:
                                     const Mask& accepted, const std::vector<P>& held_before) {
     Mask asks{};
     for (int i = 1; i < static_cast<int>(moments_.size()); ++i) {
-      may_rise_[i] = Mask{};
+      may_rise_[i] = may_rise_inside_[i] = Mask{};
       Mask slides = accepted;
       if (system.work().stuck > 0) {
         const Mask locked = system.is_locked(i);
@@ -150,6 +156,7 @@ private:
         may_rise_[i] = may_rise_[i] || near;
         const Mask to_end = near && rises_to_end(samples, moment, step);
         to_ends = to_ends || to_end;
+        may_rise_inside_[i] = may_rise_inside_[i] || (near && !to_end);
         asks = asks || (near && !to_end);
       }
       if (!any(to_ends)) continue;
@@ -189,7 +196,8 @@ private:
     peak.raise(first, step.t);
     peak.raise(last, step.t + step.h);
     assign_where(may, raised_moments_[i], peak);
-    add_locked({i, false, first, last, Bulge<P>{held_.rise(i)}, moments_[i].value, close, may});
+    may_rise_inside_[i] =
+        add_locked({i, false, first, last, Bulge<P>{held_.rise(i)}, moments_[i].value, close, may});
   }
 
   /// As PeakSearch::doubtful_hold.
@@ -197,6 +205,7 @@ private:
                     const std::vector<P>& held_before) {
     for (int i = 1; i < static_cast<int>(holds_.size()); ++i) {
       const Mask held = accepted && system.is_held(i);
+      hold_may_rise_inside_[i] = Mask{};
       if (!any(held)) continue;
       if (!held_is_bounded_) held_.over_step(system, step);
       held_is_bounded_ = true;
@@ -211,7 +220,7 @@ private:
       peak.raise(first, step.t);
       peak.raise(last, step.t + step.h);
       assign_where(held, raised_holds_[i], peak);
-      add_locked(
+      hold_may_rise_inside_[i] = add_locked(
           {i, true, first, last, Bulge<P>{held_.most_friction(i)}, holds_[i].value, close, held});
     }
   }
@@ -227,10 +236,12 @@ private:
     std::array<P, 3> inside{};
   };
 
-  void add_locked(LockedLoad load) {
+  /// Keeps the load if any lane wants samples of it. @return the lanes that do
+  Mask add_locked(LockedLoad load) {
     load.wants =
         load.wants && wants_samples(load.first, load.last, load.rise, load.peak, load.close);
     if (any(load.wants)) locked_.push_back(load);
+    return load.wants;
   }
 
   /// Samples the loads of locked hinges that want it. @return lanes in which a load may be larger inside the step
@@ -304,8 +315,10 @@ private:
       raised_holds_; ///< up to its end, if rises_
   Mask asks_for_moments_{};
   Mask force_may_rise_{}; ///< lanes in which any force may rise over this step
-  std::vector<Mask>
-      may_rise_; ///< 1 … n: lanes in which a moment may rise over this step, inside or towards an end
+  // 1 … n: lanes in which a peak may rise over this step
+  std::vector<Mask> may_rise_;                ///< a moment's
+  std::vector<Mask> may_rise_inside_;         ///< a moment's, perhaps inside the step
+  std::vector<Mask> hold_may_rise_inside_;    ///< what a hold bears, perhaps inside the step
   bool rises_ = false, samples_made_ = false; ///< in any lane, over this step
   HeldLoadBound<P> held_;
   bool held_is_bounded_ = false;   ///< over this step

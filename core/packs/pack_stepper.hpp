@@ -116,7 +116,7 @@ public:
     events_.unload(lane, result);
     result.none = {asks_after_[3].bits[lane] == 0, kinks_.bits[lane] == 0,
                    releases_.bits[lane] == 0};
-    result.peaks_searched = result.moments_may_rise && accepted_.bits[lane] != 0;
+    result.peaks_searched = result.moments_rise && accepted_.bits[lane] != 0;
     if (result.peaks_searched) peaks_.unload_search(lane, result);
     if constexpr (M == BaseMotion::free) free_.unload(lane, result);
     result.h = step_.h.v[lane];

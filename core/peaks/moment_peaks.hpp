@@ -45,7 +45,7 @@ public:
   [[nodiscard]] ValueRange<T> range_of_real() const {
     const Wing<T>& wing = system_.wing();
     ValueRange<T> range{T(0), T(0)};
-    if (!wing.real.empty())
+    if (!wing.real.empty() && wing.real[i_].has_law())
       range =
           real_range(wing.real[i_], system_.work().modes[i_], hull(own_.angle), hull(own_.rate));
     if (has_motor())
@@ -232,6 +232,17 @@ void raise_to_ends(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& moment,
   peak.raise(T(abs(moment(T(1)))), step.t + step.h);
 }
 
+/// Moment of a stuck hinge at a step's ends, N·m.
+template <class T> struct HeldMoments { T first, last; };
+
+/// The same of a locked hinge.
+template <class T>
+void raise_to_ends(PeakOf<T>& peak, const HeldMoments<T>& ends, const Step<T>& step) {
+  using std::abs;
+  peak.raise(T(abs(ends.first)), step.t);
+  peak.raise(T(abs(ends.last)), step.t + step.h);
+}
+
 /// A maximum of |moment| inside a step, known by the dense output alone.
 template <class T> struct DoubtfulMoment {
   T s;    ///< fraction of the step
@@ -284,9 +295,6 @@ template <class T, class AnySystem>
          doubt.s < T(1) && ++doubt.corrections < 4;
 }
 
-/// Moment of a stuck hinge at a step's ends, N·m.
-template <class T> struct HeldMoments { T first, last; };
-
 /// Whether a stuck hinge's |moment| may exceed its peak in a step, by the laws' ranges and the static limit.
 template <class T, class AnySystem>
 [[nodiscard]] Truth<T> held_moment_may_rise(const PeakOf<T>& peak, const AnySystem& system,
@@ -322,8 +330,7 @@ template <class T, class Load>
                                         : largest_of(size, first, last, rise, peak.value, close,
                                                      shortest_part(step.t, step.h));
   }
-  peak.raise(first, step.t);
-  peak.raise(last, step.t + step.h);
+  raise_to_ends(peak, ends, step);
   if (!(found.value > peak.value)) return std::nullopt;
   return found.s;
 }
@@ -343,14 +350,15 @@ void narrow_if_needed(HeldLoadBound<T>& bound, const AnySystem& system, const St
 /// cheaper tests come first: held_moment_may_rise, then the load's curvature, over the whole step and between three
 /// samples. The maximum inside is that of a polynomial through samples; where few samples do not resolve the load, it
 /// is searched by the load's curvature.
+/// @param bound_of_step () → HeldLoadBound<T>&, over the step
 /// @param load load(s): the moment by an evaluation on the dense output
 /// @return where a step of the method must confirm a larger value
-template <class T, class AnySystem, class Load>
+template <class T, class AnySystem, class BoundOfStep, class Load>
 [[nodiscard]] std::optional<T>
 raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
-                  const HeldMoments<T>& ends, HeldLoadBound<T>& bound, Load&& load) {
+                  const HeldMoments<T>& ends, const BoundOfStep& bound_of_step, Load&& load) {
   if (!held_moment_may_rise(peak, system, step, i)) return std::nullopt;
-  bound.over_step(system, step);
+  HeldLoadBound<T>& bound = bound_of_step();
   const T close = negligible(peak, bound, i);
   narrow_if_needed(bound, system, step, i, ends, Bulge<T>{bound.rise(i)}, peak, close);
   return raise_locked_load(peak, step, ends, Bulge<T>{bound.rise(i)}, close, true, load);

@@ -21,6 +21,13 @@ template <class T> struct PeakOf {
   }
 };
 
+/// How a peak may rise over a step.
+enum class Rise : char {
+  none,    ///< not at all
+  to_ends, ///< to the larger value at the step's ends; none inside is larger
+  inside   ///< perhaps to a value inside
+};
+
 /// Estimated upper bound of a function over a step from equidistant samples: the largest sample plus a quarter of the
 /// largest second difference.
 ///

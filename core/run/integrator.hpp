@@ -120,7 +120,8 @@ public:
             events_.excess_before(),
             run_.system.writable_workspace().holding,
             peaks_.base(),
-            asked_.stage == Stage::step ? &peaks_.moments_may_rise() : nullptr,
+            asked_.stage == Stage::step ? &peaks_.moments_rise() : nullptr,
+            asked_.stage == Stage::step ? &peaks_.holds_rise() : nullptr,
             may_happen_};
   }
 

@@ -11,8 +11,8 @@
 /// A lane accepts and rejects plain steps alone. A lane needs its run when the last trial step may
 /// hold an event or a peak, may reach the end of the stretch (t_end, a knot of a table, a hold's release), or uses up
 /// the steps that the task allows. The run then treats that trial step as one that it made itself. A lane says whether
-/// it has found that the step holds no event (LaneResult::none), and which peaks may rise over it
-/// (LaneResult::peaks_searched): the run does not search the others again. Lane and run use the same
+/// it has found that the step holds no event (LaneResult::none), and how each peak may rise over it
+/// (LaneResult::peaks_searched): the run searches only those again that may rise inside. Lane and run use the same
 /// expressions, so every number has the same bits with and without a lane.
 #pragma once
 
@@ -85,8 +85,9 @@ struct LaneResult {
   std::vector<double>& excess_before; ///< 1 … n: of their friction over its limit there, N·m
   std::vector<double>& held_at_end; ///< 1 … n: their moments at the end of the last trial step, N·m
   BaseExcursion<double>& base;      ///< of a free base, up to the start of that step
-  /// 1 … n: over that step; written only if `peaks_searched`. Null: a step inside another one, whose peaks count.
-  std::vector<char>* moments_may_rise;
+  // over that step; written only if `peaks_searched`. Null: a step inside another one, whose peaks count
+  std::vector<Rise>* moments_rise; ///< 1 … n
+  std::vector<Rise>* holds_rise;   ///< 1 … n, where a hold is rigid; if asked for
   std::vector<char>&
       may_happen; ///< 1 … n: whether a hinge may have an event of its own in the last trial step, if accepted
   // values

@@ -48,8 +48,10 @@ public:
     return false;
   }
 
-  /// Which moments may rise over a step whose peaks a lane has searched, 1 … n; for the lane to write to.
-  [[nodiscard]] std::vector<char>& moments_may_rise() { return may_rise_; }
+  /// How moments, and what rigid holds bear, may rise over a step whose peaks a lane has searched, 1 … n; for the lane
+  /// to write to.
+  [[nodiscard]] std::vector<Rise>& moments_rise() { return moments_rise_; }
+  [[nodiscard]] std::vector<Rise>& holds_rise() { return holds_rise_; }
 
   /// Moments on stuck hinges at the end of the step searched last, 1 … n, N·m.
   [[nodiscard]] const std::vector<T>& held_at_end() const { return held_at_end_; }
@@ -62,10 +64,11 @@ public:
   void start() {
     base_.start(run_.at, run_.step.x);
     moments_.assign(run_.at.bodies + 1, {});
-    may_rise_.assign(run_.at.bodies + 1, true);
+    moments_rise_.assign(run_.at.bodies + 1, Rise::inside);
     overtravel_.assign(run_.at.bodies + 1, T(0));
     motor_energy_.assign(run_.goal.motor_energy ? run_.system.wing().motors.size() : 0, T(0));
     holds_.assign(watches_holds() ? run_.at.bodies + 1 : 0, {});
+    holds_rise_.assign(holds_.size(), Rise::inside);
     if (run_.goal.peak_force) forces_.start(run_.system, force_worth_a_step());
   }
 
@@ -77,14 +80,14 @@ public:
 
   /// A lane's findings about the peaks of a step.
   struct LaneSearch {
-    bool done = false;           ///< it has written moments_may_rise
+    bool done = false;           ///< it has written moments_rise and holds_rise
     bool forces_may_rise = true; ///< if done
   };
 
   /// Looks for the peaks of a step just accepted. @pre the last evaluation was at its end
   /// @return the first doubt: the fraction of the step to which the method must make a step
   [[nodiscard]] std::optional<T> first_doubt(const LaneSearch& by_lane) {
-    made_inner_steps_ = false, searched_ = by_lane.done;
+    made_inner_steps_ = held_is_bounded_ = false, searched_ = by_lane.done;
     if (run_.system.work().stuck > 0) held_at_end_ = run_.system.work().holding;
     hinge_ = hold_ = 0;
     doubt_.reset(), held_at_.reset(), borne_at_.reset();
@@ -146,7 +149,7 @@ private:
     std::optional<T> s;
     if (run_.goal.peak_force) s = forces_.doubtful();
     while (!s && run_.goal.peak_moment && ++hinge_ <= run_.at.bodies)
-      if (!searched_ || may_rise_[hinge_]) s = doubtful_moment();
+      s = doubtful_moment(searched_ ? moments_rise_[hinge_] : Rise::inside);
     while (!s && ++hold_ < static_cast<int>(holds_.size())) s = doubtful_hold();
     made_inner_steps_ = made_inner_steps_ || s;
     return s;
@@ -159,13 +162,30 @@ private:
     });
   }
 
-  [[nodiscard]] std::optional<T> doubtful_moment() {
+  /// The bound on the loads of locked hinges over the step.
+  [[nodiscard]] HeldLoadBound<T>& bound_of_held() {
+    if (!held_is_bounded_) held_.over_step(run_.system, run_.step);
+    held_is_bounded_ = true;
+    return held_;
+  }
+
+  [[nodiscard]] std::optional<T> doubtful_moment(Rise rise) {
     PeakOf<T>& peak = moments_[hinge_];
+    if (rise == Rise::none) return std::nullopt;
     if (run_.system.sticks(hinge_)) {
       const HeldMoments<T> ends{run_.held_before[hinge_], held_at_end_[hinge_]};
+      if (rise == Rise::to_ends) {
+        raise_to_ends(peak, ends, run_.step);
+        return std::nullopt;
+      }
       const auto load = [this](const T& s) { return locked_at(s).moments[hinge_]; };
-      held_at_ = raise_held_moment(peak, run_.system, run_.step, hinge_, ends, held_, load);
+      const auto bound = [this]() -> HeldLoadBound<T>& { return bound_of_held(); };
+      held_at_ = raise_held_moment(peak, run_.system, run_.step, hinge_, ends, bound, load);
       return held_at_;
+    }
+    if (rise == Rise::to_ends) {
+      raise_to_ends(peak, MomentOverStep<T, AnySystem>(run_.system, run_.step, hinge_), run_.step);
+      return std::nullopt;
     }
     doubt_ = raise_moment(peak, run_.system, run_.step, hinge_);
     if (!doubt_) return std::nullopt;
@@ -179,12 +199,16 @@ private:
     const Step<T>& step = run_.step;
     const HeldMoments<T> ends{run_.held_before[hold_] - run_.system.sliding_moment(step.x, hold_),
                               held_at_end_[hold_] - run_.system.sliding_moment(step.x1, hold_)};
-    const auto load = [this](const T& s) { return locked_at(s).borne[hold_]; };
-    held_.over_step(run_.system, step);
     PeakOf<T>& peak = holds_[hold_];
-    const T close = negligible(peak, held_, hold_);
-    const auto rise = [this] { return Bulge<T>{held_.most_friction(hold_)}; };
-    narrow_if_needed(held_, run_.system, step, hold_, ends, rise(), peak, close);
+    if (searched_ && holds_rise_[hold_] == Rise::to_ends) {
+      raise_to_ends(peak, ends, step);
+      return std::nullopt;
+    }
+    const auto load = [this](const T& s) { return locked_at(s).borne[hold_]; };
+    HeldLoadBound<T>& bound = bound_of_held();
+    const T close = negligible(peak, bound, hold_);
+    const auto rise = [&] { return Bulge<T>{bound.most_friction(hold_)}; };
+    narrow_if_needed(bound, run_.system, step, hold_, ends, rise(), peak, close);
     borne_at_ =
         raise_locked_load(peak, step, ends, rise(), close, run_.system.wing().loops.empty(), load);
     return borne_at_;
@@ -246,15 +270,16 @@ private:
   ForcePeaks<T, AnySystem> forces_;
   int hinge_ = 0;                          ///< the hinge searched for moment peaks
   std::optional<DoubtfulMoment<T>> doubt_; ///< of its moment; none while forces are in doubt
-  HeldLoadBound<T> held_;
+  HeldLoadBound<T> held_;                  ///< see bound_of_held
+  bool held_is_bounded_ = false;           ///< over the step searched
   LockedSamples<T> locked_;
   std::vector<T> held_at_end_; ///< 1 … n: moments on stuck hinges at the step's end
   std::optional<T> held_at_;   ///< where the moment of a stuck hinge is in doubt
   int hold_ = 0;               ///< the hold searched
   std::optional<T> borne_at_;  ///< where its load is in doubt
   bool made_inner_steps_ = false;
-  bool searched_ = false;      ///< a lane has searched the peaks of the step
-  std::vector<char> may_rise_; ///< 1 … n: if so, the moments that may rise over it
+  bool searched_ = false;                       ///< a lane has searched the peaks of the step
+  std::vector<Rise> moments_rise_, holds_rise_; ///< 1 … n: if so, how they may rise over it
 };
 
 } // namespace wingspread

@@ -70,7 +70,7 @@ TEST_CASE("peaks inside the long steps of extrapolation have the accuracy of its
   }
 }
 
-TEST_CASE("random wings with every base motion agree with the reference") {
+TEST_CASE("random wings with every base motion agree with the reference", "[long]") {
   std::size_t latches = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     oracle::RandomScene options;

@@ -39,7 +39,7 @@ TEST_CASE("the yoke wing without stops goes through itself, and says so") {
     CHECK(std::abs(out.overtravel[i] - exact.overtravel[i].value) < 1e-7);
 }
 
-TEST_CASE("the yoke wing with stops latches as the dense formulation says") {
+TEST_CASE("the yoke wing with stops latches as the dense formulation says", "[long]") {
   const Scene scene = yoke_wing_with_stops();
   const double t_end = Deployment().run(scene, within(1e-8, 100), {}).t_end;
   const ReferenceOutcome exact = real_reference(scene, t_end);

@@ -143,7 +143,8 @@ TEST_CASE("random wings live as the dense formulation says: holds, captures, lat
   check_lives(9000, random_cases(200, 10), false);
 }
 
-TEST_CASE("random wings with motors and elastic holds live as the dense formulation says") {
+TEST_CASE("random wings with motors and elastic holds live as the dense formulation says",
+          "[long]") {
   check_lives(12000, random_cases(200, 12), true);
 }
 

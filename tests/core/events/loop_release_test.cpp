@@ -64,7 +64,7 @@ TEST_CASE("a loop tears a stuck hinge loose between the ends of steps") {
   CHECK(judged >= 40);
 }
 
-TEST_CASE("wings with loops whose hinges stick agree with the reference") {
+TEST_CASE("wings with loops whose hinges stick agree with the reference", "[long]") {
   std::size_t compared = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomScene options;
