@@ -12,7 +12,8 @@ TEST_CASE("a proposal about a nearly normal mode takes as many runs as its quadr
     CAPTURE(d);
     const Campaign campaign = campaign_of(panel_campaign(0.02, 0.05));
     Json json = parse_json(R"({ "tests": [ { "name": "timer",
-        "values": [ { "output": "root.latch_time", "value": 2.3, "std": 0.02 } ] } ],
+        "values": [ { "output": "root.latch_time", "value": 2.3, "std": 0.02 },
+                    { "parameter": "hinges.root.friction.scale", "value": 1, "std": 0.1 } ] } ],
       "fit": { "parameters": ["spring", "friction"] } })");
     json["tests"][0]["values"][0]["value"] = panel_latch_time(1.01, 1);
     if (d == 1) json["fit"]["parameters"].erase(1);
