@@ -60,6 +60,43 @@ TEST_CASE("what is printed to a full device is not taken for done") {
   }
 }
 
+// Messages are lost there; the command, its files and its exit status stay.
+TEST_CASE("a full or closed standard error ends no command, and no message gets into a file") {
+  const Folder folder;
+  Json json = quick_campaign(60);
+  json["requirements"] = parse_json(
+      R"([{ "output": "deployment_time", "max": 1, "probability": 0.9, "confidence": 0.9 }])");
+  json["scene"]["bodies"][0]["mass"] = 40'000; // a warning, before any run
+  const std::string campaign = folder.write("c.json", json.dump());
+  const std::string whole = folder.path() / "whole";
+  const auto usual = run_program(folder, {"run", campaign, "--out", whole, "--table"});
+  CHECK_THAT(usual.error, HasFacts({"warning: ", "not met: "}));
+  const auto with = [&](const std::string& arguments, const std::string& redirected) {
+    const std::string command =
+        '"' + std::string(program_path) + "\" " + arguments + ' ' + redirected;
+    const int status = std::system(command.c_str()); // NOLINT(cert-env33-c): a shell closes files
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  int made = 0;
+  for (const auto& [redirected, code] : {std::pair(">/dev/null 2>/dev/full", usual.code),
+                                         {">/dev/null 2>&-", usual.code},
+                                         {">&- 2>&-", 4},
+                                         {"<&- >&- 2>&-", 4}}) { // 4: the table is lost
+    CAPTURE(redirected);
+    const std::string out = folder.path() / ("out_" + std::to_string(++made));
+    CHECK(with("run \"" + campaign + "\" --out \"" + out + "\" --table", redirected) == code);
+    for (const auto& entry : std::filesystem::directory_iterator(whole)) {
+      const std::filesystem::path name = entry.path().filename();
+      CAPTURE(name);
+      const auto text = read_text(std::filesystem::path(out) / name);
+      REQUIRE(text.has_value());
+      if (name == timing_file) continue;
+      CHECK(*text == read_text(entry.path()).value());
+    }
+    CHECK(with("run \"" + campaign + "\" --runs 0 --out \"" + out + "x\"", redirected) == 2);
+  }
+}
+
 TEST_CASE("a file on a full device is the machine's refusal") {
   const Folder folder;
   const std::string campaign = folder.write("c.json", quick_campaign(10).dump());

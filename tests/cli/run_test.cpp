@@ -74,6 +74,12 @@ TEST_CASE("lanes that no processor has are refused, with cases and with --resume
     CHECK_THAT(refused.error, HasFacts({"--isa scalar --lanes 8", "processor", "scalar (1)"}));
   }
   CHECK_FALSE(std::filesystem::exists(plain.out + "2"));
+  for (const char* lanes : {"2", "4"}) { // whatever else this processor has, "scalar" has one
+    const Finished refused = plain.run(plain.out + "2", {"--isa", "scalar", "--lanes", lanes});
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.error, HasFacts({"--isa scalar --lanes", lanes, "scalar (1)"}));
+  }
+  CHECK(plain.run(plain.out + "2", {"--isa", "scalar", "--lanes", "1"}).code == 0);
 }
 
 TEST_CASE("the table and the histograms, when asked for") {

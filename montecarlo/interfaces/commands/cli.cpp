@@ -4,6 +4,7 @@
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/interfaces/commands/commands.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
 
 #include <CLI/CLI.hpp>
@@ -49,7 +50,7 @@ int print_error(std::string_view message, int code = exit_code::bad_input) {
   message = shown;
   while (!message.empty()) {
     const std::size_t end = message.find('\n');
-    fmt::print(stderr, "error: {}\n", message.substr(0, end));
+    print_message("error: {}\n", message.substr(0, end));
     message = end == std::string_view::npos ? "" : message.substr(end + 1);
   }
   return code;

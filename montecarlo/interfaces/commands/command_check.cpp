@@ -7,6 +7,7 @@
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/output_file.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/describe.hpp"
 #include "montecarlo/model/input_checks/check_input.hpp"
@@ -99,7 +100,7 @@ int check(const CheckOptions& options) {
   fmt::print("{}", wrapped_lines(text + "cost: " + tried.cost + '\n' + margin));
   draw(options.draw, std::visit([](const auto& spec) { return scene_of(spec); }, read));
   print_warnings(warnings, false); // last, where the user sees them
-  for (const std::string& line : tried.notes) fmt::print(stderr, "note: {}\n", line);
+  for (const std::string& line : tried.notes) print_message("note: {}\n", line);
   return exit_code::done;
 }
 

@@ -6,6 +6,7 @@
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +36,7 @@ public:
           state.evaluations, state.ess, wanted_, state.r_hat);
   }
   ~ChainProgress() {
-    if (shown_) fmt::print(stderr, "\n");
+    if (shown_) print_message("\n");
   }
   ChainProgress(const ChainProgress&) = delete;
   ChainProgress& operator=(const ChainProgress&) = delete;
@@ -49,16 +50,15 @@ private:
 void warn_of_limits(const Json& fit) {
   for (const auto& [name, parameter] : fit.at("parameters").items())
     if (parameter.contains("at_limit"))
-      fmt::print(stderr, "warning: {} lies at the limit {:.6g} of its prior: widen its law\n", name,
-                 parameter["at_limit"].get<double>());
+      print_message("warning: {} lies at the limit {:.6g} of its prior: widen its law\n", name,
+                    parameter["at_limit"].get<double>());
 }
 
 int exit_of(bool finished) { return finished ? exit_code::done : exit_code::not_met; }
 
 int report_unfinished() {
-  fmt::print(stderr,
-             "not finished: the chains are kept; the same command with --resume and a larger "
-             "--runs continues\n");
+  print_message("not finished: the chains are kept; the same command with --resume and a larger "
+                "--runs continues\n");
   return exit_of(false);
 }
 
@@ -69,7 +69,7 @@ bool can_predict(const Campaign& campaign, const FitSpec& spec, const FitOptions
     refuse_unpredictable(campaign, spec, options, file, stop);
     return true;
   } catch (const Stopped&) {
-    fmt::print(stderr, "interrupted: nothing is written\n");
+    print_message("interrupted: nothing is written\n");
     return false;
   }
 }
@@ -103,8 +103,7 @@ int fit(const FitCommandOptions& given) {
     return result.finished ? exit_of(true) : report_unfinished();
   } catch (const Stopped&) {
     if (!folder.is_finished()) folder.log().sync();
-    fmt::print(stderr,
-               "interrupted: the chains are kept; the same command with --resume continues\n");
+    print_message("interrupted: the chains are kept; the same command with --resume continues\n");
     return exit_code::interrupted;
   }
 }

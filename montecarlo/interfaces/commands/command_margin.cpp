@@ -11,6 +11,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 #include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
@@ -45,7 +46,7 @@ void write_recommended(const Campaign& campaign, const MarginResult& result,
 
 /// Prints warnings, and names the searches without a confirmed scale. @return the exit status
 int print_verdict(const MarginResult& result) {
-  for (const std::string& line : margin_warnings(result)) fmt::print(stderr, "warning: {}\n", line);
+  for (const std::string& line : margin_warnings(result)) print_message("warning: {}\n", line);
   for (const MarginSearch& search : result.searches)
     if (!is_confirmed(search))
       fmt::print(
@@ -75,7 +76,7 @@ std::string write_files(const Campaign& campaign, const MarginResult& result,
 /// Returns the exit status of a study that an earlier session finished.
 int judge_finished_margin(const Json& study) {
   for (const Json& line : study.value("warnings", Json::array()))
-    fmt::print(stderr, "warning: {}\n", line.get<std::string>());
+    print_message("warning: {}\n", line.get<std::string>());
   const int code = report_failed(study.value("runs_failed", 0L), study.value("runs", 0L),
                                  ", and count against every requirement");
   return code != exit_code::done || study.value("met", false) ? code : exit_code::not_met;
@@ -86,10 +87,9 @@ int keep_unfinished(const Campaign& campaign, const MarginResult& result, Checkp
                     const std::filesystem::path& out) {
   write_file(out / margin_csv_file, margin_csv(campaign, result));
   log.sync();
-  fmt::print(stderr,
-             "interrupted: {} runs are kept; the same command with --resume continues (finished "
-             "scales are in {})\n",
-             log.rows(), (out / margin_csv_file).string());
+  print_message("interrupted: {} runs are kept; the same command with --resume continues (finished "
+                "scales are in {})\n",
+                log.rows(), (out / margin_csv_file).string());
   return exit_code::interrupted;
 }
 
@@ -130,15 +130,14 @@ int make_margin_shard(const Campaign& campaign, const MarginOptions& options, co
     write_file(options.out / shard_file, json_text(study));
   } catch (const Stopped&) {
     folder.log().sync();
-    fmt::print(stderr, "interrupted: {} runs are kept; the same command with --resume continues\n",
-               folder.log().rows());
+    print_message("interrupted: {} runs are kept; the same command with --resume continues\n",
+                  folder.log().rows());
     return exit_code::interrupted;
   }
   fmt::print("{}\n", (options.out / shard_file).string());
-  fmt::print(stderr,
-             "note: {} of the first scales is complete; --from with the folders of all shards "
-             "continues\n",
-             describe(shard));
+  print_message("note: {} of the first scales is complete; --from with the folders of all shards "
+                "continues\n",
+                describe(shard));
   return exit_code::done;
 }
 

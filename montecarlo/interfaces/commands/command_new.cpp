@@ -5,6 +5,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/design_questions.hpp"
 #include "montecarlo/interfaces/terminal/examples.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/starter/starter.hpp"
 
 #include <fmt/format.h>
@@ -80,8 +81,8 @@ int make_new(const NewOptions& options) {
                            {starter_campaign_file, starter.campaign},
                            {starter_page_file, starter.page}});
   if (!starter.deploys)
-    fmt::print(stderr, "warning: the nominal wing does not deploy in every case: stronger springs, "
-                       "or less harness and friction; the requirements' limits are placeholders\n");
+    print_message("warning: the nominal wing does not deploy in every case: stronger springs, "
+                  "or less harness and friction; the requirements' limits are placeholders\n");
   fmt::print("{} explains each line\n", (folder / starter_page_file).string());
   print_next(folder, starter_campaign_file);
   return exit_code::done;

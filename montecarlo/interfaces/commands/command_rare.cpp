@@ -9,6 +9,7 @@
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
@@ -67,7 +68,7 @@ std::string refuse_odd_samples(const std::string& text) {
 }
 
 void warn(const std::vector<std::string>& doubts) {
-  for (const std::string& doubt : doubts) fmt::print(stderr, "warning: {}\n", doubt);
+  for (const std::string& doubt : doubts) print_message("warning: {}\n", doubt);
 }
 
 /// The values that identify the study. A folder with other values is refused.
@@ -102,10 +103,10 @@ int report_finished_rare(const Json& study) {
 /// Keeps the checkpoint of an interrupted study. @return the exit status
 int keep_unfinished(StudyFolder* folder) {
   if (folder) folder->log().sync();
-  fmt::print(stderr, "interrupted: {}\n",
-             folder ? fmt::format("{} runs are kept; the same command with --resume continues",
-                                  folder->log().rows())
-                    : "nothing is kept without --out");
+  print_message("interrupted: {}\n",
+                folder ? fmt::format("{} runs are kept; the same command with --resume continues",
+                                     folder->log().rows())
+                       : "nothing is kept without --out");
   return exit_code::interrupted;
 }
 

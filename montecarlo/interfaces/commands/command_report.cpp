@@ -6,6 +6,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/report/page/html_page.hpp"
 #include "montecarlo/report/page/study_set.hpp"
 #include "montecarlo/results/export/hdf5_export.hpp"
@@ -57,7 +58,7 @@ int report(const ReportOptions& options) {
       options.out.empty() ? options.folders.front() / report_file : options.out;
   const PageSources sources = read_page_sources(options.folders, options.threads);
   if (const std::string text = incomplete_text(sources); !text.empty())
-    fmt::print(stderr, "warning: incomplete: {}; the verdicts are not final\n", text);
+    print_message("warning: incomplete: {}; the verdicts are not final\n", text);
   write_file(out,
              html_page(page_json(sources, options.header, command_of(options), options.threads)));
   fmt::print("{}\n", out.string());

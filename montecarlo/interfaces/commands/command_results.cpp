@@ -6,6 +6,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
@@ -112,11 +113,11 @@ void print_missing_runs(const StoredCampaign& stored, const Results& results,
                         const Summary& summary) {
   const RunRange planned = stored.runs();
   if (const auto gaps = gaps_text(stored, results, summary.stopped))
-    return fmt::print(stderr, "warning: {}\n", *gaps);
+    return print_message("warning: {}\n", *gaps);
   if (summary.stopped || stored.stamp.preview || summary.runs >= planned.size()) return;
-  fmt::print(stderr, "warning: incomplete: {} of {} runs{}; the verdicts are not final\n",
-             summary.runs, planned.size(),
-             stored.campaign.of_case.empty() ? "" : " of case " + stored.campaign.of_case);
+  print_message("warning: incomplete: {} of {} runs{}; the verdicts are not final\n", summary.runs,
+                planned.size(),
+                stored.campaign.of_case.empty() ? "" : " of case " + stored.campaign.of_case);
 }
 
 /// Computes the statistics again and writes them to the folder `to`, which gets a copy of the campaign and its rows if

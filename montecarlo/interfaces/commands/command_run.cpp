@@ -3,6 +3,7 @@
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/input_checks/check_input.hpp"
 
@@ -98,7 +99,7 @@ int run(const RunOptions& options) {
   const bool has_cases = !options.no_rows && !request.campaign.cases.empty();
   const int code = show_run(results, has_cases, options.display);
   if (!results.interrupted) return code;
-  fmt::print(stderr, "{}", last_words);
+  print_message("{}", last_words);
   return exit_code::interrupted;
 }
 

@@ -10,6 +10,7 @@
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 
@@ -79,7 +80,7 @@ void show_analysis(const Sensitivity& all, const Json& about, const std::string&
     fmt::print("{}", text);
   else
     fmt::print("{}", options.all ? sensitivity_table(all, title) : moved_by_table(all, title));
-  for (const std::string& warning : warnings(all)) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : warnings(all)) print_message("warning: {}\n", warning);
 }
 
 /// Rank correlations of a results folder.
@@ -180,9 +181,8 @@ SaltelliDesign design_of(const SensitivityOptions& options) {
 int show_shard(const SaltelliDesign& design, const Results& results,
                const std::filesystem::path& folder) {
   fmt::print("{}\n{}\n", (folder / design_file).string(), (folder / design_runs_file).string());
-  fmt::print(stderr,
-             "note: {} of the design's runs is complete; `wingspread merge` merges all shards\n",
-             describe(design.shard));
+  print_message("note: {} of the design's runs is complete; `wingspread merge` merges all shards\n",
+                describe(design.shard));
   return report_failed(std::ranges::count(results.status, Status::failed),
                        std::ssize(results.runs));
 }
@@ -208,11 +208,11 @@ int run_design(const SensitivityOptions& options) {
   const bool interrupted = make_design_runs(plan, own, remaining, pool, {keep, folder.has_value()});
   if (folder) folder->finish();
   if (interrupted) {
-    fmt::print(stderr, "interrupted: {}\n",
-               folder
-                   ? fmt::format("{} of {} runs are kept; the same command with --resume continues",
-                                 folder->count(), own.size())
-                   : "nothing is kept without --out");
+    print_message(
+        "interrupted: {}\n",
+        folder ? fmt::format("{} of {} runs are kept; the same command with --resume continues",
+                             folder->count(), own.size())
+               : "nothing is kept without --out");
     return exit_code::interrupted;
   }
   if (design.shard) return show_shard(design, folder->results(), options.out);

@@ -7,6 +7,7 @@
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/output_file.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/model/scene_file/scene_json.hpp"
@@ -54,7 +55,7 @@ auto write_trajectory(const std::filesystem::path& path, const Scene& scene, con
 
 int status_code(const Outcome& outcome) {
   if (outcome.status != Status::failed) return exit_code::done;
-  fmt::print(stderr, "error: the run failed numerically: {}\n", outcome.reason);
+  print_message("error: the run failed numerically: {}\n", outcome.reason);
   return exit_code::failed_runs;
 }
 
@@ -121,7 +122,7 @@ int replay(const ReplayOptions& options) {
     fmt::print("Its scene: {}\n  wingspread simulate {}{}\n", options.scene.string(),
                shell_word(options.scene.string()), options_of(integration));
   for (const std::string& difference : replayed.differences)
-    fmt::print(stderr, "error: {}\n", difference);
+    print_message("error: {}\n", difference);
   const int code = status_code(replayed.outcome);
   return replayed.differences.empty() ? code : exit_code::failed_runs;
 }

@@ -4,6 +4,7 @@
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/number_text.hpp"
 #include "montecarlo/foundation/formats/quantity.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <CLI/CLI.hpp>
@@ -121,9 +122,9 @@ void add_strict_option(CLI::App& command, bool& strict) {
 void print_warnings(const std::vector<InputWarning>& warnings, bool strict) {
   if (strict && !warnings.empty()) throw as_errors(warnings);
   for (std::size_t i = 0; i < std::min(warnings.size(), most_warnings); ++i)
-    fmt::print(stderr, "warning: {}\n", to_string(warnings[i]));
+    print_message("warning: {}\n", to_string(warnings[i]));
   if (warnings.size() > most_warnings)
-    fmt::print(stderr, "warning: and {} more\n", warnings.size() - most_warnings);
+    print_message("warning: and {} more\n", warnings.size() - most_warnings);
 }
 
 void add_set_option(CLI::App& command, std::vector<std::string>& changes) {

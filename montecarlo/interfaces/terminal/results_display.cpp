@@ -6,6 +6,7 @@
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
 #include "montecarlo/interfaces/terminal/exit_code.hpp"
+#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/results/summary/compact_table.hpp"
 #include "montecarlo/results/summary/table.hpp"
 
@@ -53,18 +54,18 @@ bool are_met(const Summary& summary) {
 }
 
 void print_not_met(std::string_view of_case, const Verdict& verdict, std::string_view others) {
-  fmt::print(stderr, "not met: {}{}: {}: {}{}\n", of_case, to_string(verdict.requirement),
-             to_string(verdict.decision), evidence(verdict), others);
+  print_message("not met: {}{}: {}: {}{}\n", of_case, to_string(verdict.requirement),
+                to_string(verdict.decision), evidence(verdict), others);
 }
 
 /// Prints how adding runs affects verdicts that are undecided, or that were judged before.
 void print_notes(const Summary& summary) {
   if (!summary.interim.before.empty() && !summary.requirements.empty())
-    fmt::print(stderr,
-               "note: analysis {} of the same draws, after {} runs: a requirement passes if the "
-               "risk of a wrong pass at any of them is at most 1 - confidence (summary.json states "
-               "it); without it, take another --seed and a number of runs fixed beforehand\n",
-               summary.interim.count(), fmt::join(summary.interim.before, ", "));
+    print_message(
+        "note: analysis {} of the same draws, after {} runs: a requirement passes if the "
+        "risk of a wrong pass at any of them is at most 1 - confidence (summary.json states "
+        "it); without it, take another --seed and a number of runs fixed beforehand\n",
+        summary.interim.count(), fmt::join(summary.interim.before, ", "));
   const auto is_open = [](const Verdict& verdict) {
     // more of the same run decide nothing, nor do more runs whose peaks t_end cuts
     return !is_decided(verdict) && !verdict.one_run && !rests_on_cut_peaks(verdict);
@@ -111,7 +112,7 @@ void add_display_options(CLI::App& command, Display& display) {
 
 int report_failed(long failed, long runs, std::string_view consequence) {
   if (failed == 0) return exit_code::done;
-  fmt::print(stderr, "error: {} of {} runs failed numerically{}\n", failed, runs, consequence);
+  print_message("error: {} of {} runs failed numerically{}\n", failed, runs, consequence);
   return exit_code::failed_runs;
 }
 
@@ -133,13 +134,13 @@ void print_files(const std::filesystem::path& folder) {
 int print_missing(const MissingRuns& missing, std::string_view alternative) {
   constexpr std::size_t most = 1000;
   for (const Problem& problem : missing.problems())
-    fmt::print(stderr, "error: {}\n", printable(to_string(problem)));
+    print_message("error: {}\n", printable(to_string(problem)));
   const std::vector<std::string>& commands = missing.commands();
-  fmt::print(stderr, "made by ({}){}\n", counted(std::ssize(commands), "command", "commands"),
-             alternative.empty() ? ":" : alternative);
+  print_message("made by ({}){}\n", counted(std::ssize(commands), "command", "commands"),
+                alternative.empty() ? ":" : alternative);
   for (std::size_t i = 0; i < std::min(commands.size(), most); ++i)
-    fmt::print(stderr, "  {}\n", commands[i]);
-  if (commands.size() > most) fmt::print(stderr, "  … and {} more\n", commands.size() - most);
+    print_message("  {}\n", commands[i]);
+  if (commands.size() > most) print_message("  … and {} more\n", commands.size() - most);
   return exit_code::bad_input;
 }
 
@@ -151,10 +152,9 @@ void show_table(const StoredCampaign& stored, const Summary& summary, const Disp
 
 void warn_of_preview(const StoredCampaign& stored) {
   if (const auto& preview = stored.stamp.preview)
-    fmt::print(stderr,
-               "warning: {} is a PREVIEW: {} of the campaign's {} runs; {} are missing, and the "
-               "results may change\n",
-               stored.folder.string(), preview->runs, preview->of, preview->of - preview->runs);
+    print_message("warning: {} is a PREVIEW: {} of the campaign's {} runs; {} are missing, and the "
+                  "results may change\n",
+                  stored.folder.string(), preview->runs, preview->of, preview->of - preview->runs);
 }
 
 namespace {
@@ -164,7 +164,7 @@ int judge_quietly(const StoredCampaign& stored, const Summary& summary) {
   warn_of_preview(stored);
   bool met = stored.stamp.shard || are_met(summary);
   if (stored.stamp.preview && !summary.requirements.empty()) {
-    fmt::print(stderr, "not met: a preview has no verdicts\n");
+    print_message("not met: a preview has no verdicts\n");
     met = false;
   }
   const auto failed = std::ranges::find(summary.statuses, Status::failed, &StatusShare::status);
@@ -219,7 +219,7 @@ void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cas
 Json show_finished(const std::filesystem::path& file, bool whole) {
   Json study = parse_json_file(file);
   fmt::print("{}", whole ? json_text(study) : file.string() + '\n');
-  fmt::print(stderr, "note: this study was finished already\n");
+  print_message("note: this study was finished already\n");
   return study;
 }
 

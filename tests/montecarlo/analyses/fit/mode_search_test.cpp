@@ -29,6 +29,26 @@ TEST_CASE("derivatives of a latch time have the closed form's value to 1e-5") {
   CHECK(runs.runs() == 4);
 }
 
+TEST_CASE("what the runs around a point lack has no slope, and leaves the other slopes alone") {
+  const Campaign campaign = campaign_of(panel_campaign());
+  const FitSpec spec = read_fit(parse_json(R"({ "tests": [ { "name": "timer",
+      "values": [ { "output": "root.latch_time", "value": 2, "std": 0.01 } ,
+                  { "parameter": "hinges.root.friction.scale", "value": 1, "std": 0.1 } ] } ],
+    "fit": { "parameters": ["spring", "friction"] } })"),
+                                "", ".", campaign);
+  const ParameterSpace space(campaign, spec);
+  ThreadEvaluator evaluator({.threads = 1}, never);
+  TestRuns runs(spec.tests, spec.parameters, space, evaluator);
+  FitPoint at(2);
+  at << 0, 20; // a friction of 7 · 0.3 N·m, more than the spring's 2
+  const Eigen::MatrixXd slopes = jacobian_of(runs, at);
+  REQUIRE((slopes.rows() == 2 && slopes.cols() == 2));
+  CHECK(slopes(0, 0) == 0);
+  CHECK(slopes(0, 1) == 0);
+  CHECK(slopes(1, 0) == Approx(0).margin(1e-9));
+  CHECK(slopes(1, 1) == Approx(0.3).epsilon(1e-9));
+}
+
 TEST_CASE("Laplace's approximation of one torque from one latch time is Bayes' rule, linearized") {
   const Campaign campaign = campaign_of(panel_campaign(0.01));
   Json tests = parse_json(R"({ "tests": [ { "name": "timer",

@@ -63,6 +63,8 @@ TEST_CASE("the text of a rare event has each sentence where the estimate is such
           CHECK(has(text, "variation 20 %") == reached);
           CHECK(has(text, "too large by about 2.5 % on average") == (reached && bias > 0));
           CHECK(has(text, "Bias") == (reached && bias > 0));
+          CHECK(has(text, "95 % bounds 0.0005 … 0.002,") == reached); // the lower one first
+          CHECK(has(text, "95 % bound 0.002:") == !reached);
           CHECK(has(text, "would have been enough: 1999 runs") == (reached && plain_runs < 2000));
           CHECK(has(text, "would take 2e+03 runs") ==
                 (reached && plain_runs > 2000 && plain_runs < infinite));
@@ -135,7 +137,7 @@ TEST_CASE("the text of an event that is not rare counts, and has no bias", "[rar
   result.estimate.hits = 13, result.estimate.draws = 200, result.estimate.plain_runs = 200;
   const std::string text = rare_text(result, {}, campaign_with(1));
   CHECK_THAT(text, Catch::Contains("13 of 200 runs have the event") &&
-                       Catch::Contains("(Clopper–Pearson)") &&
+                       Catch::Contains("95 % bounds 0.0005 … 0.002 (Clopper–Pearson)") &&
                        Catch::Contains("2000 runs made.\n"));
   CHECK_FALSE(has(text, "Bias"));
 }
@@ -160,6 +162,7 @@ TEST_CASE(
           const std::string text = rare_text(result, {}, campaign_with(1));
           CAPTURE(text);
           CHECK(has(text, "nofire = 1"));
+          CHECK(has(text, "95 % bounds 0.0005 … 0.002") == (lower > 0));
           CHECK(has(text, "not simulated") == (left_out > 0));
           CHECK(has(text, "≤ 1e-06") == (left_out > 0));
           CHECK(has(text, "1 others, each at most 2e-06") == (rare == 12)); // of 13, 12 are shown

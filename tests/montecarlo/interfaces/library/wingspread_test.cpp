@@ -1,7 +1,9 @@
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/library/wingspread.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <numeric>
@@ -189,6 +191,18 @@ TEST_CASE("what the library is asked and cannot do is refused with every problem
       message_of([&] { return api::run(as_input(quick_campaign(5)), {.runs = 0, .threads = -1}); }),
       Catch::Contains("--runs: found 0") && Catch::Contains("2147483647\n--threads: found -1") &&
           Catch::Contains("1024, or 0"));
+  for (const int threads : {-1, most_threads + 1})
+    CHECK_THAT(
+        message_of([&] { return api::run(as_input(quick_campaign(5)), {.threads = threads}); }),
+        Catch::StartsWith(fmt::format("--threads: found {}", threads)));
+  for (const long runs : {0L, most_runs + 1})
+    CHECK_THAT(message_of([&] { return api::run(as_input(quick_campaign(5)), {.runs = runs}); }),
+               Catch::StartsWith(fmt::format("--runs: found {}", runs)));
+  for (const int threads : {0, most_threads}) // these alone are no fault
+    CHECK_THAT(message_of([&] {
+                 return api::run(as_input(quick_campaign(5)), {.runs = 0, .threads = threads});
+               }),
+               !Catch::Contains("--threads"));
   CHECK_THAT(message_of([&] { return api::simulate(input, {.latch = "soft"}); }),
              Catch::StartsWith("--latch: found soft") && Catch::Contains("smoothed:EPS"));
   CHECK(message_of([&] {

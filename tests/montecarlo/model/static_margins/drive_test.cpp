@@ -134,6 +134,23 @@ TEST_CASE("a loop without stiffness ties nothing", "[motorization]") {
   CHECK(name_of(drives[1], scene) == "mid+tip");
 }
 
+TEST_CASE("however soft a loop is, it ties its hinges, and the one that follows none leads",
+          "[motorization]") {
+  for (const double stiffness : {1e-9, 0.5, 1.0, 1e6}) {
+    CAPTURE(stiffness);
+    Scene scene = looped();
+    scene.synchronisations = {loop_of(2, 0, 2), loop_of(0, 1, 1)};
+    for (Synchronisation& loop : scene.synchronisations) loop.stiffness = stiffness;
+    const std::vector<HingeDrive> drives = drives_of(scene);
+    REQUIRE(drives.size() == 1);
+    CHECK(name_of(drives[0], scene) == "tip+root+mid");
+  }
+  Scene scene = looped();
+  scene.synchronisations = {loop_of(2, 0, 2), loop_of(0, 1, 1), loop_of(1, 2, 0.5)};
+  scene.synchronisations[2].stiffness = 0; // without it, tip follows none
+  CHECK(name_of(drives_of(scene).at(0), scene) == "tip+root+mid");
+}
+
 TEST_CASE("a hinge that a loop turns backwards resists by its spring", "[motorization]") {
   Scene scene = looped();
   scene.hinges.pop_back();

@@ -120,6 +120,47 @@ TEST_CASE("effects come strongest first, and there are none of a single run", "[
 
 namespace {
 
+/// Numbers that have so many significant digits, no more, and not all of them fewer.
+void check_digits_of_all(const std::vector<double>& numbers, int digits) {
+  CAPTURE(digits, numbers.size());
+  for (const double number : numbers) CHECK(number == rounded(number, digits));
+  CHECK(std::ranges::any_of(numbers,
+                            [&](double number) { return number != rounded(number, digits - 1); }));
+}
+
+/// The numbers under one of these keys, at any depth.
+std::vector<double> numbers_under(const Json& json, const std::vector<std::string>& keys) {
+  std::vector<double> numbers;
+  const auto take = [&](const auto& self, const Json& part, bool wanted) -> void {
+    if (part.is_number() && wanted) numbers.push_back(part.get<double>());
+    if (part.is_array())
+      for (const Json& each : part) self(self, each, wanted);
+    if (part.is_object())
+      for (const auto& [key, value] : part.items())
+        self(self, value, std::ranges::find(keys, key) != keys.end());
+  };
+  take(take, json, false);
+  return numbers;
+}
+
+} // namespace
+
+TEST_CASE("coefficients have three or four digits on the page, points six and bounds seven",
+          "[page]") {
+  const auto source = made(quick_campaign(100));
+  const Json effects = effects_json(*source, {}), scatters = scatters_json(*source, {}, 1);
+  check_digits_of_all(numbers_under(effects, {"spearman", "prcc"}), 4);
+  check_digits_of_all(
+      numbers_under(effects, {"spearman_lower", "spearman_upper", "prcc_lower", "prcc_upper"}), 7);
+  check_digits_of_all(numbers_under(scatters, {"spearman"}), 4);
+  check_digits_of_all(numbers_under(scatters, {"x"}), 6);
+  check_digits_of_all(numbers_under(scatters, {"y"}), 6);
+  check_digits_of_all(numbers_under(scatters, {"x_edges", "y_edges"}), 7);
+  check_digits_of_all(numbers_under(correlations_json(*source, {}), {"spearman", "pearson"}), 3);
+}
+
+namespace {
+
 /// A set of 1000 invented runs whose deployment time is 13 − 4 × the root spring's factor, limited.
 std::unique_ptr<PageSource> slow_set(double limit) {
   Json json = quick_campaign(1000);

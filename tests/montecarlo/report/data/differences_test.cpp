@@ -19,6 +19,22 @@ SameRuns rows_from_0(std::size_t count) {
   return rows;
 }
 
+/// Two sets of a campaign whose rows were not kept, with the same outputs.
+struct RowlessPair {
+  std::unique_ptr<PageSource> first = made(quick_campaign(2)), second = made(quick_campaign(2));
+
+  RowlessPair() {
+    for (PageSource* each : {first.get(), second.get()})
+      each->streaming = std::make_unique<StreamingStatistics>(
+          each->stored.campaign, RunPlan(each->stored.campaign).names(), each->results);
+  }
+  /// The difference of the first output's means.
+  [[nodiscard]] Json compared(const Moments& a, const Moments& b) const {
+    first->summary.outputs[0].moments = a, second->summary.outputs[0].moments = b;
+    return comparison_json(*first, *second, {0, 1})["outputs"][0];
+  }
+};
+
 } // namespace
 
 TEST_CASE("a paired difference is that of the runs' differences, by hand", "[page]") {
@@ -142,4 +158,83 @@ TEST_CASE("sets are paired where their draws are the same", "[page]") {
     return entry["upper"].get<double>() - entry["lower"].get<double>();
   };
   CHECK(width(time) < 0.5 * width(apart["outputs"].back())); // what pairing is for
+}
+
+TEST_CASE(
+    "sets without rows are compared by their moments: by magnitude where no value is positive",
+    "[page]") {
+  const RowlessPair sets;
+  const auto of = [](const std::vector<double>& values) { return moments(values); };
+  const Moments above = of({1, 2, 6}), below = of({-1, -2, -9}), far_below = of({-10, -12}),
+                both = of({-5, -1, 3}), zero = of({0, 0});
+  const auto check = [&](const Moments& a, const Moments& b, bool magnitude) {
+    for (const auto& [one, two] : {std::pair(a, b), std::pair(b, a)}) {
+      const Json entry = sets.compared(one, two);
+      const double from = magnitude ? -one.mean : one.mean, to = magnitude ? -two.mean : two.mean;
+      CHECK(entry["magnitude"] == magnitude);
+      CHECK(entry["difference"].get<double>() == Approx(to - from));
+      if (from != 0) CHECK(entry["relative"].get<double>() == Approx((to - from) / std::abs(from)));
+    }
+  };
+  check(below, far_below, true);
+  check(below, zero, true);
+  check(zero, zero, false);
+  check(above, below, false);
+  check(both, below, false);
+  check(both, above, false);
+  check(above, zero, false);
+}
+
+TEST_CASE("sets are paired run by run only if each has the other's draws", "[page]") {
+  const auto set = made(quick_campaign(4));
+  const auto changed = [](auto change) {
+    auto other = made(quick_campaign(4));
+    change(*other);
+    return other;
+  };
+  const auto same = [&](const PageSource& other) {
+    CHECK(have_same_draws(*set, other) == have_same_draws(other, *set));
+    return have_same_draws(*set, other);
+  };
+  CHECK(same(*changed([](PageSource&) {})));
+  const auto sampling = [](PageSource& each) -> Sampling& { return each.stored.campaign.sampling; };
+  CHECK(same(*changed([&](PageSource& other) { sampling(other).runs = 9; })));
+  CHECK_FALSE(same(*changed([](PageSource& other) { other.stored.foreign = true; })));
+  CHECK_FALSE(same(*changed([&](PageSource& other) { ++sampling(other).seed; })));
+  CHECK_FALSE(same(*changed([&](PageSource& other) { ++sampling(other).replicates; })));
+  CHECK_FALSE(same(
+      *changed([&](PageSource& other) { sampling(other).design = DesignKind::latin_hypercube; })));
+  CHECK_FALSE(same(*changed([](PageSource& other) { other.results.draws[0].name = "x"; })));
+  CHECK_FALSE(same(*changed([](PageSource& other) { other.results.draws.pop_back(); })));
+  sampling(*set).design = DesignKind::latin_hypercube; // strata depend on the number of runs
+  const auto strata = [&](long runs) {
+    return changed([&, runs](PageSource& other) {
+      sampling(other).design = DesignKind::latin_hypercube, sampling(other).runs = runs;
+    });
+  };
+  CHECK(same(*strata(4)));
+  CHECK_FALSE(same(*strata(9)));
+}
+
+TEST_CASE("a status of paired sets is compared by the runs that have it in one of them alone",
+          "[page]") {
+  const auto first = made(quick_campaign(5)), second = made(quick_campaign(5));
+  first->results.status = Spilled<Status>(std::vector{
+      Status::deployed, Status::stalled, Status::stalled, Status::stalled, Status::deployed});
+  second->results.status = Spilled<Status>(std::vector{
+      Status::deployed, Status::deployed, Status::deployed, Status::stalled, Status::timed_out});
+  const Json compared = comparison_json(*first, *second, {0, 1})["statuses"];
+  const auto check = [&](Status status, long first_alone, long second_alone) {
+    const Difference wanted = paired_share_difference(first_alone, second_alone, 5, 0.95);
+    const Json& entry = compared[static_cast<std::size_t>(status)];
+    CHECK(entry["status"] == to_string(status));
+    CHECK(entry["difference"].get<double>() == Approx(wanted.value).margin(1e-12));
+    CHECK(entry["lower"].get<double>() == Approx(*wanted.bounds.lower).epsilon(1e-4));
+    CHECK(entry["upper"].get<double>() == Approx(*wanted.bounds.upper).epsilon(1e-4));
+    CHECK(entry["runs"] == 5);
+  };
+  check(Status::deployed, 1, 2);
+  check(Status::stalled, 2, 0);
+  check(Status::timed_out, 0, 1);
+  check(Status::failed, 0, 0);
 }

@@ -90,6 +90,20 @@ TEST_CASE("a set counts the orders of latching, and warns of outputs that the pa
     CHECK(json[elsewhere].is_null());
 }
 
+TEST_CASE("the gaps of an order are those of the rows, in four digits", "[page]") {
+  const auto source = made(quick_campaign(20));
+  const Json order = set_json(*source, {}, 1)["orders"][0];
+  std::vector<std::string> hinges;
+  for (const Hinge& hinge : source->stored.campaign.scene.hinges) hinges.push_back(hinge.name);
+  const auto gaps = latch_gaps(source->results, hinges, order["order"].get<std::string>());
+  REQUIRE((gaps.size() == 2 && order["gaps"].size() == 2));
+  for (std::size_t k = 0; k < 2; ++k)
+    CHECK(order["gaps"][k] == Json{{"before", gaps[k].before},
+                                   {"after", gaps[k].after},
+                                   {"least", rounded(gaps[k].least, 4)},
+                                   {"median", rounded(gaps[k].median, 4)}});
+}
+
 TEST_CASE("a set has each requirement with its verdict, and the runs that break it", "[page]") {
   Json campaign = quick_campaign(200);
   campaign["requirements"] = parse_json(R"([

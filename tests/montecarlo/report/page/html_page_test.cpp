@@ -143,3 +143,38 @@ TEST_CASE("every output that a campaign can have is in the glossary", "[page]") 
     CHECK(!glossary[name]["unit"].get<std::string>().empty());
   }
 }
+
+TEST_CASE("the page says which runs are missing, of which set or case", "[page]") {
+  struct Made {
+    const char *label, *of_case;
+    long made, planned;
+    bool stopped = false;
+  };
+  const auto text_of = [](std::initializer_list<Made> sets,
+                          std::initializer_list<const char*> unmade = {}) {
+    PageSources sources;
+    for (const Made& each : sets) {
+      PageSource& source = *sources.runs.emplace_back(std::make_unique<PageSource>());
+      source.label = each.label;
+      source.stored.campaign.of_case = each.of_case;
+      source.stored.campaign.sampling.runs = each.planned;
+      source.summary.runs = each.made;
+      source.summary.stopped = each.stopped;
+    }
+    for (const char* label : unmade) sources.unmade.push_back({label, 5});
+    return incomplete_text(sources);
+  };
+  CHECK(text_of({{"a", "", 5, 5}}).empty());
+  CHECK(text_of({{"a", "", 3, 5, true}}).empty());
+  CHECK(text_of({{"a", "", 3, 5}}) == "3 of 5 runs");
+  CHECK(text_of({{"a", "", 0, 5}}) == "none of 5 runs");
+  CHECK(text_of({{"a", "", 3, 5}, {"b", "", 5, 5}}) == "3 of 5 runs of a");
+  CHECK(text_of({{"a", "", 3, 5}, {"b", "", 2, 6}}) == "3 of 5 runs of a, 2 of 6 of b");
+  CHECK(text_of({{"a", "", 0, 5}, {"b", "", 5, 5}}) == "no run of a");
+  CHECK(text_of({{"a", "", 0, 5}, {"b", "", 2, 5}}) == "2 of 5 runs of b, none of a");
+  CHECK(text_of({{"cold", "cold", 3, 5}, {"hot", "hot", 5, 5}}) == "3 of 5 runs of case cold");
+  CHECK(text_of({{"cold", "cold", 0, 5}, {"hot", "hot", 5, 5}}) == "no run of case cold");
+  CHECK(text_of({{"cold", "cold", 5, 5}}, {"hot"}) == "no run of case hot");
+  CHECK(text_of({{"cold", "cold", 3, 5}}, {"hot"}) == "3 of 5 runs of case cold, none of hot");
+  CHECK(text_of({{"cold", "cold", 0, 5}}, {"hot"}) == "no run of case cold and hot");
+}

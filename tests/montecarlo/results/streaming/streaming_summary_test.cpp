@@ -209,6 +209,15 @@ void check_quantiles(const Both& made) {
       const auto end = last ? std::ranges::upper_bound(ordered, upper)
                             : std::ranges::lower_bound(ordered, upper);
       CHECK(histogram.counts[bin] == end - std::ranges::lower_bound(ordered, lower));
+      if (last) continue;
+      const double wanted =
+          std::lerp(histogram.edges.front(), histogram.edges.back(),
+                    static_cast<double>(bin + 1) / static_cast<double>(histogram.counts.size()));
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& stored : made.whole.outputs()[i].values.counts().bins())
+        nearest =
+            std::min({nearest, std::abs(stored.lower - wanted), std::abs(stored.upper - wanted)});
+      CHECK(std::abs(upper - wanted) <= nearest); // no stored edge is nearer to that of equal bins
     }
   }
   CHECK((absent > 5 && existing > 20)); // or the test has lost its variety

@@ -68,6 +68,27 @@ TEST_CASE("summary.json: its keys, in order") {
         std::vector<std::string>{"root.latch_time", "never", "deployed"});
 }
 
+TEST_CASE("summary.json: a quantile from counts says how far its rank and value may be off") {
+  Summary summary = some_summary(300);
+  OutputSummary& output = summary.outputs[0];
+  REQUIRE(output.quantiles.size() > 1);
+  output.quantiles[0].all = {2.5, {2.25, 2.75}, QuantileError{7, 2.375, 2.625}};
+  output.quantiles[0].among = {3.5, {3.25, 3.75}, QuantileError{9, 3.375, 3.625}};
+  output.quantiles[1].all.error.reset();
+  const Json quantiles = summary_json(summary, {})["outputs"][output.name]["quantiles"];
+  const auto has = [](const Json& json, double value, long rank, double below, double above) {
+    CHECK(json["value"] == value);
+    CHECK(json["lower"] == value - 0.25);
+    CHECK(json["upper"] == value + 0.25);
+    CHECK(json["rank_error"] == rank);
+    CHECK(json["within"] == Json{below, above});
+  };
+  has(quantiles[0], 2.5, 7, 2.375, 2.625);
+  has(quantiles[0]["among_runs_with_value"], 3.5, 9, 3.375, 3.625);
+  CHECK_FALSE(quantiles[1].contains("rank_error"));
+  CHECK_FALSE(quantiles[1].contains("within"));
+}
+
 TEST_CASE("summary.json: values, and null for what is not") {
   const Summary summary = some_summary(300);
   const Json json = summary_json(summary, {{"version", "1"}});

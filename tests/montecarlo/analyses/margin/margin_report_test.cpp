@@ -1,0 +1,73 @@
+#include "montecarlo/analyses/margin/margin_findings.hpp"
+#include "montecarlo/analyses/margin/margin_report.hpp"
+#include "montecarlo/analyses/margin/weaker_springs.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// The panel with a joint search, as if these scales were recommended. Its spring's end torque is below its friction.
+struct ReportedPanel {
+  Campaign campaign = campaign_of(one_panel_margin(20));
+  MarginResult result;
+
+  explicit ReportedPanel(const std::vector<std::optional<double>>& recommended) {
+    result.cases = {{"nominal", {}}};
+    result.campaigns = {campaign};
+    for (const auto& scale : recommended) {
+      MarginSearch& search = result.searches.emplace_back();
+      search.scaled = campaign.margin->scaled;
+      search.recommended = scale;
+    }
+  }
+};
+
+} // namespace
+
+TEST_CASE("the report has the static margins of the present springs, and of others if recommended",
+          "[margin]") {
+  for (const std::optional<double> scale : {std::optional<double>(), {1.0}, {1.5}}) {
+    const ReportedPanel panel({scale});
+    const MarginReport report = margin_report(panel.campaign, panel.result);
+    const std::vector<CaseMargins>& cases = report.static_margins.cases;
+    REQUIRE(cases.size() == (scale == 1.5 ? 2 : 1));
+    CHECK(cases[0].scale == 1);
+    if (cases.size() == 1) continue;
+    CHECK(cases[1].scale == 1.5);
+    for (const CaseMargins& each : cases) {
+      REQUIRE(each.study.drives.size() == 1);
+      std::size_t kinds = 0;
+      for (const Json& draw : each.study.drives[0].worst_draw) {
+        if (draw.is_null() || draw.empty()) continue;
+        ++kinds;
+        CHECK(draw.size() == 3); // the campaign's own dispersions: the scale is none
+        for (const char* name : {"spring", "friction", "mass"}) CHECK(draw.contains(name));
+      }
+      CHECK(kinds > 0);
+    }
+  }
+}
+
+TEST_CASE("static margins below 0 at a recommended scale are warned of, and only there",
+          "[margin]") {
+  CHECK(margin_warnings(ReportedPanel({std::nullopt}).result).empty());
+  CHECK(margin_warnings(ReportedPanel({200.0}).result).empty());
+  const auto lines = margin_warnings(ReportedPanel({200.0, 1.5, std::nullopt, 0.75}).result);
+  REQUIRE(lines.size() == 2);
+  for (const auto& [line, scale, other] :
+       {std::tuple(lines[0], 1.5, 0.75), std::tuple(lines[1], 0.75, 1.5)}) {
+    CHECK_THAT(line, Catch::Contains("scale " + fmt::format("{} ", scale)) &&
+                         Catch::Contains("below 0") && Catch::Contains("margin of root"));
+    CHECK_THAT(line, !Catch::Contains(fmt::format("scale {} ", other)));
+    const ReportedPanel panel({scale});
+    const auto shorts =
+        short_margins(panel.result.campaigns, panel.result.searches[0].scaled, scale);
+    REQUIRE_FALSE(shorts.empty());
+    for (const Shortfall& each : shorts) CHECK_THAT(line, Catch::Contains(to_string(each)));
+  }
+}
