@@ -268,14 +268,12 @@ TEST_CASE("a hinge without a latch that is never released stalls the run too") {
   const Goal latches = {.peak_moment = false, .peak_force = false, .hold_moment = false};
   CHECK(Deployment().run(scene, within(1e-10, 60), latches).status == Status::stalled);
   require_equal_bits({scene, scene, scene}, within(1e-10, 60), latches);
-  Integration fine =
-      within(1e-10, 60); // more steps before the latch than from one proof to the next
-  fine.method = "runge_kutta4", fine.step = way_of_panel() / 1000;
-  for (const Goal& goal : {latches, Goal{}}) {
-    const Outcome out = Deployment().run(scene, fine, goal);
-    CHECK(out.status == Status::stalled);
-    CHECK(out.latches.size() == 1); // it counts for no hinge with a latch
-  }
+  Integration fine = within(1e-8, 60);
+  fine.method = "runge_kutta4";
+  fine.step = way_of_panel() / 1000; // more steps before the latch than between attempts at a proof
+  const Outcome out = Deployment().run(scene, fine, latches);
+  CHECK(out.status == Status::stalled);
+  CHECK(out.latches.size() == 1);        // the held hinge counts for none with a latch
   scene.hinges[1].release = at_time(80); // after t_end
   const std::string later = "other was never released up to t_end; its hold may let go later";
   CHECK(run_stalled(scene, 60).reason == later);
