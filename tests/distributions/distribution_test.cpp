@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
+#include <variant>
 
 using namespace wingspread;
 
@@ -104,6 +106,65 @@ TEST_CASE("a truncation is an interval of a continuous law that holds some proba
         "truncate: a truncated constant law, a continuous law");
   CHECK(report(Empirical{{1}}, Truncation{0, 2}) ==
         "truncate: a truncated empirical law, a continuous law");
+}
+
+namespace {
+
+/// Whether a law has no fault when one of its parameters is this, as `Value` or as the vector's only element.
+template <class L, class Value> bool is_sound_with(Value L::*member, double number) {
+  L law;
+  if constexpr (std::is_same_v<L, Discrete>) law.values = {1, 2}, law.weights = {1, 1};
+  if constexpr (std::is_same_v<L, Empirical>) law.values = {1};
+  if constexpr (std::is_same_v<Value, double>)
+    law.*member = number;
+  else
+    (law.*member)[0] = number;
+  return faults({law, {}}).empty();
+}
+
+template <class L> void check_ranges_of_parameters() {
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  for (const auto& [name, member, range] : L::parameters()) {
+    CAPTURE(L::type, name);
+    for (const double never : {unbounded, -unbounded, not_a_number})
+      CHECK_FALSE(is_sound_with<L>(member, never));
+    if (range == Range::finite) continue;
+    CHECK(is_sound_with<L>(member, 1e-3));
+    CHECK(is_sound_with<L>(member, least));
+    CHECK(is_sound_with<L>(member, 0) == (range == Range::non_negative));
+    CHECK_FALSE(is_sound_with<L>(member, -least));
+    CHECK(is_sound_with<L>(member, largest_shape));
+    CHECK(is_sound_with<L>(member, std::nextafter(largest_shape, 1e9)) == (range != Range::shape));
+  }
+}
+
+template <class... L> void check_ranges_of_all(const std::variant<L...>& /*any*/) {
+  (check_ranges_of_parameters<L>(), ...);
+}
+
+} // namespace
+
+TEST_CASE("every parameter's range is closed or open as it says, up to the last double") {
+  check_ranges_of_all(Law{});
+}
+
+TEST_CASE("a law of which nothing is said is the standard one of its kind") {
+  const auto check = [](const Law& law, double mean, double deviation) {
+    const LawMoments found = moments(law);
+    CAPTURE(law.index());
+    CHECK(found.mean == Approx(mean).epsilon(1e-14).margin(1e-15));
+    CHECK(found.standard_deviation == Approx(deviation).epsilon(1e-14));
+    CHECK(report(law) == "");
+  };
+  check(Normal{}, 0, 1);
+  check(Uniform{}, 0.5, std::sqrt(1 / 12.));
+  check(Triangular{}, 0.5, std::sqrt(1 / 24.));
+  check(Lognormal{}, std::exp(0.5), std::sqrt(std::exp(2) - std::exp(1)));
+  check(Weibull{}, 1, 1);
+  check(Gamma{}, 1, 1);
+  check(Beta{}, 0.5, std::sqrt(1 / 12.));
+  check(Exponential{}, 1, 1);
+  check(Constant{}, 0, 0);
 }
 
 TEST_CASE("a law's parameters can be read by name") {

@@ -83,6 +83,18 @@ TEST_CASE("a step that leaps over the layer of a friction is cut, one that sampl
   CHECK(limits(0.5, -0.5, -100, 1e-7).cut > 1);             // none that could matter
   CHECK(limits(0.8, 0.5, -30).next == Approx(0.325 / 0.3)); // towards zero
   CHECK(limits(0.5, 0.8, 30).next == Approx(3 * 0.8 / 0.3).epsilon(1e-5));
+  for (const auto& [v0, v1, a] : {std::array{0.5, -0.5, -100.},
+                                  {2e-3, -9e-3, -1.1},
+                                  {1e-3, 0.1, 10.},
+                                  {0.8, 0.5, -30.},
+                                  {0.5, 0.8, 30.},
+                                  {0.5, 0.1, 40.},
+                                  {0.1, 0.5, -40.}}) { // neither sense is preferred
+    const LayerLimits<double> one = limits(v0, v1, a), other = limits(-v0, -v1, -a);
+    CAPTURE(v0, v1, a);
+    CHECK(one.cut == other.cut);
+    CHECK(one.next == other.next);
+  }
 }
 
 TEST_CASE("runs of rubbing wings are right: by default to 1e-6 in rates and 1e-5 in peaks",

@@ -68,19 +68,39 @@ double part_of_friction(const AnyMotion<M>& motion, const HeldLoadBound<double>&
   return most;
 }
 
+/// Factors by which one part of the friction outweighs the others, so that its bound is tested alone.
+struct Emphasis {
+  double air = 1;       ///< of its density
+  double stiffness = 1; ///< of loops, and of their preloads
+  double inertia = 1;   ///< of bodies about their own centres
+  bool slackens =
+      false; ///< loops go slack at deflections of up to 4 rad, as large as those of the steps
+};
+
 /// Random wings with these features, all hinges stuck as far as the bound is concerned.
-template <BaseMotion M> double most_of_friction(const oracle::RealFeatures& features, bool driven) {
+template <BaseMotion M>
+double most_of_friction(const oracle::RealFeatures& features, bool driven,
+                        const Emphasis& emphasis = {}, int wings = 60) {
   double most = 0;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < wings; ++k) {
     oracle::Draws draws(2900 + k);
     oracle::RandomScene options;
     options.bodies = 2 + k % 5, options.branching = k % 2 == 0, options.motion = M;
     Scene scene = with_real_hinges(random_scene(3700 + k, options), 4700 + k, features);
     if (driven) scene.base = oracle::driven_by_table(scene, 5700 + k, 3).base;
+    scene.environment.air_density *= emphasis.air;
+    for (Body& body : scene.bodies) body.inertia *= emphasis.inertia;
+    for (Synchronisation& loop : scene.synchronisations) {
+      loop.stiffness *= emphasis.stiffness;
+      if (loop.preload) *loop.preload *= emphasis.stiffness;
+      if (emphasis.slackens) loop.preload = 0.5 * loop.stiffness * draws.uniform(0, 4);
+    }
     AnyMotion<M> motion(scene, 6700 + k, draws.log_uniform(1e-3, 0.3), draws.log_uniform(0.01, 3));
     for (int i = 1; i <= motion.wing.size(); ++i) motion.system.set_contact(i, Contact::stuck);
     const HeldLoadBound<double> bound = bound_of(motion);
     CAPTURE(k);
+    for (int i = 1; i <= motion.wing.size(); ++i) // the whole step is a part too
+      CHECK(bound.friction(i, 0, 1).most == Approx(bound.most_friction(i)).epsilon(1e-9));
     for (const auto& [from, to] : {std::pair(0., 1.), {0., 0.5}, {0.75, 1.}, {0.4, 0.41}}) {
       const double taken = part_of_friction(motion, bound, from, to);
       CHECK(taken < 0.75 + 1e-5); // without the 4/3, and what is lean is half
@@ -219,4 +239,56 @@ TEST_CASE("the bound on what holds a hinge knows gravity and the air") {
   CHECK(most_of_friction<BaseMotion::prescribed>(features, false) > 0.02);
   CHECK(most_of_friction<BaseMotion::free>(features, false) > 0.02);
   CHECK(most_of_friction<BaseMotion::prescribed>(features, true) > 0.02);
+}
+
+TEST_CASE("the bound on what holds a hinge holds where one part of it outweighs the others") {
+  oracle::RealFeatures air = nothing, loops = nothing;
+  air.air = true, loops.loops = loops.preloads = true;
+  CHECK(most_of_friction<BaseMotion::fixed>(air, false, {.air = 1e6}, 12) > 0.02);
+  CHECK(most_of_friction<BaseMotion::free>(air, false, {.air = 1e6}, 12) > 0.02);
+  CHECK(most_of_friction<BaseMotion::fixed>(loops, false, {.stiffness = 1e-6}, 12) > 0.05);
+  CHECK(most_of_friction<BaseMotion::fixed>(loops, false, {.stiffness = 1e-6, .slackens = true},
+                                            30) > 0.05);
+  loops.tables = true;
+  CHECK(most_of_friction<BaseMotion::fixed>(loops, false, {.stiffness = 1e-6}, 12) > 0.05);
+  CHECK(most_of_friction<BaseMotion::prescribed>(nothing, true, {.inertia = 1e6}, 12) > 0.05);
+}
+
+// A motor's moment at rest is its gain times the commanded rate, which a table gives as any cubic of time.
+TEST_CASE("the bound on what holds a hinge knows its motor's command") {
+  oracle::Draws draws(8100);
+  double most = 0;
+  for (int k = 0; k < 200; ++k) {
+    Scene scene = oracle::latching_panel();
+    scene.hinges[0].motor =
+        Motor{.rate = 1, .gain = draws.log_uniform(0.1, 10), .torque_limit = 1e9};
+    AnyMotion<BaseMotion::fixed> motion(scene, 1, draws.log_uniform(0.01, 10), 0);
+    turn_steadily(motion, {0.3}, {0.0});
+    MotorPiece<double>& piece = motion.system.writable_workspace().motors[1];
+    piece.runs = k % 8 == 0 ? 0 : 1;
+    piece.from = motion.step.t - draws.uniform(0, 3);
+    for (double& c : piece.rate) c = draws.uniform(-5, 5);
+    HeldLoadBound<double> bound;
+    bound.over_step(motion.system, motion.step);
+    const auto friction = [&](double s) {
+      const double u = motion.step.t + s * motion.step.h - piece.from;
+      return piece.runs * motion.wing.motors[1].gain *
+             std::abs(piece.rate[0] +
+                      u * (piece.rate[1] + u * (piece.rate[2] + u * piece.rate[3])));
+    };
+    CAPTURE(k);
+    for (const auto& [from, to] : {std::pair(0., 1.), {0., 0.5}, {0.75, 1.}, {0.4, 0.41}}) {
+      const double ends = std::max(friction(from), friction(to));
+      const double allowed = bound.friction(1, from, to).most;
+      double rise = 0;
+      for (int n = 1; n < 40; ++n)
+        rise = std::max(rise, friction(from + (to - from) * n / 40) - ends);
+      CHECK(rise <= allowed * (1 + 1e-9));
+      if (piece.runs == 0)
+        CHECK(allowed == 0);
+      else
+        most = std::max(most, rise / allowed);
+    }
+  }
+  CHECK(most > 0.1); // it is not ten times too large everywhere
 }

@@ -55,6 +55,25 @@ void check_bound(double bound, double largest) {
 
 } // namespace
 
+TEST_CASE("a damper opposes the rate by its law, times its scale") {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed)
+    for (const DamperLaw law : damper_laws) {
+      Draws draws(600 + seed);
+      const Damper damper = random_damper(law, draws);
+      const DamperTerms<double> terms = damper_terms<double>(damper);
+      const double v = draws.log_uniform(1e-3, 30), w = damper.regularization_rate;
+      double torque = damper.coefficient * v;
+      if (law == DamperLaw::power)
+        torque =
+            damper.coefficient * std::pow(std::max(v, w), damper.exponent) * std::min(1., v / w);
+      if (law == DamperLaw::eddy_current)
+        torque = 2 * damper.peak_torque / (v / damper.peak_rate + damper.peak_rate / v);
+      CAPTURE(seed, static_cast<int>(law), v);
+      CHECK(damper_moment(terms, v) == Approx(-damper.scale * torque).epsilon(1e-12));
+      CHECK(damper_moment(terms, -v) == Approx(damper.scale * torque).epsilon(1e-12));
+    }
+}
+
 TEST_CASE("the largest moment of a damper over rates of both signs") {
   for_random_dampers([](const DamperTerms<double>& damper, Draws& draws) {
     const double most = draws.log_uniform(1e-3, 30);

@@ -273,9 +273,11 @@ TEST_CASE(
     const HingeMode<double> now{double(draws.chance(0.5)), double(draws.chance(0.5)), 0, 0,
                                 double(draws.chance(0.5))};
     int listed = 0;
+    std::vector<double> of_damper;
     for_each_kink_of_rate(terms, now, [&](double rate, bool acts, const HingeStop<double>* stop) {
       CAPTURE(seed, rate, acts, stop != nullptr);
       ++listed;
+      if (!stop) of_damper.push_back(rate);
       if (!acts) return;
       // angles inside the stop's contact; a damper's moment does not depend on the angle
       const double angle = stop ? stop->terms.contact_angle - stop->terms.sense * 0.01 : 0;
@@ -295,6 +297,7 @@ TEST_CASE(
     });
     const bool power = terms.has_damper && terms.damper.law == DamperLaw::power;
     CHECK(listed == 2 * power + terms.stop.present + terms.far_stop.present);
+    if (power) CHECK(of_damper == std::vector{-terms.damper.rate, terms.damper.rate});
   }
   CHECK(std::min(dampers, stops) >= 20);
 }

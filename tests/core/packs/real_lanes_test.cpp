@@ -54,6 +54,30 @@ TEST_CASE("a run in a lane has the bits of the run alone: random wings with real
   }
 }
 
+TEST_CASE("a run in a lane has the bits of the run alone: motors, of more runs than lanes") {
+  for (const BaseMotion motion : {BaseMotion::fixed, BaseMotion::free}) {
+    std::vector<Scene> scenes;
+    for (int k = 0; k < 11; ++k) {
+      Draws draws(2300 + k);
+      RandomScene options;
+      options.bodies = 3, options.motion = motion, options.friction = false;
+      Scene scene = random_scene(2300, options);
+      for (Hinge& hinge : scene.hinges) {
+        Motor motor;
+        motor.rate = draws.uniform(0.05, 0.5);
+        motor.gain = draws.log_uniform(0.5, 5), motor.torque_limit = draws.log_uniform(0.3, 3);
+        hinge.motor = motor;
+      }
+      scenes.push_back(scene);
+    }
+    Integration how = within(1e-6, 8);
+    how.method = motion == BaseMotion::free ? "auto" : "dopri5";
+    require_equal_bits(scenes, how, every_peak);
+    const Outcome one = Deployment().run(scenes[0], within(1e-6, 8), every_peak);
+    CHECK(one.motor_energy.size() == 3);
+  }
+}
+
 TEST_CASE("a run in a lane has the bits of the run alone: bumps in tables narrower than a step") {
   for (const char* method : {"dopri5", "dop853"}) {
     std::vector<Scene> scenes;

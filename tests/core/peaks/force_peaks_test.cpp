@@ -112,3 +112,46 @@ TEST_CASE("a crest of the force between the places where it is sampled is not pa
     CHECK(*forces.doubtful() == Approx(part).margin(1e-3));
   }
 }
+
+TEST_CASE("the place of a force's maximum is corrected by Newton's method along the motion") {
+  // θ = 2 cos t: |F| ∝ √(θ̈² + θ̇⁴) has a crest at t = π/2, which the dense output misplaces
+  const Scene scene = unit_oscillator(2);
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+  system.want_forces(true);
+  State<double> x, dxdt;
+  system.start(x);
+  dxdt.resize(x.size());
+  for (const double from : {0.7, 1.0, 1.2}) {
+    Step<double> step;
+    step.t = from, step.h = 0.9;
+    const auto evaluate = [&](double s, State<double>& q, State<double>& rates) {
+      const double t = step.t + s * step.h;
+      q = {2 * std::cos(t), -2 * std::sin(t)}, rates = {q[1], -q[0]};
+      State<double> found(2);
+      system(q, found, t);
+      CHECK(found[1] == Approx(rates[1]).margin(1e-12));
+    };
+    ForcePeaks<double, decltype(system)> forces;
+    forces.start(system, 1e-14);
+    evaluate(0, step.x, step.dxdt);
+    forces.sample(system, step.t);
+    evaluate(1, step.x1, step.dxdt1);
+    forces.over_step(system, step, x, dxdt);
+    const double place = (0.5 * std::numbers::pi - step.t) / step.h;
+    CAPTURE(from, place);
+    REQUIRE(forces.doubtful());
+    const double off = std::abs(*forces.doubtful() - place);
+    evaluate(*forces.doubtful(), x, dxdt);
+    forces.confirm(system, step, x, dxdt);
+    CHECK(off > 1e-6);
+    CHECK(off < 0.02);
+    REQUIRE(forces.doubtful());
+    CHECK(std::abs(*forces.doubtful() - place) < 0.4 * off); // by the bend of five samples
+    const double crest = 10 * 0.5 * 4;                       // m c θ̇²
+    CHECK(forces.peaks[1].value == Approx(crest).epsilon(1e-3));
+    CHECK(forces.peaks[1].value <= crest * (1 + 1e-12));
+  }
+}

@@ -274,6 +274,62 @@ TEST_CASE("the bounds by energy are (2) to (4)") {
   CHECK(wing.bounds.force[2] == Approx(std::sqrt(4 * Z)));
 }
 
+TEST_CASE("the bound on what holds a hinge rigidly is (5), whichever hinge is held") {
+  const double l = 1.5, c1 = 0.7, c2 = 0.4, J1 = 0.5, J2 = 0.2, E = 3;
+  for (const int held : {1, 2}) {
+    Scene scene = two_in_line(l, c1, c2);
+    scene.hinges[held - 1].release = Release{.fails = 1};
+    LatchedWing<> wing(scene);
+    wing.system.set_contact(held, Contact::held);
+    wing.remaining.prepare(wing.system), wing.bounds.prepare(wing.system);
+    wing.bounds.bound(wing.system, wing.remaining, {E, E});
+    const double w1 = held == 1 ? 0 : 2 * E / J1, w2 = 2 * E / J2; // of ω²
+    const double M1 = held == 1 ? 0 : std::sqrt(2 * E * (1e4 + 10 * 10 / J1));
+    const double M2 = held == 2 ? 0 : std::sqrt(2 * E * (6e3 + 20 * 20 * (1 / J1 + 1 / J2)));
+    const double g1 = w1 * c1, g2 = w1 * l + w2 * c2, L1 = M1 + M2;
+    const double turns1 = held == 1 ? 0 : L1 * L1 / J1; // a body that stands still takes none
+    const double Z = 10 * g1 * g1 + 4 * g2 * g2 + turns1 + M2 * M2 / J2;
+    const double levers = held == 1 ? 10 * c1 * c1 + 4 * (l + c2) * (l + c2) : 4 * c2 * c2;
+    const double inertias = held == 1 ? J1 + J2 : J2, loads = held == 1 ? L1 + M2 : M2;
+    const double most = (std::sqrt(levers) + std::sqrt(inertias)) * std::sqrt(Z) + loads;
+    CAPTURE(held);
+    CHECK(wing.bounds.moment[held] == Approx(most));
+    CHECK(wing.bounds.moment[3 - held] == Approx(M1 + M2));
+    CHECK(wing.bounds.force[1] == Approx(std::sqrt(14 * Z)));
+    CHECK(wing.bounds.force[2] == Approx(std::sqrt(4 * Z)));
+  }
+}
+
+TEST_CASE("dampers, motors, loops and dissipating latches add their most to the bounds by energy") {
+  const double J1 = 0.5, J2 = 0.2, E = 7, gear = 3, K = 50, D = 4, c = 2;
+  Scene scene = two_in_line(1.5, 0.7, 0.4);
+  Damper damper;
+  damper.coefficient = c, damper.scale = 1.5;
+  scene.hinges[0].damper = damper;
+  Synchronisation cable;
+  cable.name = "loop", cable.first = 0, cable.second = 1, cable.ratio = gear;
+  cable.stiffness = K, cable.damping = D;
+  scene.synchronisations = {cable};
+  const double v1 = std::sqrt(2 * E / J1), v2 = std::sqrt(2 * E * (1 / J1 + 1 / J2)); // (2)
+  const double M1 = std::sqrt(2 * E * (1e4 + 10 * 10 / J1)) + 1.5 * c * v1;
+  const double M2 = std::sqrt(2 * E * (6e3 + 20 * 20 * (1 / J1 + 1 / J2)));
+  const double loop = std::sqrt(2 * K * E) + D * (gear * v1 + v2);
+  for (const double limit : {1e9, 3.}) {
+    scene.hinges[1].motor = Motor{.rate = 0, .gain = 0.8, .torque_limit = limit};
+    LatchedWing<> wing(scene);
+    wing.bounds.bound(wing.system, wing.remaining, {E, E});
+    CAPTURE(limit);
+    CHECK(wing.bounds.moment[1] == Approx(M1 + gear * loop));
+    CHECK(wing.bounds.moment[2] == Approx(M2 + loop + std::min(0.8 * v2, limit)));
+  }
+  scene = two_in_line(1.5, 0.7, 0.4);
+  scene.hinges[1].latch = Latch{.stiffness = 6e3, .dissipation = 0.4};
+  LatchedWing<> wing(scene);
+  wing.bounds.bound(wing.system, wing.remaining, {E, E});
+  const double way = std::sqrt(2 * E / 6e3);
+  CHECK(wing.bounds.moment[2] == Approx(6e3 * way * (1 + 0.4 * v2)));
+}
+
 TEST_CASE("of a free base that turns, the energy of the whole's turning loads no hinge") {
   oracle::Draws draws(7);
   int far_below = 0;

@@ -36,6 +36,10 @@ TEST_CASE(
     CHECK(sample.t == k * 0.1);
     CHECK(sample.angles[0] == Approx(std::cos(sample.t)).margin(1e-7)); // dense output's error
     CHECK(sample.rates[0] == Approx(-std::sin(sample.t)).margin(1e-6));
+    // loads and energies are those of the sample's own state
+    CHECK(sample.moments[0] == Approx(-panel_inertia * sample.angles[0]).margin(1e-12));
+    CHECK(sample.kinetic ==
+          Approx(0.5 * panel_inertia * sample.rates[0] * sample.rates[0]).margin(1e-12));
   }
   CHECK(samples.back().angles == out.final.angles);
 }

@@ -1,0 +1,156 @@
+// Which kinks end a step: those whose impulse, by (1) of kinks.hpp, is beyond the tolerance, and no others.
+#include "core/events/kink_search.hpp"
+#include "tests/support/closed_forms.hpp"
+#include "tests/support/real_scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+/// A panel in a step of h in which its acceleration is constant.
+struct PanelInStep {
+  PanelInStep(const Scene& scene, double h, double angle, double rate, double acceleration)
+      : wing(make_wing<double>(scene, outward_order(scene))), system(with_parameters(scene)) {
+    step.t = 0.25, step.h = h;
+    system.reset();
+    system.start_motor(1, 0.0);
+    const auto state = [&](double u, State<double>& x, State<double>& dxdt) {
+      x = {angle + u * (rate + 0.5 * acceleration * u), rate + acceleration * u};
+      dxdt = {x[1], acceleration};
+    };
+    state(0, step.x, step.dxdt), state(h, step.x1, step.dxdt1);
+    system.find_sides(step.x);
+  }
+
+  /// Checks at which relative tolerance the only kink stops to matter. @param impulse N·m·s
+  void check(double s, double at, double impulse, bool with_twist = false) {
+    const double rate = std::max(std::abs(step.x[1]), std::abs(step.x1[1]));
+    const double limit = impulse / wing.bodies[1].central_inertia / rate;
+    CAPTURE(s, at, impulse, limit, with_twist);
+    const auto search = [&](double rtol) {
+      return KinkSearch<double, decltype(system)>(system, step, {rtol, 0});
+    };
+    if (with_twist) {
+      CHECK(search(limit * 0.999).first_of_hinges().value_or(-1) == Approx(s).margin(1e-9));
+      CHECK_FALSE(search(limit * 1.001).first_of_hinges());
+      return;
+    }
+    const auto found = search(limit * 0.999).first();
+    REQUIRE(found);
+    CHECK(found->s == Approx(s).margin(1e-9));
+    CHECK(found->kink.at == Approx(at).epsilon(1e-14));
+    CHECK_FALSE(search(limit * 1.001).first());
+  }
+
+  Wing<double> wing;
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::fixed> system;
+  Step<double> step;
+
+private:
+  System<double, Tree, BaseMotion::fixed> with_parameters(const Scene& scene) {
+    set_parameters(wing, scene);
+    return {wing, std::nullopt, work};
+  }
+};
+
+/// A panel of which the hinge has no law yet.
+Scene lawless_panel() {
+  Scene scene = latching_panel();
+  scene.hinges[0].spring = {}, scene.hinges[0].latch.reset();
+  scene.hinges[0].friction = {};
+  return scene;
+}
+
+/// The sense in which the hinge deploys.
+double way_of(const Scene& scene) {
+  return scene.hinges[0].latched > scene.hinges[0].stowed ? 1 : -1;
+}
+
+} // namespace
+
+TEST_CASE("a step ends at a knot of a table where the slope's or the curvature's jump matters") {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Draws draws(seed);
+    std::vector<double> x{0}, y;
+    for (int k = 0; k < 4; ++k) x.push_back(x.back() + draws.uniform(0.2, 0.5));
+    for (std::size_t k = 0; k < x.size(); ++k) y.push_back(draws.uniform(-1, 1));
+    const bool linear = seed % 2 == 0, harness = seed % 3 == 0;
+    Scene scene = lawless_panel();
+    HingeTorque& torque = harness ? scene.hinges[0].harness : scene.hinges[0].spring;
+    torque.table = torque_table(x, y, linear ? Interpolation::linear : Interpolation::monotone);
+    torque.scale = draws.uniform(0.5, 2);
+    const Curve& curve = torque.table->drive();
+    const int knot = 1 + static_cast<int>(seed % 3);
+    const double at = x[knot], h = draws.log_uniform(1e-3, 1), s = draws.uniform(0.1, 0.9);
+    const double v = draws.sign() * 0.1 / h; // no other knot within the step
+    // its derivatives on both sides, from slopes
+    const double d = 0.02, slope = curve.slope_at(at);
+    const double low[] = {curve.slope_at(at - d), curve.slope_at(at - 2 * d)};
+    const double high[] = {curve.slope_at(at + d), curve.slope_at(at + 2 * d)};
+    // a slope is a parabola beside a knot: extrapolated to it, from either side
+    const double below = curve.slope_at(at - 1e-13), above = slope;
+    const auto second = [d](double a, double b, double c) {
+      return (-3 * a + 4 * b - c) / (2 * d);
+    };
+    const double bend_below = -second(below, low[0], low[1]);
+    const double bend_above = second(above, high[0], high[1]);
+    const double third_below = (below - 2 * low[0] + low[1]) / (d * d);
+    const double third_above = (above - 2 * high[0] + high[1]) / (d * d);
+    const double turn = linear ? std::abs(above - below) : 0;
+    const double bend = 0.5 * std::abs(bend_above - bend_below);
+    const double twist = std::abs(third_above - third_below) / 6;
+    const double tau = h * std::min(s, 1 - s), way = std::abs(v) * tau;
+    const double impulse = torque.scale * tau * way * (turn / 2 + bend * way / 3);
+    CAPTURE(seed, linear, harness, turn, bend, twist);
+    PanelInStep panel(scene, h, at - v * s * h, v, 0);
+    panel.check(s, at, impulse);
+    panel.check(s, at, impulse + torque.scale * tau * way * way * way * twist / 4, true);
+  }
+}
+
+TEST_CASE("a step ends where a damper's power law begins, if its slope's jump matters") {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Draws draws(seed);
+    Scene scene = lawless_panel();
+    Damper damper;
+    damper.law = DamperLaw::power, damper.coefficient = draws.log_uniform(0.1, 10);
+    damper.exponent = draws.uniform(0.3, 2.5), damper.regularization_rate = 0.2;
+    damper.scale = draws.uniform(0.5, 2);
+    scene.hinges[0].damper = damper;
+    const double h = draws.log_uniform(1e-3, 1), s = draws.uniform(0.1, 0.9);
+    const double sense = draws.sign(), way = draws.sign(), a = way * 0.1 / h; // rad/s²
+    PanelInStep panel(scene, h, 0.3, sense * 0.2 - a * s * h, a);
+    const double steep = damper.scale * damper.coefficient * std::pow(0.2, damper.exponent - 1);
+    const double tau = h * std::min(s, 1 - s);
+    CAPTURE(seed, sense, way);
+    panel.check(s, sense * 0.2,
+                0.5 * std::abs(a) * tau * tau * steep * std::abs(1 - damper.exponent));
+  }
+}
+
+TEST_CASE("a step ends where a motor reaches its limit, if its gain matters") {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Draws draws(seed);
+    Scene scene = lawless_panel();
+    Motor motor{.rate = draws.uniform(-1, 1), .gain = draws.log_uniform(0.1, 10)};
+    motor.torque_limit = motor.gain * 0.2;
+    scene.hinges[0].motor = motor;
+    const double h = draws.log_uniform(1e-3, 1), s = draws.uniform(0.1, 0.9);
+    const double sense = draws.sign(), way = draws.sign(), a = way * 0.1 / h;
+    PanelInStep panel(scene, h, 0.3, way_of(scene) * motor.rate - sense * 0.2 - a * s * h,
+                      a); // w − φ̇ = ±T/c
+    const double tau = h * std::min(s, 1 - s);
+    CAPTURE(seed, sense, way);
+    panel.check(s, sense * 0.2, 0.5 * std::abs(a) * tau * tau * motor.gain);
+  }
+}
