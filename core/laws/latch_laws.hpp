@@ -121,7 +121,7 @@ template <class T> struct CaptureTerms {
     const T front = smaller(larger(first, last), T(0));
     const T v0 = sense * rate.low, v1 = sense * rate.high;
     const T least = smaller(v0, v1), most_rate = larger(v0, v1);
-    const T of_damping = damping * larger(T(-least), T(0));
+    const T of_damping = damping * T(-least);
     // k c (e + β/2) ė is bilinear: largest at a corner of the ranges
     T of_dissipation = larger(T(back * least), T(back * most_rate));
     of_dissipation = larger(of_dissipation, larger(T(front * least), T(front * most_rate)));

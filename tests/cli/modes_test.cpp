@@ -15,8 +15,7 @@ std::vector<double> frequencies_of(const Folder& folder, std::vector<std::string
   CHECK(finished.error.empty());
   std::vector<double> frequencies;
   const Json json = parse_json(finished.out);
-  for (const Json& mode : json["modes"])
-    frequencies.push_back(mode["frequency"].get<double>());
+  for (const Json& mode : json["modes"]) frequencies.push_back(mode["frequency"].get<double>());
   return frequencies;
 }
 

@@ -63,6 +63,26 @@ double kinetic(const Arrival& at) { return 0.5 * I * at.rate * at.rate; }
 
 } // namespace
 
+TEST_CASE("every method reads a motor's table at the times of its stages") {
+  // I ẍ = c (a t − ẋ) from rest
+  constexpr double a = 0.2, c = 3, tau = I / c;
+  const Arrival exact = arrival_of(1, [](double t) {
+    const double fall = -std::expm1(-t / tau);
+    return Spin{a * (t - tau * fall), a * (0.5 * t * t - tau * (t - tau * fall))};
+  });
+  const Scene scene = driven(by_table({0, 100}, {0, 100 * a}, c, 1e6));
+  for (const MethodInfo& method : methods()) {
+    if (method.name == "taylor") continue; // no series with a motor
+    Integration how = within(1e-10, 60);
+    how.method = method.name, how.step = 0.002;
+    const bool exact_order = method.name != "rosenbrock_w"; // order 2
+    CAPTURE(method.name);
+    Goal goal;
+    goal.first_latch_only = true;
+    check_arrival(Deployment().run(scene, how, goal), exact, exact_order ? 1e-8 : 1e-6);
+  }
+}
+
 TEST_CASE("a motor spins an inertia up to its rate, and gives it the kinetic energy") {
   for (const double r : {0.05, 0.5, 2.0})
     for (const double c : {0.3, 3.0, 30.0}) {
