@@ -28,6 +28,8 @@ RUNS = {
     "prescribed_base": 2000,
     "two_wing_free": 600,
     "yoke_wing": 600,
+    "two_wing_release": 100,
+    "bending_wings": 100,
 }
 
 

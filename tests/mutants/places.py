@@ -100,6 +100,8 @@ class Finder:
             return
         if sign not in OPERATORS or is_text(left) or is_text(right):
             return
+        if "Eigen::" in cursor.type.get_canonical().spelling:  # a switch between two expressions refers to a temporary
+            return
         l, r = self.of(left), self.of(right)
         more = {"condition": True} if sign in ("&&", "||") else {}
         change = lambda new: self.add([(left.extent.start.offset, right.extent.end.offset, new)], **more)
