@@ -235,7 +235,7 @@ void raise_to_ends(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& moment,
 /// Moment of a stuck hinge at a step's ends, N·m.
 template <class T> struct HeldMoments { T first, last; };
 
-/// The same of a locked hinge.
+/// Raises `peak` to the larger magnitude of a locked hinge's moment at the step's ends.
 template <class T>
 void raise_to_ends(PeakOf<T>& peak, const HeldMoments<T>& ends, const Step<T>& step) {
   using std::abs;
