@@ -266,6 +266,9 @@ TEST_CASE("The words on the report's first page are read and written", "[campaig
         "\"organisation\", \"document\", \"revision\" or \"date\" (did you mean \"title\"?)");
   CHECK(read(R"({"revision": ""})", ReportHeader{}, read_report_header).problems ==
         "/revision: found string \"\", expected a string, not empty, without control characters");
+  for (const char* broken : {R"({"title": "two\nlines"})", R"({"author": "a\ttab"})"})
+    CHECK(read(broken, ReportHeader{}, read_report_header).problems.find("control characters") !=
+          std::string::npos);
 }
 
 TEST_CASE("Runs to be made again are written where they are not the usual number",
