@@ -6,13 +6,22 @@
 using namespace wingspread;
 using namespace wingspread::test;
 
-TEST_CASE("derivatives of a latch time have the closed form's value to 1e-5") {
-  const Campaign campaign = campaign_of(panel_campaign());
-  const FitSpec spec = read_fit(parse_json(R"({ "tests": [ { "name": "timer",
+namespace {
+
+/// A panel's latch time and its friction, measured; the spring and the friction are sought.
+FitSpec fit_of_time_and_friction(const Campaign& campaign) {
+  return read_fit(parse_json(R"({ "tests": [ { "name": "timer",
       "values": [ { "output": "root.latch_time", "value": 2, "std": 0.01 } ,
                   { "parameter": "hinges.root.friction.scale", "value": 1, "std": 0.1 } ] } ],
     "fit": { "parameters": ["spring", "friction"] } })"),
-                                "", ".", campaign);
+                  "", ".", campaign);
+}
+
+} // namespace
+
+TEST_CASE("derivatives of a latch time have the closed form's value to 1e-5") {
+  const Campaign campaign = campaign_of(panel_campaign());
+  const FitSpec spec = fit_of_time_and_friction(campaign);
   const ParameterSpace space(campaign, spec);
   ThreadEvaluator evaluator({.threads = 2}, never);
   TestRuns runs(spec.tests, spec.parameters, space, evaluator);
@@ -31,11 +40,7 @@ TEST_CASE("derivatives of a latch time have the closed form's value to 1e-5") {
 
 TEST_CASE("what the runs around a point lack has no slope, and leaves the other slopes alone") {
   const Campaign campaign = campaign_of(panel_campaign());
-  const FitSpec spec = read_fit(parse_json(R"({ "tests": [ { "name": "timer",
-      "values": [ { "output": "root.latch_time", "value": 2, "std": 0.01 } ,
-                  { "parameter": "hinges.root.friction.scale", "value": 1, "std": 0.1 } ] } ],
-    "fit": { "parameters": ["spring", "friction"] } })"),
-                                "", ".", campaign);
+  const FitSpec spec = fit_of_time_and_friction(campaign);
   const ParameterSpace space(campaign, spec);
   ThreadEvaluator evaluator({.threads = 1}, never);
   TestRuns runs(spec.tests, spec.parameters, space, evaluator);
