@@ -3,8 +3,8 @@
 #include "montecarlo/foundation/formats/machine_error.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
+#include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/interfaces/commands/commands.hpp"
-#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
 
 #include <CLI/CLI.hpp>

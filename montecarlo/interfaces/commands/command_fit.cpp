@@ -3,10 +3,10 @@
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
+#include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
-#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <fmt/format.h>
@@ -30,8 +30,7 @@ public:
   explicit ChainProgress(double wanted) : wanted_(wanted), shown_(is_terminal(stderr)) {}
   void show(const EnsembleState& state) const {
     if (shown_)
-      fmt::print(
-          stderr,
+      print_message(
           "\rsampling: {} runs, effective sample size {:.0f} of {:.0f}, split R-hat {:.4f}   ",
           state.evaluations, state.ess, wanted_, state.r_hat);
   }

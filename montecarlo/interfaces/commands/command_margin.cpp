@@ -7,11 +7,11 @@
 #include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
+#include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
-#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 #include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
@@ -49,8 +49,8 @@ int print_verdict(const MarginResult& result) {
   for (const std::string& line : margin_warnings(result)) print_message("warning: {}\n", line);
   for (const MarginSearch& search : result.searches)
     if (!is_confirmed(search))
-      fmt::print(
-          stderr, "not met: {}: {}\n", search.name,
+      print_message(
+          "not met: {}: {}\n", search.name,
           search.recommended
               ? fmt::format("runs of seed {} do not confirm the recommended scale: choose a scale "
                             "further from the edge, or start again with another seed and more "

@@ -1,11 +1,11 @@
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/formats/spec_error.hpp"
+#include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/design_questions.hpp"
 #include "montecarlo/interfaces/terminal/examples.hpp"
-#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/starter/starter.hpp"
 
 #include <fmt/format.h>

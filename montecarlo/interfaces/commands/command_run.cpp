@@ -1,9 +1,9 @@
 #include "montecarlo/analyses/run/campaign_run.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
-#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/input_checks/check_input.hpp"
 

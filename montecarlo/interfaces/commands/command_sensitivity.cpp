@@ -7,10 +7,10 @@
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
+#include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
-#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 

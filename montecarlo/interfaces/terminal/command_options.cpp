@@ -4,7 +4,7 @@
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/number_text.hpp"
 #include "montecarlo/foundation/formats/quantity.hpp"
-#include "montecarlo/interfaces/terminal/standard_error.hpp"
+#include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <CLI/CLI.hpp>

@@ -5,8 +5,8 @@
 #include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
+#include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/interfaces/terminal/exit_code.hpp"
-#include "montecarlo/interfaces/terminal/standard_error.hpp"
 #include "montecarlo/results/summary/compact_table.hpp"
 #include "montecarlo/results/summary/table.hpp"
 
@@ -71,8 +71,7 @@ void print_notes(const Summary& summary) {
     return !is_decided(verdict) && !verdict.one_run && !rests_on_cut_peaks(verdict);
   };
   if (std::ranges::any_of(summary.requirements, is_open))
-    fmt::print(
-        stderr,
+    print_message(
         "note: adding runs until a requirement passes inflates the risk. To decide it, use "
         "--until {}, or another --seed and a number of runs fixed beforehand\n",
         shell_word("requirement " +

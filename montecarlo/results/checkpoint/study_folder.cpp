@@ -1,6 +1,7 @@
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 
 #include "montecarlo/foundation/formats/json_parse.hpp"
+#include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 
 #include <fmt/format.h>
@@ -53,8 +54,7 @@ void StudyFolder::finish() {
 
 void warn_if_damaged(const Checkpoint& log, const std::filesystem::path& folder) {
   if (log.was_damaged())
-    fmt::print(
-        stderr,
+    print_message(
         "warning: {} was damaged after run {} of the study: the runs after it were repeated\n",
         (folder / checkpoint_file).string(), log.read());
 }
