@@ -144,23 +144,24 @@ Json requirement_json(const RequirementScales& row, double confidence) {
 Json margin_block(const Json& search, const std::vector<RequirementScales>& rows,
                   double confidence) {
   const auto edge = [&](const char* side) -> Json {
-    if (search["window"].is_null()) return nullptr;
-    const Json& found = search["window"][side];
-    return found["range_end"].get<bool>() ? Json(nullptr) : found["scale"];
+    const Json& window = search.at("window");
+    if (window.is_null()) return nullptr;
+    const Json& found = window.at(side);
+    return found.at("range_end").get<bool>() ? Json(nullptr) : found.at("scale");
   };
   Json requirements = Json::array();
   for (const RequirementScales& row : rows)
     requirements.push_back(requirement_json(row, confidence));
-  const Json& recommended = search["recommended"];
+  const Json& recommended = search.at("recommended");
   const Json as_good =
       recommended.is_null() || !recommended.contains("as_good")
           ? Json(nullptr) // of an older version
-          : Json::array({recommended["as_good"]["from"], recommended["as_good"]["to"]});
+          : Json::array({recommended["as_good"].at("from"), recommended["as_good"].at("to")});
   return {{"scales", rows.empty() ? std::vector<double>{} : rows.front().scales},
           {"requirements", std::move(requirements)},
-          {"recommended", recommended.is_null() ? Json(nullptr) : recommended["scale"]},
+          {"recommended", recommended.is_null() ? Json(nullptr) : recommended.at("scale")},
           {"as_good", as_good},
-          {"why_none", search["why_none"]},
+          {"why_none", search.at("why_none")},
           {"window", {edge("lower"), edge("upper")}}};
 }
 
@@ -228,7 +229,7 @@ Json levels_json(const Json& repeat) {
   for (const Json& level : repeat.at("levels")) {
     probability *= level.at("share").get<double>();
     levels.push_back(
-        {{"threshold", level["threshold"]}, {"probability", page_number(probability)}});
+        {{"threshold", level.at("threshold")}, {"probability", page_number(probability)}});
   }
   return levels;
 }
@@ -261,21 +262,21 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   Json likeliest = nullptr;
   if (const Json& run = study.at("likeliest"); !run.is_null()) {
     std::vector<Json> draws; // largest deviation first
-    for (const auto& [name, value] : run["draws"].items())
+    for (const auto& [name, value] : run.at("draws").items())
       draws.push_back({{"name", name}, {"value", value}, {"z", run.at("z").at(name)}});
     std::ranges::stable_sort(draws, std::ranges::greater{},
                              [](const Json& draw) { return std::abs(draw["z"].get<double>()); });
-    likeliest = {{"distance", run["distance"]}, {"draws", draws}};
+    likeliest = {{"distance", run.at("distance")}, {"draws", draws}};
   }
   const Json& repeats = study.at("repeats");
   set["rare"] = {{"text", study.at("event")},
                  {"beyond", study.value("beyond", Json(nullptr))},
                  {"case", study.value("case", Json(nullptr))},
                  {"confidence", study.value("confidence", Json(nullptr))},
-                 {"probability", study["probability"]},
-                 {"lower", study["lower"]},
-                 {"upper", study["upper"]},
-                 {"reached", study["reached"]},
+                 {"probability", study.at("probability")},
+                 {"lower", study.at("lower")},
+                 {"upper", study.at("upper")},
+                 {"reached", study.at("reached")},
                  {"levels", repeats.empty() ? Json::array() : levels_json(repeats.front())},
                  {"warnings", study.value("warnings", Json::array())},
                  {"strata", strata_json(study)},

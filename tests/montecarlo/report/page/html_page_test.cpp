@@ -79,6 +79,32 @@ TEST_CASE("static margins of the page, by hand", "[page][motorization]") {
   CHECK(hinge["lower"].get<double>() < hinge["least"].get<double>());
 }
 
+TEST_CASE("static margins of the page are of 1000 draws, or of all of a design, by the standard "
+          "asked for",
+          "[page][motorization]") {
+  Json json = one_panel_margin(1200);
+  json.erase("margin");
+  CHECK(static_margins_json(campaign_of(json))["draws"] == 1000);
+  json["sampling"]["runs"] = 900;
+  CHECK(static_margins_json(campaign_of(json))["draws"] == 900);
+  json["sampling"].update({{"runs", 1200}, {"design", "latin_hypercube"}, {"replicates", 2}});
+  json.erase("requirements");
+  const Json all = static_margins_json(campaign_of(json));
+  CHECK(all["draws"] == 1200);
+  CHECK(all["kind"] == "NASA");
+  json["sampling"] = {{"runs", 20}, {"seed", 7}};
+  json["requirements"] =
+      parse_json(R"([ { "motorization": "ECSS", "probability": 0.9, "confidence": 0.9 } ])");
+  json["cases"] = parse_json(R"([ { "name": "hot" },
+    { "name": "cold", "scale": { "hinges.root.spring.torque_latched": 0.8 } } ])");
+  const Json cases = static_margins_json(campaign_of(json));
+  CHECK(cases["kind"] == "ECSS");
+  REQUIRE(cases["hinges"].size() == 2);
+  CHECK(cases["hinges"][0]["hinge"] == "root (hot)");
+  CHECK(cases["hinges"][1]["hinge"] == "root (cold)");
+  CHECK(cases["hinges"][1]["least"] < cases["hinges"][0]["least"]);
+}
+
 TEST_CASE("a folder of a margin study is a set without runs, by hand", "[page]") {
   const Folder folder;
   folder.write(

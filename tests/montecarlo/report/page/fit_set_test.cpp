@@ -1,0 +1,64 @@
+#include "montecarlo/analyses/fit/fit_campaign.hpp"
+#include "montecarlo/analyses/fit/fit_report.hpp"
+#include "montecarlo/report/page/fit_set.hpp"
+#include "tests/montecarlo/analyses/fit/fit_support.hpp"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("a fit of the page has every trace, value and sample of its folder, with their units",
+          "[page]") {
+  const Folder folder;
+  folder.write(fit_json_file, R"({ "finished": true, "findings": ["far"], "unseen": ["x"],
+    "parameters": { "spring": { "mean": 1.5 }, "friction": { "mean": 2 } },
+    "tests": [ { "name": "ground", "values": { "root.latch_time": { "measured": 2.5 },
+                                               "hinges.root.friction.coulomb": { "measured": 0.25 } },
+                 "traces": { "root.angle": { "rms": 0.125 }, "root.rate": { "rms": 0.5 } } },
+               { "name": "flight", "values": {}, "traces": { "root.angle": { "rms": 4 } } } ],
+    "candidates": [ { "test": "next" } ],
+    "prediction": { "root.peak_moment": { "before": [1, 2, 3] } } })");
+  std::string traces = "test,column,t,measured,fitted,lower,upper\n";
+  for (int k = 0; k < 900; ++k) traces += fmt::format("ground,root.angle,{},{},2,,3\n", k, 10 * k);
+  traces += "ground,root.rate,0.5,1,2,3,4\nflight,root.angle,1,5,6,7,8\n";
+  folder.write(traces_csv_file, traces);
+  const Scene scene = campaign_of(panel_campaign()).scene;
+  const Json whole = fit_block(folder.path(), &scene);
+  CHECK((whole["finished"] == true && whole["findings"] == Json{"far"} &&
+         whole["unseen"] == Json{"x"}));
+  CHECK(whole["parameters"] == parse_json(R"([ { "name": "spring", "mean": 1.5 },
+                                               { "name": "friction", "mean": 2 } ])"));
+  CHECK(whole["values"] == parse_json(R"([
+    { "test": "ground", "name": "root.latch_time", "unit": "s", "measured": 2.5 },
+    { "test": "ground", "name": "hinges.root.friction.coulomb", "unit": "N·m", "measured": 0.25 } ])"));
+  CHECK(whole["candidates"] == parse_json(R"([ { "test": "next" } ])"));
+  CHECK(whole["prediction"]["root.peak_moment"] ==
+        parse_json(R"({ "before": [1, 2, 3], "unit": "N·m" })"));
+  CHECK(whole["samples"].is_null());
+  const Json& found = whole["traces"];
+  REQUIRE(found.size() == 3);
+  CHECK((found[0]["test"] == "ground" && found[0]["column"] == "root.angle"));
+  CHECK((found[0]["unit"] == "rad" && found[0]["rms"] == 0.125));
+  REQUIRE(found[0]["t"].size() == 400); // evenly, the first among them
+  for (std::size_t k = 0; k < 400; ++k)
+    CHECK(found[0]["t"][k] == static_cast<double>(k * 900 / 400));
+  CHECK((found[0]["measured"][399] == 8970.0 && found[0]["fitted"][399] == 2.0));
+  CHECK((found[0]["lower"][7].is_null() && found[0]["upper"][7] == 3.0));
+  CHECK(found[1] == parse_json(R"({ "test": "ground", "column": "root.rate", "unit": "rad/s",
+    "t": [0.5], "measured": [1.0], "fitted": [2.0], "lower": [3.0], "upper": [4.0], "rms": 0.5 })"));
+  CHECK((found[2]["test"] == "flight" && found[2]["t"] == Json{1.0} && found[2]["rms"] == 4));
+
+  std::string posterior = "spring,friction\n";
+  for (int k = 0; k < 450; ++k) posterior += fmt::format("{},{}\n", k, -k);
+  folder.write(posterior_file, posterior);
+  const Json samples = fit_block(folder.path(), nullptr)["samples"];
+  CHECK(samples["names"] == Json{"spring", "friction"});
+  REQUIRE(samples["rows"].size() == 400);
+  CHECK((samples["rows"][0] == Json{0.0, 0.0} && samples["rows"][399] == Json{448.0, -448.0}));
+  CHECK(fit_block(folder.path(), nullptr)["values"][1]["unit"] == ""); // without the scene
+  folder.write(posterior_file, "spring,friction\n1\n");
+  CHECK_THAT(message_of([&] { return fit_block(folder.path(), nullptr); }),
+             Catch::Contains(posterior_file) && Catch::Contains("number of cells"));
+}

@@ -1,0 +1,177 @@
+#include "montecarlo/analyses/margin/margin_report.hpp"
+#include "montecarlo/analyses/rare/rare_report.hpp"
+#include "montecarlo/analyses/sensitivity/design_folder.hpp"
+#include "montecarlo/analyses/sensitivity/sobol_report.hpp"
+#include "montecarlo/report/page/study_set.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// Indices of so many dispersions d0, d1, …; the total of d_k is k/100, but d1 has none.
+SobolIndices climbing_indices(std::size_t count) {
+  SobolIndices indices{64, 0, 12.5, 0.75, {}};
+  for (std::size_t k = 0; k < count; ++k) {
+    const double total = static_cast<double>(k) / 100;
+    indices.effects.push_back(
+        {{total / 2, {total / 4, total}}, {total, {total / 2, 2 * total}}, false});
+  }
+  indices.effects[1].total = {std::nan(""), {}};
+  return indices;
+}
+
+/// A rare.json with what the page reads of it.
+Json rare_study() {
+  return parse_json(R"({ "wingspread": { "version": "0", "seed": 3, "hash": "h" },
+    "event": "not deployed", "beyond": null, "case": "cold", "confidence": 0.9,
+    "probability": 2e-5, "lower": 1e-5, "upper": 4e-5, "reached": true,
+    "repeats": [ { "levels": [ { "share": 0.5, "threshold": 3.5 }, { "share": 0.125, "threshold": 0 } ] },
+                 { "levels": [] } ],
+    "strata": [
+      { "rare_values": {}, "probability": 0.9, "event": 1e-6, "upper": 2e-6, "reached": true },
+      { "rare_values": { "a": 1, "b": 9000 }, "probability": 1e-3, "event": 0, "upper": 0.25, "reached": false },
+      { "rare_values": { "c": 0.5 }, "probability": 1e-5, "event": 1, "upper": 1, "reached": true } ],
+    "warnings": [ "doubt" ],
+    "likeliest": { "distance": 4.5, "draws": { "a": 1, "b": 2, "c": 3 }, "z": { "a": 0.5, "b": -4, "c": 2 } } })");
+}
+
+} // namespace
+
+TEST_CASE("a folder of Sobol' indices is a set with the largest of each output", "[page]") {
+  const Folder folder;
+  Json json = quick_campaign(10);
+  json["statistics"] = {{"confidence", 0.9}};
+  json["scene"]["name"] = "dispersed_wing";
+  const Campaign campaign = campaign_of(json);
+  const SaltelliDesign design{campaign, 64, Shard{1, 2}};
+  SobolSensitivity all{64, 250, 256, "random", {}, {}, {}};
+  for (int k = 0; k < 15; ++k) all.dispersions.push_back("d" + std::to_string(k));
+  all.outputs.push_back({"root.latch_time", climbing_indices(15), 0});
+  all.outputs.push_back({"deployment_time", climbing_indices(3), 0});
+  all.outputs.back().indices.effects.resize(15, {{0, {}}, {std::nan(""), {}}, false});
+  folder.write(design_file, design_text(design));
+  CHECK(is_study_folder(folder.path()));
+  CHECK(message_of([&] { return study_sets_json(folder.path(), "s"); }).find("sensitivity.json") !=
+        std::string::npos);
+  folder.write(sensitivity_json_file, sensitivity_json(all, {}).dump());
+  const auto sets = study_sets_json(folder.path(), "s");
+  REQUIRE(sets.size() == 1);
+  const Json& set = sets[0];
+  CHECK((set["label"] == "s" && set["campaign"] == "dispersed_wing" && set["confidence"] == 0.9));
+  CHECK((set["seed"] == "7" && set["hash"] == stamp_of(design).hash));
+  CHECK((set["margin"].is_null() && set["rare"].is_null() && set["fit"].is_null()));
+  CHECK(set["wing"].is_object());
+  CHECK(set["static_margins"].is_object());
+  CHECK(set["warnings"] == Json(warnings(all)));
+  CHECK(set["sensitivity"]["kind"] == "sobol");
+  std::vector<std::pair<std::string, std::string>> shown;
+  for (const Json& effect : set["sensitivity"]["effects"])
+    shown.emplace_back(effect["output"], effect["draw"]);
+  std::vector<std::pair<std::string, std::string>> expected;
+  for (int k = 14; k > 2; --k) expected.emplace_back("root.latch_time", "d" + std::to_string(k));
+  expected.emplace_back("deployment_time", "d2"); // outputs in the order of the file
+  expected.emplace_back("deployment_time", "d0");
+  CHECK(shown == expected);
+  CHECK(set["sensitivity"]["effects"][0] == Json{{"output", "root.latch_time"},
+                                                 {"draw", "d14"},
+                                                 {"first", 0.07},
+                                                 {"first_lower", 0.035},
+                                                 {"first_upper", 0.14},
+                                                 {"total", 0.14},
+                                                 {"total_lower", 0.07},
+                                                 {"total_upper", 0.28}});
+  folder.write(campaign_file, json.dump()); // then it is a campaign's results
+  CHECK_FALSE(is_study_folder(folder.path()));
+}
+
+TEST_CASE("a folder of a rare event is a set with its levels, strata and likeliest run", "[page]") {
+  const Folder folder;
+  const Json study = rare_study();
+  folder.write(rare_json_file, study.dump());
+  CHECK(is_study_folder(folder.path()));
+  const auto set_of = [&](const Json& json) {
+    folder.write(rare_json_file, json.dump());
+    return study_sets_json(folder.path(), "r").at(0);
+  };
+  const Json set = set_of(study), &rare = set["rare"];
+  CHECK((set["label"] == "r" && set["seed"] == "3" && set["hash"] == "h"));
+  CHECK((set["margin"].is_null() && set["sensitivity"].is_null() && set["wing"].is_null()));
+  for (const char* key :
+       {"beyond", "case", "confidence", "probability", "lower", "upper", "reached", "warnings"}) {
+    CAPTURE(key);
+    CHECK(rare[key] == study[key]);
+  }
+  CHECK(rare["text"] == "not deployed");
+  CHECK(rare["levels"] == parse_json(R"([ { "threshold": 3.5, "probability": 0.5 },
+                                          { "threshold": 0, "probability": 0.0625 } ])"));
+  // by their parts of the sum: 2.5e-4 at most, 1e-5, 9e-7
+  CHECK(rare["strata"] == parse_json(R"([
+    { "text": "a = 1, b = 9000", "probability": 1e-3, "event": 0.25, "reached": false },
+    { "text": "c = 0.5", "probability": 1e-5, "event": 1.0, "reached": true },
+    { "text": "no rare value", "probability": 0.9, "event": 1e-6, "reached": true } ])"));
+  CHECK(rare["likeliest"] == parse_json(R"({ "distance": 4.5, "draws": [
+    { "name": "b", "value": 2, "z": -4.0 }, { "name": "c", "value": 3, "z": 2.0 },
+    { "name": "a", "value": 1, "z": 0.5 } ] })"));
+
+  Json many = study;
+  for (int k = 0; k < 20; ++k)
+    many["strata"].push_back({{"rare_values", {{"k", k}}},
+                              {"probability", 1e-4},
+                              {"event", 0.01 * k},
+                              {"upper", 1},
+                              {"reached", true}});
+  const Json shown = set_of(many)["rare"]["strata"];
+  REQUIRE(shown.size() == 12);
+  CHECK(shown[1]["text"] == "k = 19");
+  CHECK(shown[9]["text"] == "k = 11"); // then k = 10, and c with as large a part
+  many["strata"] = many["likeliest"] = nullptr;
+  many["repeats"] = Json::array();
+  const Json little = set_of(many)["rare"];
+  CHECK((little["strata"].empty() && little["levels"].empty() && little["likeliest"].is_null()));
+  for (const char* pointer :
+       {"/event", "/probability", "/lower", "/upper", "/reached", "/repeats", "/repeats/0/levels",
+        "/repeats/0/levels/1/share", "/repeats/0/levels/1/threshold", "/strata/1/rare_values",
+        "/strata/1/probability", "/strata/1/upper", "/strata/1/reached", "/likeliest",
+        "/likeliest/distance", "/likeliest/draws", "/likeliest/z", "/likeliest/z/b"}) {
+    CAPTURE(pointer);
+    CHECK_THAT(message_of([&] {
+                 return set_of(spoil(study, {pointer, "", ""}));
+               }),
+               Catch::Contains("expected unchanged files"));
+  }
+}
+
+TEST_CASE("a key that a margin study lacks is refused by its folder, but one of later versions",
+          "[page]") {
+  const Folder folder;
+  const Json study = parse_json(R"({ "scene": "wing", "searches": [ { "name": "joint",
+    "window": { "lower": { "scale": 0.9, "range_end": false },
+                "upper": { "scale": 2, "range_end": true } },
+    "recommended": { "scale": 1.2, "as_good": { "from": 1.1, "to": 1.3 } }, "why_none": null } ] })");
+  folder.write(margin_csv_file, "search,scale,case,runs,requirement,verdict,broken\n"
+                                "joint,1,nominal,100,A,pass,1\n");
+  const auto set_of = [&](const Json& json) {
+    folder.write(margin_json_file, json.dump());
+    return study_sets_json(folder.path(), "m").at(0);
+  };
+  CHECK(set_of(study)["margin"]["window"] == Json{0.9, nullptr});
+  for (const char* pointer :
+       {"/searches", "/searches/0/name", "/searches/0/window", "/searches/0/window/lower",
+        "/searches/0/window/upper", "/searches/0/window/lower/scale",
+        "/searches/0/window/lower/range_end", "/searches/0/recommended",
+        "/searches/0/recommended/scale", "/searches/0/recommended/as_good/from",
+        "/searches/0/recommended/as_good/to", "/searches/0/why_none"}) {
+    CAPTURE(pointer);
+    const std::string said = message_of([&] { return set_of(spoil(study, {pointer, "", ""})); });
+    CHECK_THAT(said, Catch::StartsWith(folder.path().string() + ": ") &&
+                         Catch::Contains("expected unchanged files"));
+  }
+  CHECK(set_of(spoil(study, {"/searches/0/recommended/as_good", "", ""}))["margin"]["as_good"]
+            .is_null());
+}
