@@ -28,7 +28,6 @@ std::vector<double> BatchLog::next(std::size_t size,
     if (in_->next() && in_->record().size() == size * sizeof(double)) {
       std::vector<double> results(size);
       std::memcpy(results.data(), in_->record().data(), in_->record().size());
-      ++read_;
       return results;
     }
     in_.reset();

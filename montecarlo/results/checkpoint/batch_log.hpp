@@ -26,8 +26,6 @@ public:
   [[nodiscard]] std::vector<double> next(std::size_t size,
                                          const std::function<std::vector<double>()>& make);
   void sync();
-  /// Batches taken from the file.
-  [[nodiscard]] long read() const { return read_; }
 
 private:
   using Clock = std::chrono::steady_clock;
@@ -36,7 +34,6 @@ private:
   std::optional<RecordReader> in_; ///< while recorded batches are left
   std::optional<RecordWriter> out_;
   Clock::time_point synced_ = Clock::now();
-  long read_ = 0;
 };
 
 } // namespace wingspread
