@@ -175,6 +175,26 @@ TEST_CASE("clock and sensor offsets, an unknown noise and parameters of one test
   CHECK(result.channels[0].rms * 180 / M_PI == Approx(0.3).epsilon(0.25)); // 81 numbers: 4 sd
 }
 
+TEST_CASE(
+    "of two modes the study tells how far apart they are, and how much less the lower is worth") {
+  const Campaign campaign = campaign_of(two_mode_campaign(0.1, 0.5));
+  const FitSpec spec = read_fit(two_mode_test(), "", ".", campaign);
+  const FitResult result = fitted(campaign, spec);
+  REQUIRE(result.finished);
+  REQUIRE(result.mode_distances.size() == 1);
+  REQUIRE(result.mode_drops.size() == 1);
+  const double latch_rate = std::sqrt(2 + 0.8 * 0.8), slope = 0.8 / latch_rate;
+  const double sd = 1 / std::hypot(1 / 0.5, slope / 0.01); // of the initial rate, by the test
+  CHECK(result.mode_distances[0] == Approx(1.6 / sd).epsilon(5e-3));
+  CHECK(result.mode_drops[0] == Approx((1.8 * 1.8 - 1.4 * 1.4) / 2).margin(5e-3));
+  CHECK(result.parameters.at(0).mode == Approx(0.8).epsilon(2e-3));
+  long below = 0;
+  for (const std::vector<double>& row : result.rows) below += row[0] < 0;
+  const double share = 1 / (1 + std::exp(0.64)); // of the lower mode
+  CHECK(static_cast<double>(below) / static_cast<double>(result.rows.size()) ==
+        Approx(share).margin(4.5 * std::sqrt(share * (1 - share) / 400)));
+}
+
 TEST_CASE("a trace of another motion is told first") {
   const Folder folder;
   std::string wrong = "t,th\n";

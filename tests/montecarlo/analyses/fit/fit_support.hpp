@@ -71,4 +71,27 @@ inline constexpr const char* one_way = R"({ "tests": [ { "name": "one way",
                "columns": { "root.angle": { "column": "th", "std": 0.005 } } } } ],
   "fit": { "parameters": ["spring", "friction"], "samples": 800, "starts": 2 } })";
 
+/// The panel without friction, and with an initial rate of mean ± std. Its rate at the latch is the same for both senses
+/// of the initial rate, so that a measured one has two modes.
+inline Json two_mode_campaign(double mean, double std) {
+  Json campaign = panel_campaign();
+  campaign["scene"]["hinges"][0].erase("friction");
+  campaign["dispersions"] = {{{"name", "rate"},
+                              {"distribution", {{"type", "normal"}, {"mean", mean}, {"std", std}}},
+                              {"apply", "set"},
+                              {"to", {"hinges.root.initial_rate"}}}};
+  campaign["outputs"] = {"latch_time", "latch_rate"};
+  return campaign;
+}
+
+/// The test that measures the rate at the latch of an initial rate of ±0.8 rad/s.
+inline Json two_mode_test() {
+  Json tests = parse_json(R"({ "tests": [ { "name": "film",
+      "values": [ { "output": "root.latch_rate", "value": 0, "std": 0.01 } ] } ],
+    "fit": { "parameters": ["rate"], "samples": 400, "starts": 9 } })");
+  tests["tests"][0]["values"][0]["value"] =
+      -std::sqrt(2 * panel_torque / panel_inertia * panel_travel + 0.8 * 0.8);
+  return tests;
+}
+
 } // namespace wingspread::test

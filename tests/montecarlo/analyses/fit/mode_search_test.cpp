@@ -88,6 +88,52 @@ TEST_CASE("Laplace's approximation of one torque from one latch time is Bayes' r
   CHECK(std::abs(std::log(2 * s) - std::log(2 * (1 + mean))) < 1e-4);
 }
 
+TEST_CASE("starts that lead to one mode find it once, whichever start is the first") {
+  const Campaign campaign = campaign_of(panel_campaign());
+  const FitSpec spec = fit_of_time_and_friction(campaign);
+  const ParameterSpace space(campaign, spec);
+  ThreadEvaluator evaluator({.threads = 2}, never);
+  TestRuns runs(spec.tests, spec.parameters, space, evaluator);
+  const FitData data = data_of(spec.tests);
+  const auto point = [](double spring, double friction) {
+    FitPoint at(2);
+    at << spring, friction;
+    return at;
+  };
+  const FitMode alone = find_modes(data, runs, std::vector{point(0, 0)}).front();
+  const FitPoint stalls = point(0, 20); // its mode is itself: no run near it latches
+  for (const auto& starts : {std::vector{point(0, 0), point(1, -1), point(-2, 0.5)},
+                             {point(-2, 0.5), stalls, point(1, -1), point(0, 0)}}) {
+    const std::vector<FitMode> modes = find_modes(data, runs, starts);
+    REQUIRE(modes.size() == 1);
+    CHECK(distance_of(alone, modes[0]) < 1e-3);
+    CHECK(modes[0].log_posterior == Approx(alone.log_posterior).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("two modes are found, the higher one first; one of 30 nats less is none") {
+  const auto modes_of = [](double mean, double std) {
+    const Campaign campaign = campaign_of(two_mode_campaign(mean, std));
+    const FitSpec spec = read_fit(two_mode_test(), "", ".", campaign);
+    const ParameterSpace space(campaign, spec);
+    ThreadEvaluator evaluator({.threads = 2}, never);
+    TestRuns runs(spec.tests, spec.parameters, space, evaluator);
+    std::vector<FitPoint> starts;
+    for (const double rate : {-0.7, 0.75, -0.85, 0.9})
+      starts.push_back(FitPoint::Constant(1, (rate - mean) / std));
+    return find_modes(data_of(spec.tests), runs, starts);
+  };
+  const std::vector<FitMode> modes = modes_of(0.1, 0.5);
+  REQUIRE(modes.size() == 2);
+  CHECK(modes[0].at[0] == Approx(0.7 / 0.5).epsilon(2e-3));
+  CHECK(modes[1].at[0] == Approx(-0.9 / 0.5).epsilon(2e-3));
+  // the priors' difference, less what the modes give way by
+  CHECK(modes[0].log_posterior - modes[1].log_posterior ==
+        Approx((1.8 * 1.8 - 1.4 * 1.4) / 2).margin(5e-3));
+  CHECK(modes_of(0.18, 0.1).size() == 2); // (9.8² − 6.2²)/2 = 28.8 nats
+  CHECK(modes_of(0.2, 0.1).size() == 1);  // (10² − 6²)/2 = 32 nats
+}
+
 TEST_CASE("starts: the prior's median, then points of a design") {
   const auto points = first_points(3, 9, 1);
   REQUIRE(points.size() == 9);
