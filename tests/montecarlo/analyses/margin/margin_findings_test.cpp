@@ -182,6 +182,16 @@ TEST_CASE("a warning of open latches, or of a cut peak, names the scale with mos
   CHECK(found().scale == 0.8);
   cut(4, 5);
   CHECK((found().scale == 4 && found().cut == 5));
+  for (const double scale : {0.5, 0.8, 1.5, 4.0}) cut(scale, 3);
+  CHECK(found().cut == 0);
+  search.recommended =
+      1.5; // there and at the present springs a cut peak is told whatever it decides
+  CHECK((found().scale == 1.5 && found().cut == 3));
+  search.seen[1] = scale_with(0, 0);
+  cut(1, 2);
+  CHECK(found().scale == 1.5);
+  search.recommended.reset();
+  CHECK((found().scale == 1 && found().cut == 2));
 }
 
 TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {

@@ -163,6 +163,10 @@ TEST_CASE(
   CHECK(prints(text, "searched from 0.5 to 2, extended to 0.4 … 2 to find the edges"));
   CHECK(prints(text, "40 of 1000 runs break it, 12 allowed t_end cut the peak in 3 of them"));
   CHECK(prints(text, "up to 50 % apart (1 and 1.5)"));
+  search.seen.at(1.75)[0].verdicts[1].cut = 1;
+  CHECK(prints(margin_text({campaign, result, {}}), "t_end cut the peak in 1 of them"));
+  search.seen.at(1.75)[0].verdicts[1].cut = 0;
+  CHECK_FALSE(prints(margin_text({campaign, result, {}}), "t_end cut the peak"));
   const std::string rows = text.substr(text.find("\nSCALE"));
   CHECK(words_after(rows, "SCALE")[1] == "95");
   for (const auto& [scale, cases] : search.seen) {

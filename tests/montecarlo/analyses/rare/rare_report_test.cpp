@@ -131,6 +131,24 @@ TEST_CASE("unphysical draws are among the warnings, of the file as of the termin
   CHECK(rare_json(result, {}, campaign_with(1), {})["warnings"] == Json(said));
 }
 
+TEST_CASE("one unphysical draw, one cut peak and one open latch are doubts, and none is not",
+          "[rare]") {
+  for (const long count : {0L, 1L}) {
+    RareResult result = result_of({repeat_of(true)});
+    result.statuses[static_cast<std::size_t>(Status::invalid)] = count;
+    result.cut = result.open_latches = count;
+    CAPTURE(count);
+    const std::vector<std::string> said = doubts_of(result);
+    REQUIRE(std::ssize(said) == 3 * count);
+    CHECK(has(rare_text(result, {}, campaign_with(1)), "t_end cut the peak in 1 of 2000 runs") ==
+          (count > 0));
+    if (count == 0) continue;
+    CHECK(said[0].starts_with("1 of 2000 runs have an unphysical draw"));
+    CHECK(said[1].starts_with("t_end cut the peak in 1 of 2000 runs"));
+    CHECK(said[2] == warn_of_open_latches(1, 2000));
+  }
+}
+
 TEST_CASE("the text of an event that is not rare counts, and has no bias", "[rare]") {
   RareResult result = result_of({repeat_of(true)});
   result.estimate.reached = result.estimate.plain = true;

@@ -163,6 +163,31 @@ TEST_CASE("strata share all probability, and are one without rare values", "[rar
   CHECK(describe(strata(doubled).list[1]) == "e = 1.5");
 }
 
+TEST_CASE(
+    "strata fall in probability, and one that is too improbable is left out, also the only one",
+    "[rare]") {
+  Json json = lid();
+  json["dispersions"] = {discrete_law("d", {1, 1.001, 1.002, 1.003}, {0.994, 1e-4, 5e-3, 9e-4},
+                                      "scale", "bodies.lid.inertia")};
+  const auto strata = [&](double smallest) {
+    return strata_of(campaign_of(json), {.samples = 2000, .smallest = smallest});
+  };
+  const Strata all = strata(1e-10);
+  REQUIRE(all.list.size() == 4);
+  CHECK(describe(all.list[0]) == "no rare value");
+  CHECK(describe(all.list[1]) == "d = 1.002");
+  CHECK(describe(all.list[2]) == "d = 1.003");
+  CHECK(describe(all.list[3]) == "d = 1.001");
+  CHECK(all.left_out == 0);
+  for (const auto& [smallest, left, left_out] :
+       {std::tuple{5e-4, 3, 1e-4}, {2e-3, 2, 1e-3}, {2e-2, 1, 6e-3}}) {
+    const Strata some = strata(smallest);
+    CHECK(std::ssize(some.list) == left);
+    CHECK(some.left_out == Approx(left_out).epsilon(1e-9));
+    CHECK(sum_of_probabilities(some) == Approx(1).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("draws of a stratum have its value, and correlated draws their conditional law",
           "[rare]") {
   constexpr double p = 1e-4, rho = 0.7;
@@ -238,6 +263,25 @@ TEST_CASE("the report of strata has each one's probability, and the sum", "[rare
   CHECK(json["strata"][1]["probability"].get<double>() == Approx(1e-5));
   CHECK(json["strata"][1]["event"] == 1);
   CHECK(json["warnings"].empty());
+}
+
+TEST_CASE("the progress over strata never runs backwards nor beyond the end", "[rare]") {
+  Json json = rare_values(2, 1e-3);
+  json["dispersions"].push_back(normal_law("s", 1, 0.05, "scale", "hinges.h.spring.scale"));
+  ThreadEvaluator evaluator({.threads = 1}, never);
+  StudyProgress last;
+  double share = 0;
+  const RareResult result = estimate_rare_event(
+      campaign_of(json), {.event = {"h.latch_time", 1.7, true}, .samples = 200, .repeats = 2},
+      evaluator, [&](const StudyProgress& now) {
+        CHECK(now.runs <= now.most_runs);
+        const double its = static_cast<double>(now.runs) / static_cast<double>(now.most_runs);
+        CHECK(its >= share);
+        share = its;
+        last = now;
+      });
+  CHECK(result.strata.size() == 4);
+  CHECK(last.runs == result.estimate.evaluations);
 }
 
 TEST_CASE("levels of common draws end where all strata add less than a thousandth to the sum",

@@ -4,8 +4,10 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 using namespace wingspread;
 
@@ -111,6 +113,61 @@ TEST_CASE("a target with a wall keeps its walkers inside, and a mixture is norma
        {0, Eigen::VectorXd::Constant(1, 1), Eigen::MatrixXd::Constant(1, 1, 1)}});
   const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, 0.3);
   CHECK(twice.log_density(x) == Approx(proposal.log_density(x)));
+}
+
+TEST_CASE("draws of a mixture have its density, up to a constant, part by part") {
+  constexpr int draws = 20000;
+  RandomStream random(1, 0, stream_name("mixture"));
+  const auto uniform = [&] { return open_uniform(random()); };
+  /// The integral of f from a to b.
+  const auto integral = [](double a, double b, const auto& f) {
+    constexpr int cells = 5000;
+    double sum = 0;
+    for (int c = 0; c < cells; ++c) sum += f(a + (c + 0.5) * (b - a) / cells) * (b - a) / cells;
+    return sum;
+  };
+  const auto check_share = [](long count, double share) {
+    CHECK(static_cast<double>(count) / draws ==
+          Approx(share).margin(4.5 * std::sqrt(share * (1 - share) / draws)));
+  };
+  // One coordinate: parts of their own weights and widths, by intervals.
+  const auto at = [](double x) { return Eigen::VectorXd(Eigen::VectorXd::Constant(1, x)); };
+  const auto wide = [](double std) {
+    return Eigen::MatrixXd(Eigen::MatrixXd::Constant(1, 1, std * std));
+  };
+  const StudentMixture line({{std::log(0.2), at(-5), wide(0.5)},
+                             {std::log(0.5), at(0), wide(1)},
+                             {std::log(0.3), at(7), wide(0.1)}});
+  const std::vector<double> edges{-60, -5.5, -5,  -4, -1.5, -0.5, 0, 0.5,
+                                  1,   3,    6.8, 7,  7.05, 7.3,  60};
+  std::vector<double> x;
+  for (int k = 0; k < draws; ++k) x.push_back(line.draw(uniform)[0]);
+  std::vector<double> shares;
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    shares.push_back(integral(edges[i - 1], edges[i],
+                              [&](double y) { return std::exp(line.log_density(at(y))); }));
+  const double whole = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    CAPTURE(edges[i]);
+    check_share(
+        std::ranges::count_if(x, [&](double y) { return edges[i - 1] < y && y <= edges[i]; }),
+        shares[i - 1] / whole);
+  }
+  // Four coordinates, by balls: the area of a sphere is 2π² r³.
+  const Eigen::VectorXd origin = Eigen::VectorXd::Zero(4);
+  const StudentMixture ball({{0, origin, Eigen::MatrixXd::Identity(4, 4)}});
+  std::vector<double> radii;
+  for (int k = 0; k < draws; ++k) radii.push_back(ball.draw(uniform).norm());
+  const auto within = [&](double radius) {
+    return integral(0, radius, [&](double r) {
+      return r * r * r * std::exp(ball.log_density(Eigen::Vector4d{0, 0, r, 0}));
+    });
+  };
+  for (const double radius : {0.8, 1.5, 2.0, 3.0, 5.0}) {
+    CAPTURE(radius);
+    check_share(std::ranges::count_if(radii, [&](double r) { return r < radius; }),
+                within(radius) / within(60));
+  }
 }
 
 TEST_CASE("too few evaluations: not finished") {

@@ -90,6 +90,23 @@ TEST_CASE("inputs of one quantity move together where they act alike, and alone 
         std::vector<std::string>{"mass.panel_2"});
 }
 
+TEST_CASE("of the levers at most so many are named, those that come first", "[needed]") {
+  const Campaign campaign = limited_campaign();
+  const Results results = rows_with(campaign, [](const std::vector<double>& x) {
+    return 9 + 0.2 * (x[1] + x[2] + x[3] - 30) - 4 * (x[0] - 1) - 0.04 * (x[4] - 20);
+  });
+  const LeverChanges all = levers_found(campaign, results);
+  REQUIRE(all.levers.size() == 3);
+  const Verdict verdict = judge(campaign.requirements.front(), results);
+  for (const std::size_t most : {0, 1, 2, 3, 4}) {
+    const auto some = lever_changes(NeededFor::limit, campaign, verdict, results, {}, 0.95, most);
+    REQUIRE(some);
+    REQUIRE(some->levers.size() == std::min<std::size_t>(most, 3));
+    for (std::size_t k = 0; k < some->levers.size(); ++k)
+      CHECK(some->levers[k].lever.words == all.levers[k].lever.words);
+  }
+}
+
 TEST_CASE("a shift is small or large against half of the range drawn, where the mean is about 0",
           "[needed]") {
   int telling = 0; // against the whole range the shift would seem smaller than the factor

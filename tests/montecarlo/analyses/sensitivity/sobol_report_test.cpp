@@ -66,6 +66,27 @@ TEST_CASE("an output without indices, and bounds that there are not, are told of
   CHECK_THAT(said[1], Catch::Contains("\"deployment_time\"") && Catch::Contains("no indices"));
 }
 
+TEST_CASE("one point without a value, one cut peak and one open latch are told, and none is not") {
+  for (const bool one : {false, true}) {
+    SobolSensitivity all{64, 256, 256, "random", {.resamples = 50}, {"a"}, {}};
+    SobolIndices indices{64, one ? 1 : 0, 12.5, 0.75, {}};
+    indices.effects = {{{0.5, {}}, {0.5, {}}, false}};
+    all.outputs.push_back({"root.peak_moment", indices, one ? 1 : 0});
+    all.open_latches = one ? 1 : 0;
+    CAPTURE(one);
+    const std::vector<std::string> said = warnings(all);
+    REQUIRE(said.size() == (one ? 3 : 0));
+    const std::string table = sensitivity_table(all, "t");
+    CHECK((table.find(" · 1 with a missing value") != std::string::npos) == one);
+    CHECK((table.find(" · 1 cut by t_end") != std::string::npos) == one);
+    if (!one) continue;
+    CHECK_THAT(said[0],
+               Catch::StartsWith("in 1 of 256 runs t_end cut the peaks of \"root.peak_moment\""));
+    CHECK(said[1] == warn_of_open_latches(1, 256));
+    CHECK_THAT(said[2], Catch::StartsWith("no indices of \"root.peak_moment\""));
+  }
+}
+
 TEST_CASE("the short table has shares of the variance") {
   SobolSensitivity all;
   all.dispersions = {"a", "b", "c"};

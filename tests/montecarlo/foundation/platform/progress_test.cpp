@@ -58,3 +58,15 @@ TEST_CASE("a study's line says which analysis is under way, and that its totals 
 TEST_CASE("no line goes beyond the end") {
   CHECK(progress_line({.done = 12, .total = 10}, 0).starts_with("████████████████████████ 12/10"));
 }
+
+TEST_CASE("a single run that did not deploy is in sight, and none is no word") {
+  const auto has = [](const RunCounts& tally, const char* words) {
+    return progress_line(tally, 1).find(words) != std::string::npos;
+  };
+  for (const long count : {0L, 1L}) {
+    CHECK(has({.done = 24, .total = 24, .stalled = count}, "stalled") == (count > 0));
+    CHECK(has({.done = 24, .total = 24, .timed_out = count}, "timed out") == (count > 0));
+    CHECK(has({.done = 24, .total = 24, .invalid = count}, "invalid") == (count > 0));
+    CHECK(has({.done = 24, .total = 24, .failed = count}, "failed") == (count > 0));
+  }
+}
