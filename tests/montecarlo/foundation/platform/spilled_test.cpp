@@ -2,6 +2,8 @@
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
+#include <sys/wait.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -52,6 +54,28 @@ public:
 private:
   std::string before_;
 };
+
+/// Whether a long column holds its numbers in a process that may open no further file.
+/// @param may_raise whether the process may raise that limit by itself
+/// @return 0: it does; 1: it says that too many files are open; else something else happened
+int fill_without_files(bool may_raise) {
+  const pid_t process = fork();
+  if (process == 0) {
+    rlimit files{};
+    const int next = dup(0);
+    close(next);
+    getrlimit(RLIMIT_NOFILE, &files);
+    files.rlim_cur = static_cast<rlim_t>(next);
+    if (!may_raise) files.rlim_max = files.rlim_cur;
+    if (setrlimit(RLIMIT_NOFILE, &files) != 0) _exit(3);
+    const std::string message = message_of([&] { return counts(counting(2 * window)); });
+    if (message.empty()) _exit(0);
+    _exit(message.find("Too many open files") != std::string::npos ? 1 : 2);
+  }
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
 
 } // namespace
 
@@ -131,4 +155,10 @@ TEST_CASE("where there is no room for a long column, the folder is named, and ho
   CHECK(message_of([] { return counting(window + 1).size(); }) ==
         missing + ": found No such file or directory, expected room for temporary data (TMPDIR "
                   "names another folder)");
+}
+
+TEST_CASE(
+    "where no more files may be open, a column raises that limit, or says that it could not") {
+  CHECK(fill_without_files(true) == 0);
+  CHECK(fill_without_files(false) == 1);
 }

@@ -1,5 +1,6 @@
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/scene_file/scene_json.hpp"
+#include "montecarlo/model/schema/schema.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -368,4 +369,26 @@ TEST_CASE("An extended campaign's looks are its own, and none of another seed's"
   document["until"] = parse_json(R"([{ "output": "stalled", "width": 0.01 }])");
   CHECK_THAT(test::message_of([&] { return read(document); }),
              Catch::StartsWith("/until: found goals to stop at") && Catch::Contains("extended"));
+}
+
+TEST_CASE("a scene or a dispersion with a problem of its own causes no other one in the campaign") {
+  const auto lines = [](const Json& campaign) {
+    std::istringstream said(test::message_of([&] { return read_campaign(campaign.dump(), ""); }));
+    std::vector<std::string> found;
+    for (std::string line; std::getline(said, line);) found.push_back(line);
+    return found;
+  };
+  for (const Json& campaign : campaign_specimens()) {
+    if (!lines(campaign).empty()) continue; // it names files that are not there
+    CAPTURE(campaign.dump().substr(0, 200));
+    Json spoilt = campaign;
+    spoilt["scene"]["bodies"][0]["mass"] = "heavy";
+    CHECK_THAT(lines(spoilt).at(0), Catch::StartsWith("/scene/bodies/0/mass: "));
+    CHECK(lines(spoilt).size() == 1);
+    if (!campaign.contains("dispersions") || campaign["dispersions"].empty()) continue;
+    spoilt = campaign;
+    spoilt["dispersions"][0]["to_"] = 1;
+    CHECK_THAT(lines(spoilt).at(0), Catch::StartsWith("/dispersions/0/to_: "));
+    CHECK(lines(spoilt).size() == 1);
+  }
 }

@@ -97,8 +97,12 @@ TEST_CASE("Names are not looked up in dispersions that have problems of their ow
           "[correlations]") {
   Json campaign = with_correlations(list({pair("spring", "no", 0.5)}));
   campaign["dispersions"][0]["apply"] = "times";
-  CHECK(test::message_of([&] { return read_campaign(campaign.dump(), ""); }) ==
-        "/dispersions/0/apply: found string \"times\", expected \"set\", \"scale\" or \"add\"");
+  const std::string own =
+      "/dispersions/0/apply: found string \"times\", expected \"set\", \"scale\" or \"add\"";
+  CHECK(test::message_of([&] { return read_campaign(campaign.dump(), ""); }) == own);
+  campaign["correlations"] =
+      parse_json(R"([{"between": ["spring", "mass.inner"], "covariance": 0.001}])");
+  CHECK(test::message_of([&] { return read_campaign(campaign.dump(), ""); }) == own);
 }
 
 // The nearest matrix by numpy 1.24 (20,000 projections), its smallest eigenvalue 3e-4, as

@@ -163,3 +163,20 @@ TEST_CASE("A torque is written as it was given", "[torque_json]") {
   CHECK(written[1]["spring"].dump() ==
         R"({"torque_stowed":1.0,"torque_latched":0.5,"offset":0.125})");
 }
+
+TEST_CASE("A table beside an angle that is missing is not held against a sense that nobody gave",
+          "[torque_json]") {
+  Json document = test::real_scene(); // it goes down, and would go up to an angle of 0
+  Json& hinge = document["hinges"][1];
+  hinge["spring"] = parse_json(R"({ "table": { "angle": [-3, -4, -5], "torque": [2, 1.5, 1] } })");
+  hinge["angle"]["latched"] = -5;
+  CHECK(test::message_of([&] { return read_scene(document); }).empty());
+  for (const char* missing : {"stowed", "latched"}) {
+    Json spoilt = document;
+    spoilt["hinges"][1]["angle"].erase(missing);
+    const std::string message = test::message_of([&] { return read_scene(spoilt); });
+    CAPTURE(message);
+    CHECK(message.starts_with(std::string("/hinges/1/angle/") + missing + ": "));
+    CHECK(message.find('\n') == std::string::npos);
+  }
+}

@@ -9,6 +9,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <set>
 #include <string>
 
 using namespace wingspread;
@@ -98,6 +100,22 @@ TEST_CASE("the same design gives the same bytes, and each kind of line is explai
   CHECK(starter.page.find("    wingspread new --wings 2\n") != std::string::npos);
 }
 
+TEST_CASE("each note of a new wing's page stands once, though its lines are alike") {
+  for (const int panels : {1, 2, 4}) {
+    WingDesign design;
+    design.panels = panels, design.yoke = true, design.wings = 2;
+    const std::string page = make_starter(design, "wingspread new").page;
+    std::set<std::string> notes;
+    for (std::size_t at = page.find("` | "); at != std::string::npos;
+         at = page.find("` | ", at + 1)) {
+      const std::string note = page.substr(at + 4, page.find('\n', at) - at - 4);
+      CAPTURE(panels, note);
+      CHECK(notes.insert(note).second);
+    }
+    CHECK(notes.size() > 20);
+  }
+}
+
 TEST_CASE("new wings without friction, cables and dampers have final peaks") {
   for (const int panels : {1, 3}) {
     WingDesign design;
@@ -120,6 +138,37 @@ TEST_CASE("a damper of a new wing about doubles its time") {
   const double ratio = time_of(suggested) / time_of(0);
   CHECK(ratio > 1.4);
   CHECK(ratio < 3);
+}
+
+TEST_CASE("the suggested damper takes the mean torque at the mean rate of the root without it") {
+  const double pi = std::acos(-1);
+  WingDesign design; // its torques at the latch have two digits, so that no number is rounded
+  design.root_spring = 2, design.spring = 1, design.harness = 0.4, design.friction = 0.03;
+  for (const auto& [panels, yoke, wings] :
+       {std::tuple{1, false, 1}, {3, false, 1}, {2, true, 1}, {2, false, 2}}) {
+    design.panels = panels, design.yoke = yoke, design.wings = wings;
+    design.damper = 0;
+    const Scene scene = scene_of(design);
+    double torque = 0; // of one wing; the other hinges turn by twice the root's angle
+    const std::size_t count = scene.hinges.size() / static_cast<std::size_t>(wings);
+    for (std::size_t h = 0; h < count; ++h) {
+      const Hinge& hinge = scene.hinges[h];
+      CHECK(hinge.harness.torque_stowed < hinge.harness.torque_latched);
+      torque += (h == 0 ? 1 : 2) * (hinge.spring.torque_stowed + hinge.spring.torque_latched -
+                                    hinge.harness.torque_stowed - hinge.harness.torque_latched -
+                                    2 * hinge.friction.coulomb);
+    }
+    Integration integration;
+    integration.t_end = latest_end;
+    const double time = Deployment().run(scene, integration, {}).latches.back().time;
+    CAPTURE(panels, yoke, wings);
+    CHECK(suggested_damper(design) == two_digits(torque / 2 * time / (pi / 2)));
+    const double suggested = suggested_damper(design);
+    design.damper = 7; // is for the user to give, and no part of the suggestion
+    CHECK(suggested_damper(design) == suggested);
+  }
+  design.harness = 4;
+  CHECK(suggested_damper(design) == 0); // the wing does not deploy
 }
 
 TEST_CASE("a wing that does not deploy is written, and said to stall") {

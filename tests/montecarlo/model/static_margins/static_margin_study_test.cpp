@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -60,6 +61,32 @@ TEST_CASE("dispersed margins are those of the draws, with the worst of them", "[
   CHECK(spread.share_short == 1);
   CHECK(root.worst_spread[1].least <= spread.least);
   CHECK(root.worst_spread[1].share_short == 1);
+}
+
+TEST_CASE("the worst draw is found wherever it is, be it the first", "[motorization]") {
+  std::array<int, 3> worst{};
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Campaign campaign = harnessed(3);
+    campaign.sampling.seed = seed;
+    const DriveMargins root = study_static_margins(campaign).drives.front();
+    const RunPlan plan(campaign);
+    std::pair<double, long> half_way{1e9, -1}, at_latch{1e9, -1}; // NASA; the least is at the latch
+    std::vector<double> draws(3);
+    for (long run = 0; run < 3; ++run) {
+      plan.draw(run, draws);
+      half_way = std::min(half_way, {1.1 * draws[0] / (3 * (0.8 + draws[1] + 0.075)) - 1, run});
+      at_latch = std::min(at_latch, {0.2 * draws[0] / (3 * (0.8 + draws[1] + 0.1)) - 1, run});
+    }
+    CAPTURE(seed);
+    CHECK(root.travel[2].spread[1].worst_run == half_way.second);
+    CHECK(root.travel[2].spread[1].least == Approx(half_way.first).epsilon(1e-12));
+    CHECK(root.worst_spread[1].worst_run == at_latch.second);
+    plan.draw(at_latch.second, draws);
+    CHECK(root.worst_draw[1]["spring"] == draws[0]);
+    CHECK(root.worst_draw[1]["friction"] == draws[1]);
+    ++worst[static_cast<std::size_t>(half_way.second)];
+  }
+  CHECK(std::ranges::min(worst) > 0);
 }
 
 TEST_CASE("draws that are unphysical have no margins, and are counted", "[motorization]") {
