@@ -67,6 +67,33 @@ TEST_CASE("the envelope of a single run is its motion in closed form, from the f
   CHECK(compared > 300);
 }
 
+TEST_CASE("without rows a run is known to its end, and then keeps its angles without a rate",
+          "[page]") {
+  Json json = panel_campaign();
+  json["sampling"]["runs"] = 1; // it ends at its latch
+  const auto source = made(json);
+  source->streaming = std::make_unique<StreamingStatistics>(
+      source->stored.campaign, RunPlan(source->stored.campaign).names(), source->results);
+  PageDetail detail;
+  detail.envelope_times = 109; // every hundredth of the latch time
+  const Json found = envelopes_json(*source, detail, 1);
+  const double spring = source->results.draws[0].values[0],
+               friction = source->results.draws[1].values[0];
+  const double latch = panel_latch_time(spring, friction);
+  const double acceleration = (panel_torque * spring - 0.3 * friction) / panel_inertia;
+  REQUIRE(found["t"].back().get<double>() == Approx(1.08 * latch).epsilon(1e-5));
+  const Json &angles = found["angles"][0], &rates = found["rates"][0];
+  for (const std::size_t level : {0, 3, 6})
+    for (std::size_t k = 90; k < 109; ++k) {
+      const double t = found["t"][k].get<double>();
+      if (k == 100) continue; // the latch itself, with rounding
+      CAPTURE(t);
+      CHECK(angles[level][k].get<double>() ==
+            Approx(k < 100 ? panel_angle(t, spring, friction) : 0).margin(1e-3));
+      CHECK(rates[level][k].get<double>() == Approx(k < 100 ? -acceleration * t : 0).margin(2e-3));
+    }
+}
+
 TEST_CASE("envelopes have at most so many runs, spread evenly, and a foreign set has none",
           "[page]") {
   const auto source = made(quick_campaign(30));

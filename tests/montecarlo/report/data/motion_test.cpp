@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 using namespace wingspread;
@@ -52,6 +54,23 @@ TEST_CASE("a ring has settled where the last quarter moves by less than a twenti
   // from the start of the last quarter on, the swing is 2 e^(−1.5 t) of 2: settled at ln 20 / 1.5
   CHECK(settled == Approx(std::log(20) / 1.5).epsilon(0.1));
   CHECK_FALSE(has_settled(samples, one, samples.back().t)); // nothing is after it
+}
+
+TEST_CASE("samples are kept by time, by turning and by changing moments, a third each", "[page]") {
+  // each of 3 s: the hinge turns by 1 rad, then its moment rises by 1000 N·m, then nothing happens
+  std::vector<MotionSample> samples;
+  for (int k = 0; k <= 3000; ++k) {
+    const double t = k * 1e-3;
+    samples.push_back({t, {std::min(t, 1.0), 0, 1000 * std::clamp(t - 1, 0.0, 1.0), 0, 0, 0}});
+  }
+  const std::vector<MotionSample> kept = resample(samples, one, 900);
+  CHECK(std::ssize(kept) == Approx(900).margin(3));
+  std::array<double, 3> in{};
+  for (const MotionSample& each : kept)
+    ++in[std::min<std::size_t>(2, static_cast<std::size_t>(each.t))];
+  CHECK(in[0] == Approx(900 * (1. / 9 + 1. / 3)).margin(3));
+  CHECK(in[1] == Approx(900 * (1. / 9 + 1. / 3)).margin(3));
+  CHECK(in[2] == Approx(900 * (1. / 9)).margin(3));
 }
 
 TEST_CASE("a run of many steps is thinned, and keeps its ends", "[page]") {

@@ -96,6 +96,26 @@ TEST_CASE("without requirements the largest peaks stand for the worst", "[page]"
   CHECK(failed[0].run == 0);
 }
 
+TEST_CASE("without rows the largest peaks are those that the statistics keep, with their runs",
+          "[page]") {
+  const auto rowless = [](const std::vector<Invented>& rows) {
+    auto source = invented(full_campaign(static_cast<int>(rows.size())), rows);
+    const ResultNames names = RunPlan(source->stored.campaign).names();
+    source->streaming =
+        std::make_unique<StreamingStatistics>(source->stored.campaign, names, source->results);
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      (void)source->streaming->add(source->results.row(row), {});
+    source->results = Results(names); // of a campaign without requirements none is kept
+    return names_of(chosen_runs(*source));
+  };
+  CHECK(
+      rowless({{Status::deployed, 5, 10}, {Status::deployed, 4, 30}, {Status::deployed, 6, 20}}) ==
+      std::vector<std::pair<std::string, long>>{{"largest root.peak_moment", 1},
+                                                {"largest root.peak_force", 0},
+                                                {"largest deployment_time", 2}});
+  CHECK(rowless({{Status::failed, nothing, nothing}, {Status::failed, nothing, nothing}}).empty());
+}
+
 TEST_CASE("motions are the runs made again, and the same on any number of threads", "[page]") {
   const auto source = made(quick_campaign(20));
   const Json motions = motions_json(*source, {}, 1);

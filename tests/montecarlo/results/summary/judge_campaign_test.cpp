@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -104,4 +106,46 @@ TEST_CASE("a run that did not deploy breaks a required margin, and one without r
 TEST_CASE("a campaign that requires no margin has no column of them", "[motorization]") {
   const Campaign campaign = campaign_of(one_panel_margin(100));
   CHECK(static_margin_columns(campaign, Results(RunPlan(campaign).names())).empty());
+}
+
+TEST_CASE("runs are one and the same where nothing varies and no result differs or is missing") {
+  Json json = one_panel_margin(100);
+  json.erase("margin");
+  const Campaign varied = campaign_of(json);
+  json.erase("dispersions");
+  const Campaign fixed = campaign_of(json);
+  const auto output = [](long count, double min, double max) {
+    OutputSummary made;
+    made.moments.count = count, made.missing = 4 - count;
+    made.moments.min = min, made.moments.max = max;
+    return made;
+  };
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto is_one = [&](const Campaign& campaign, long deployed, const OutputSummary& second,
+                          long runs = 4) {
+    Summary summary;
+    summary.runs = runs;
+    summary.statuses = {{Status::deployed, deployed, 0, {}},
+                        {Status::stalled, runs - deployed, 0, {}}};
+    summary.outputs = {output(4, 2, 2), second};
+    summary.requirements.resize(2);
+    for (Verdict& verdict : summary.requirements) verdict.guaranteed_share = 0.9;
+    summary.requirements[0].decision = Decision::pass;
+    summary.requirements[1].decision = Decision::fail;
+    withdraw_if_one_run(campaign, summary);
+    const bool one = summary.one_run;
+    const Verdict &passed = summary.requirements[0], &failed = summary.requirements[1];
+    CHECK(passed.one_run == one);
+    CHECK((passed.decision == (one ? Decision::undecided : Decision::pass)));
+    CHECK(std::isnan(passed.guaranteed_share) == one);
+    CHECK((!failed.one_run && failed.decision == Decision::fail && failed.guaranteed_share == 0.9));
+    return one;
+  };
+  CHECK(is_one(fixed, 4, output(4, 3, 3)));
+  CHECK(is_one(fixed, 0, output(0, none, none)));
+  CHECK_FALSE(is_one(fixed, 4, output(4, 3, 3.5)));
+  CHECK_FALSE(is_one(fixed, 4, output(3, 3, 3))); // one of the runs lacks it
+  CHECK_FALSE(is_one(fixed, 3, output(4, 3, 3)));
+  CHECK_FALSE(is_one(varied, 4, output(4, 3, 3)));
+  CHECK_FALSE(is_one(fixed, 0, output(4, 3, 3), 0));
 }
