@@ -52,6 +52,12 @@ TEST_CASE("a command line that makes no sense is refused") {
       {{"size", "--prob", "0.9", "--confidence", "0.9"},
        "error: found the unknown option \"--prob\", expected an option of wingspread size (did you "
        "mean \"--probability\"?)\nerror: see wingspread size --help\n"},
+      {{"version", "-x"},
+       "error: found the unknown option \"-x\", expected an option of wingspread version\n"
+       "error: see wingspread version --help\n"},
+      {{"version", "-"},
+       "error: found the argument \"-\", expected no further argument\n"
+       "error: see wingspread version --help\n"},
       {{"version", "now"},
        "error: found the argument \"now\", expected no further argument\n"
        "error: see wingspread version --help\n"},

@@ -114,6 +114,16 @@ TEST_CASE("the table of cases says of each whether its stopping goals were reach
   CHECK_THAT(one, !Catch::Contains("as_it_is"));
 }
 
+TEST_CASE("a campaign of one run is made, and one more run is added to it") {
+  const RunSetting setting(quick_campaign(20));
+  for (const char* runs : {"1", "2"}) {
+    CAPTURE(runs);
+    CHECK(setting.run(setting.out, {"--runs", runs, "--resume"}).code == 0);
+    const Results made = read_stored_results(read_stored_campaign(setting.out)).results;
+    CHECK(std::to_string(made.size()) == runs);
+  }
+}
+
 TEST_CASE("the number of runs and the seed can be given") {
   const RunSetting setting(quick_campaign(20));
   CHECK(setting.run(setting.out, {"--runs", "5", "--seed", "99"}).code == 0);

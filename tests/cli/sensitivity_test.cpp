@@ -41,6 +41,27 @@ TEST_CASE("sensitivity of a results folder: a table, two files, and JSON") {
   CHECK(lines_of(refused.error).size() == 2);
 }
 
+TEST_CASE(
+    "sensitivity of a results folder names the draws that are rows of one file, and no others") {
+  const Folder folder;
+  std::string posterior = "a,b\n";
+  for (int k = 0; k < 40; ++k)
+    posterior += std::to_string(1 + 0.001 * k) + ',' + std::to_string(1.1 - 0.002 * k) + '\n';
+  folder.write("posterior.csv", posterior);
+  Json json = quick_campaign(60);
+  json["dispersions"].push_back(parse_json(R"({ "name": "fitted", "rows": { "file": "posterior.csv",
+    "apply": "scale", "columns": { "a": "hinges.mid.spring.scale", "b": "hinges.tip.spring.scale" } } })"));
+  const std::string file = file_with(folder, json), path = folder.path() / "r";
+  REQUIRE(run_program(folder, {"run", file, "--out", path}).code == 0);
+  const Json found = parse_json(run_program(folder, {"sensitivity", path, "--json"}).out);
+  CHECK(found["rows"] == parse_json(R"({ "fitted": ["a", "b"] })"));
+  const auto warned = found["warnings"].get<std::vector<std::string>>();
+  CHECK(std::ranges::count_if(warned, [](const std::string& each) {
+          return each.find("\"a\", \"b\" are drawn together, as rows of \"fitted\"") !=
+                 std::string::npos;
+        }) == 1);
+}
+
 TEST_CASE("sensitivity of a campaign: the same for any threads, kept and gone on with") {
   const Folder folder;
   const std::string file = file_with(folder, quick_campaign(10)), out = folder.path() / "s";

@@ -1,5 +1,7 @@
+#include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/library/wingspread.hpp"
+#include "tests/montecarlo/analyses/fit/fit_support.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -174,6 +176,36 @@ TEST_CASE("a model's rows are deployments of their own, in lanes or alone", "[pa
   CHECK(of_end.evaluate(std::vector<double>{10}, at_end, 1));
   CHECK(at_end[0] >= 0);                                      // there is one
   CHECK(at_end[1] == Approx(nominal.angles[2]).margin(1e-9)); // latched at 0
+}
+
+TEST_CASE(
+    "a fit of the library is the study's own, with all runs that it needs unless told otherwise") {
+  const Folder folder;
+  const Json campaign = panel_campaign(0.01);
+  Json tests = parse_json(R"({ "tests": [ { "name": "timer",
+      "values": [ { "output": "root.latch_time", "value": 0, "std": "10 ms" } ] } ],
+    "fit": { "parameters": ["spring"], "samples": 1500, "starts": 2 } })");
+  tests["tests"][0]["values"][0]["value"] = panel_latch_time(1.01, 1);
+  const auto fit_with = [&](const api::FitRequest& request) {
+    return api::fit(as_input(campaign), as_input(tests), request);
+  };
+  const Campaign read = campaign_of(campaign);
+  const FitResult expected = fitted(read, read_fit(tests, "", ".", read));
+  const api::Fit fit = fit_with({});
+  CHECK((fit.finished && expected.finished));
+  REQUIRE(fit.posterior.size() == 1);
+  CHECK(fit.posterior[0].name == "spring");
+  REQUIRE(fit.posterior[0].values.size() == 1500);
+  for (std::size_t row = 0; row < 1500; ++row)
+    CHECK(fit.posterior[0].values[row] == expected.rows[row][0]);
+  CHECK(parse_json(fit.json)["parameters"].contains("spring"));
+  const api::Fit kept = fit_with({.out = folder.path() / "f", .threads = 2});
+  CHECK(kept.posterior[0].values == fit.posterior[0].values);
+  CHECK(read_text(folder.path() / "f" / "fit.json") == kept.json);
+  CHECK(fit_with({.seed = 9}).posterior[0].values != fit.posterior[0].values);
+  CHECK_FALSE(fit_with({.runs = 1}).finished);
+  const std::atomic<bool> now = true;
+  CHECK_THROWS_AS(fit_with({.stop = &now}), wingspread::Stopped);
 }
 
 TEST_CASE("what the library is asked and cannot do is refused with every problem") {
