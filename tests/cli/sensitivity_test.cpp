@@ -137,6 +137,12 @@ TEST_CASE("rare says how likely, by which levels, and whether counting would hav
   CHECK(run_program(folder, {"report", kept}).code == 0);
   CHECK(read_text(folder.path() / "rare" / "report.html").value().find("root.latch_time > 6") !=
         std::string::npos);
+  Json without = found;
+  without.erase("statuses"); // then no run is known to have failed
+  std::ofstream(folder.path() / "rare" / "rare.json") << without.dump();
+  const auto finished = with({"--out", kept, "--resume"});
+  CHECK(finished.code == 0);
+  CHECK_THAT(finished.error, Catch::Contains("finished already"));
 }
 
 TEST_CASE("rare names the case, the unit and the confidence, and so does its page", "[cases]") {

@@ -96,8 +96,8 @@ std::unique_ptr<StudyFolder> open_folder(const RareCommandOptions& given,
 /// Repeats the warnings of a study that an earlier session finished. @return the exit status
 int report_finished_rare(const Json& study) {
   warn(study.value("warnings", std::vector<std::string>{}));
-  return report_failed(study["statuses"].value("failed", 0L), study.value("runs", 0L),
-                       ", and count as the event");
+  return report_failed(study.value("statuses", Json::object()).value("failed", 0L),
+                       study.value("runs", 0L), ", and count as the event");
 }
 
 /// Keeps the checkpoint of an interrupted study. @return the exit status
