@@ -166,3 +166,30 @@ TEST_CASE("dampers, motors, loops and dissipating latches add their most to the 
   const double way = std::sqrt(2 * E / 6e3);
   CHECK(wing.bounds.moment[2] == Approx(6e3 * way * (1 + 0.4 * v2)));
 }
+
+TEST_CASE("a held hinge rests only if all that it carries does") {
+  // the root is held; of the two panels on its body one swings and the other is held, in either order
+  for (const bool first_swings : {true, false}) {
+    Scene scene = two_in_line(1.5, 0.7, 0.4);
+    scene.bodies.push_back({"other", 4, 0.2});
+    Hinge other = scene.hinges[1];
+    other.name = "other", other.child = 2;
+    scene.hinges.push_back(other);
+    const int held = first_swings ? 2 : 1;
+    scene.hinges[0].release = scene.hinges[held].release = Release{.fails = 1};
+    for (const bool all : {false, true}) {
+      if (all) scene.hinges[3 - held].release = Release{.fails = 1};
+      LatchedWing<> wing(scene);
+      for (int i = 1; i <= 3; ++i)
+        if (all || wing.wing.hinge_of[i] != 3 - held) wing.system.set_contact(i, Contact::held);
+      wing.remaining.prepare(wing.system), wing.bounds.prepare(wing.system);
+      wing.bounds.bound(wing.system, wing.remaining, {3., 3.});
+      CAPTURE(first_swings, all);
+      for (int i = 1; i <= 3; ++i) {
+        const bool still = all || wing.wing.hinge_of[i] == held;
+        CHECK((wing.bounds.moment[i] == 0) == still);
+        CHECK((wing.bounds.force[i] == 0) == still);
+      }
+    }
+  }
+}
