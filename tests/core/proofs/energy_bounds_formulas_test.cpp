@@ -1,4 +1,6 @@
 // The bounds by energy are their formulas, computed by hand for panels in line.
+#include "core/mechanics/energy.hpp"
+#include "core/peaks/base_peaks.hpp"
 #include "tests/core/proofs/energy_bounded_wing.hpp"
 
 #include <catch2/catch.hpp>
@@ -191,5 +193,63 @@ TEST_CASE("a held hinge rests only if all that it carries does") {
         CHECK((wing.bounds.force[i] == 0) == still);
       }
     }
+  }
+}
+
+TEST_CASE("the energy left on a base that turns and is pushed grows as (3) of remaining_energy.hpp "
+          "says") {
+  const double b = 0.3, l = 1.5, c1 = 0.7, c2 = 0.4;
+  for (const auto& [spin, push] : {std::pair{0.0, 3.0}, {0.8, 0.0}, {-0.8, 3.0}, {0.4, 8.0}}) {
+    Scene scene = two_in_line(l, c1, c2);
+    scene.hinges[0].parent_point = {b, 0};
+    scene.base.motion = BaseMotion::prescribed;
+    scene.base.rate = spin, scene.base.acceleration = {0.6 * push, 0.8 * push};
+    LatchedWing<BaseMotion::prescribed> wing(scene);
+    const double f1 = push + spin * spin * (b + c1), f2 = push + spin * spin * (b + l + c2);
+    const double g[] = {10 * c1 * f1 + 4 * (l + c2) * f2, 4 * c2 * f2}, kappa[] = {1e4, 6e3};
+    const double s[] = {10 * c1 + 4 * (l + c2), 4 * c2}, drift = push * std::abs(spin);
+    double offset = 0, p = 0, q = 0;
+    for (const int i : {0, 1}) {
+      offset += g[i] * g[i] / (2 * kappa[i]);
+      p += drift * s[i] * g[i] / kappa[i];
+      q += drift * s[i] * std::sqrt(2 / kappa[i]);
+    }
+    for (const double ahead : {0.0, 0.1, 10.0}) {
+      const auto left = wing.remaining.energy(wing.system, wing.rest, 2., 2 + ahead);
+      REQUIRE(left);
+      const double root = 0.5 * q * ahead + std::sqrt(offset + p * ahead);
+      CAPTURE(spin, push, ahead);
+      CHECK(left->whole == Approx(root * root).epsilon(1e-9));
+      CHECK(left->within == left->whole);
+      for (const int i : {1, 2})
+        CHECK(wing.remaining.furthest(i, left->within) ==
+              Approx(g[i - 1] / kappa[i - 1] + std::sqrt(2 / kappa[i - 1]) * root));
+    }
+  }
+}
+
+TEST_CASE("of a free base's energy the turning of the largest inertia is left out, by (4)") {
+  const double b = 0.3, l = 1.5, c1 = 0.7, c2 = 0.4, J[] = {3, 0.5, 0.2}, m[] = {50, 10, 4};
+  Scene scene = two_in_line(l, c1, c2);
+  scene.hinges[0].parent_point = {b, 0};
+  scene.base.motion = BaseMotion::free, scene.base.mass = m[0], scene.base.inertia = J[0];
+  LatchedWing<BaseMotion::free> wing(scene);
+  const double d01 = b + c1, d12 = l - c1 + c2, d02 = b + l + c2; // along the bodies
+  const double most =
+      (m[0] * m[1] * d01 * d01 + m[1] * m[2] * d12 * d12 + m[0] * m[2] * d02 * d02) /
+          (m[0] + m[1] + m[2]) +
+      J[0] + J[1] + J[2];
+  for (const double u : {0.0, 0.02, -0.05}) { // bent by the second hinge
+    State<double> x = wing.rest;
+    x[wing.at.angle(2)] += u;
+    x[BaseExcursion<double>::coordinate + wing.at.freedoms()] = 0.7;
+    const TotalMotion<double> now = total_motion(wing.system, x, 0.);
+    const auto left = wing.remaining.energy(wing.system, x, 0., 5.);
+    REQUIRE(left);
+    const double whole = 0.5 * 6e3 * u * u + now.central_kinetic(), H = std::abs(now.spin());
+    CAPTURE(u);
+    CHECK(left->whole == Approx(whole).epsilon(1e-9));
+    CHECK(left->within == Approx(whole - H * H / (2 * most)).epsilon(1e-6).margin(1e-7));
+    CHECK(left->whirl == Approx(2 * whole / H).epsilon(1e-9));
   }
 }

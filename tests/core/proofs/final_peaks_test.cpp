@@ -5,6 +5,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 using namespace wingspread;
 
 TEST_CASE(
@@ -76,4 +80,34 @@ TEST_CASE("the excess of loads is the largest ratio of any bound to its peak") {
   CHECK(of(nullptr, nullptr) == 0);
   bounds.moment << 25, 30;
   CHECK(of(&moments, nullptr) == 2.5);
+}
+
+TEST_CASE("a free base's peaks are proven up to the furthest and fastest that hinges and the whole "
+          "turn it, no less") {
+  for (int trial = 0; trial < 400; ++trial) {
+    oracle::Draws draws(5500 + trial);
+    BaseExcursion<double> seen;
+    seen.first_angle = draws.uniform(-1, 1), seen.first_rate = draws.uniform(-1, 1);
+    const BaseBounds bounds{draws.log_uniform(1e-3, 1), draws.log_uniform(1e-3, 1),
+                            draws.log_uniform(1e-3, 1)};
+    const double at_rest = draws.uniform(-2, 2), mean = draws.uniform(-1, 1),
+                 time = draws.chance(0.2) ? 0 : draws.log_uniform(0.01, 10);
+    double rate = 0, angle = 0; // the largest changes, over the corners of what is possible
+    for (const double side : {-1., 1.})
+      for (const double off : {-1., 1.}) {
+        const double turning = mean + off * bounds.drift;
+        rate = std::max(rate, std::abs(turning + side * bounds.rate - seen.first_rate));
+        for (const double later : {0., time})
+          angle = std::max(
+              angle, std::abs(at_rest + side * bounds.way + turning * later - seen.first_angle));
+      }
+    const auto proven = [&](double of_rate, double of_angle) {
+      seen.rate = of_rate * rate, seen.angle = of_angle * angle;
+      return no_base_peak_can_rise(seen, bounds, at_rest, mean, time);
+    };
+    CAPTURE(trial, rate, angle);
+    CHECK(proven(1 + 1e-9, 1 + 1e-9));
+    CHECK_FALSE(proven(1 - 1e-9, 1 + 1e-9));
+    CHECK_FALSE(proven(1 + 1e-9, 1 - 1e-9));
+  }
 }
