@@ -88,7 +88,7 @@ GaussianCopula::GaussianCopula(std::vector<std::size_t> order,
       ordered(index(i), index(j)) = all(index(order[i]), index(order[j]));
   const std::optional<Matrix> factor = cholesky(ordered);
   assert(factor);
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  for (std::size_t i = 1; i < order.size(); ++i) { // the first stays as it is
     Row row{order[i], (*factor)(index(i), index(i)), {}};
     for (std::size_t j = 0; j < i; ++j)
       if (const double weight = (*factor)(index(i), index(j)); weight != 0)

@@ -64,18 +64,16 @@ std::complex<double> row_of(const Mode& mode, const Products& rows) {
   return mode.is_pair ? 0.5 * std::complex(rows(j), -rows(j + 1)) : std::complex(rows(j));
 }
 
-/// |e_jk| of two modes, that of the conjugate of the second added where it is one of a pair.
-template <class Mode>
-double size_of_residual(const Eigen::MatrixXd& E, const Mode& of, const Mode& by) {
+} // namespace
+
+double size_of_residual(const Eigen::MatrixXd& e, const ModeColumns& of, const ModeColumns& by) {
   const int a = of.column, c = by.column;
   if (of.is_pair && by.is_pair)
-    return 0.5 * (size_of(E(a, c) + E(a + 1, c + 1), E(a, c + 1) - E(a + 1, c)) +
-                  size_of(E(a, c) - E(a + 1, c + 1), E(a, c + 1) + E(a + 1, c)));
-  if (of.is_pair) return 0.5 * size_of(E(a, c), E(a + 1, c));
-  return by.is_pair ? 2 * size_of(E(a, c), E(a, c + 1)) : std::abs(E(a, c));
+    return 0.5 * (size_of(e(a, c) + e(a + 1, c + 1), e(a, c + 1) - e(a + 1, c)) +
+                  size_of(e(a, c) - e(a + 1, c + 1), e(a, c + 1) + e(a + 1, c)));
+  if (of.is_pair) return 0.5 * size_of(e(a, c), e(a + 1, c));
+  return by.is_pair ? 2 * size_of(e(a, c), e(a, c + 1)) : std::abs(e(a, c));
 }
-
-} // namespace
 
 // ---- the matrices
 
@@ -125,7 +123,7 @@ bool ModalBounds::find_modes() {
   for (int j = 0; j < 2 * n; ++j) {
     const std::complex<double>& value = found.values()[j];
     if (!(value.real() < 0)) return false;
-    if (value.imag() >= 0) modes_.push_back({j, value.imag() > 0, value});
+    if (value.imag() >= 0) modes_.push_back({{j, value.imag() > 0}, value});
   }
   const Matrix& W = found.columns();
   rows_ = inverse_of(W);

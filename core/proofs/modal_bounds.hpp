@@ -142,11 +142,8 @@ public:
 private:
   using Matrix = Eigen::MatrixXd;
 
-  /// A real one, or one of a conjugate pair. The real and imaginary part of a pair's eigenvector have
-  /// columns of their own.
-  struct Mode {
-    int column;
-    bool is_pair;
+  /// A real one, or one of a conjugate pair.
+  struct Mode : ModeColumns {
     std::complex<double> value; ///< λ
     std::complex<double> with_base{},
         against_base{}; ///< of (9): what turns with the base, and against

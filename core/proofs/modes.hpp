@@ -22,6 +22,17 @@
 
 namespace wingspread {
 
+/// Of the 2n columns of modes those of one: a real one has one, a conjugate pair two, of its real and imaginary part.
+struct ModeColumns {
+  int column; ///< the first
+  bool is_pair;
+};
+
+/// The largest |(e w)_j| of mode `of` where mode `by` alone has |w| = 1, and its conjugate with it.
+/// @param e in real coordinates: w of a real mode, 2 Re w and −2 Im w of a pair
+[[nodiscard]] double size_of_residual(const Eigen::MatrixXd& e, const ModeColumns& of,
+                                      const ModeColumns& by);
+
 class Modes {
 public:
   using Matrix = Eigen::MatrixXd;

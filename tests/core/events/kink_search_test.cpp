@@ -154,3 +154,35 @@ TEST_CASE("a step ends where a motor reaches its limit, if its gain matters") {
     panel.check(s, sense * 0.2, 0.5 * std::abs(a) * tau * tau * motor.gain);
   }
 }
+
+TEST_CASE("a strand that goes slack ends a step though one of the loop's hinges sticks, but not if "
+          "both do") {
+  Scene scene = coaxial_discs(3, 2);
+  Synchronisation given;
+  given.name = "loop", given.first = 0, given.second = 1, given.ratio = 1;
+  given.stiffness = 100, given.damping = 10, given.preload = 20;
+  scene.synchronisations = {given};
+  for (const int moves : {1, 2, 0}) {
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    const Layout& at = system.layout();
+    Step<double> step;
+    step.t = 0, step.h = 0.1;
+    system.start(step.x);
+    step.x1 = step.x, step.dxdt = step.dxdt1 = State<double>(step.x.size(), 0.0);
+    for (const int i : {1, 2})
+      if (i != moves) system.set_contact(i, Contact::stuck);
+    const double rate = 5; // 0.5 rad in the step: K e = 40 at 0.4 rad
+    if (moves != 0) {
+      for (State<double>* x : {&step.x, &step.x1}) (*x)[at.rate(moves)] = rate;
+      step.dxdt[at.angle(moves)] = step.dxdt1[at.angle(moves)] = rate;
+      step.x1[at.angle(moves)] += rate * step.h;
+    }
+    const auto found = KinkSearch<double, decltype(system)>(system, step, {1e-9, 0}).first();
+    CAPTURE(moves);
+    REQUIRE(found.has_value() == (moves != 0));
+    if (found) CHECK(found->s == Approx(0.8).epsilon(1e-9));
+  }
+}

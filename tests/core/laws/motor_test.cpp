@@ -163,3 +163,41 @@ TEST_CASE("a command is steady after the last knot of its table, and from the st
   CHECK(is_steady(last));
   CHECK(commanded_rate(last, 50.0) == Approx(0.8).epsilon(1e-14));
 }
+
+// A command by a table is any cubic of time: its moment's excess, and its rate, against values and differences of the cubic.
+TEST_CASE("a motor follows a command that changes as a cubic of time") {
+  Draws draws(17);
+  int within = 0, beyond = 0;
+  for (int k = 0; k < 300; ++k) {
+    MotorTerms<double> terms = constant(1);
+    terms.gain = draws.log_uniform(0.1, 10), terms.limit = draws.log_uniform(1, 10);
+    MotorPiece<double> piece = motor_piece(terms, 0.0, 0);
+    piece.from = draws.uniform(-2, 2);
+    for (double& c : piece.rate) c = draws.uniform(-2, 2);
+    const double t = piece.from + draws.uniform(0, 1), h = draws.log_uniform(1e-2, 1);
+    Quintic<double> rate;
+    for (double& c : rate) c = draws.uniform(-1, 1);
+    const auto command = [&](double at) {
+      const double u = at - piece.from;
+      return piece.rate[0] + u * (piece.rate[1] + u * (piece.rate[2] + u * piece.rate[3]));
+    };
+    const auto moment = [&](double s) {
+      return std::clamp(terms.gain * (command(t + s * h) - value(rate, s)), -terms.limit,
+                        terms.limit);
+    };
+    const Quintic<double> excess = motor_excess(piece, t, h, rate);
+    for (const double s : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+      const double at = t + s * h, ds = 1e-5;
+      CAPTURE(k, s);
+      CHECK(value(excess, s) == Approx(command(at) - value(rate, s)).margin(1e-12));
+      if (std::abs(std::abs(moment(s)) - terms.limit) < 1e-3 && std::abs(moment(s)) < terms.limit)
+        continue; // the difference may reach beyond the limit
+      const double slope = (moment(s + ds) - moment(s - ds)) / (2 * ds * h);
+      const double found =
+          motor_moment_rate(terms, piece, at, value(rate, s), value(derivative(rate, h), s));
+      CHECK(found == Approx(slope).epsilon(1e-6).margin(1e-6));
+      ++(slope == 0 ? beyond : within);
+    }
+  }
+  CHECK(std::min(within, beyond) > 100);
+}

@@ -1,5 +1,6 @@
 #include "core/methods/dop853.hpp"
 #include "core/methods/step_control.hpp"
+#include "core/methods/steppers.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <Eigen/Core>
@@ -134,4 +135,34 @@ TEST_CASE("the error of dop853 weighs its two estimates as Hairer's code does") 
   CHECK(x1[0] == Approx(1.0 / 7).epsilon(1e-13));
   CHECK(formula.scaled_error(x, x1, dxdt1, error, 0, 1) == Approx(2.9587853e-4).epsilon(1e-7));
   CHECK(formula.scaled_error(x, x1, dxdt1, error, 0, 1e-3) == Approx(0.29587853).epsilon(1e-7));
+  // relative to the larger of |x| and |x1| = 1/7; the rate there, 1, only must be finite
+  CHECK(scaled_error_of(formula, x, x1, dxdt1, error, 1.0, 0.0) ==
+        Approx(7 * 2.9587853e-4).epsilon(1e-7));
+}
+
+TEST_CASE("an error counts relative to the state's larger end, whatever the rates") {
+  const State<double> x{-4, 1, 0}, x1{2, -8, 0}, error{4e-3, 4e-3, 5e-6};
+  for (const double rate : {0.0, 1e3}) {
+    const State<double> dxdt1(3, rate);
+    const DormandPrince5<double> formula; // has no rule of its own
+    CHECK(scaled_error_of(formula, x, x1, dxdt1, error, 1e-3, 0.0) > 1e300); // the third: no scale
+    CHECK(scaled_error_of(formula, x, x1, dxdt1, error, 1e-3, 1e-5) ==
+          Approx(4 / 4.01).epsilon(1e-12));
+    CHECK(scaled_error_of(formula, x, x1, dxdt1, error, 1e-4, 1e-6) == Approx(4e-3 / 4.01e-4));
+  }
+}
+
+// A formula that fits its steps to the tolerance needs no control: only a step that went wrong counts.
+TEST_CASE("a formula that fits its steps gets half after a rejection, a tenth after numbers that "
+          "are none") {
+  using Series = TaylorSeries<double>;
+  static_assert(FitsSteps<Series>);
+  const StepMemory<double> fresh;
+  const auto factor = [&](double error) { return factor_of<Series>(error, 0.1, fresh); };
+  CHECK(factor(0) == Series::longest_growth);
+  CHECK(factor(1) == Series::longest_growth);
+  CHECK(factor(1.01) == 0.5);
+  CHECK(factor(1e99) == 0.5);
+  CHECK(factor(std::numeric_limits<double>::infinity()) == 0.1);
+  CHECK(factor(std::numeric_limits<double>::quiet_NaN()) == 0.1);
 }

@@ -7,8 +7,10 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -154,4 +156,82 @@ TEST_CASE("the place of a force's maximum is corrected by Newton's method along 
     CHECK(forces.peaks[1].value == Approx(crest).epsilon(1e-3));
     CHECK(forces.peaks[1].value <= crest * (1 + 1e-12));
   }
+}
+
+namespace {
+
+/// A step of the swing θ = 2 cos t whose crest of the force lies inside, with the exact states.
+struct CrestInStep {
+  explicit CrestInStep(double from, double h)
+      : wing(make_wing<double>(scene, outward_order(scene))) {
+    set_parameters(wing, scene);
+    system.reset();
+    system.want_forces(true);
+    step.t = from, step.h = h;
+    place = (0.5 * std::numbers::pi - from) / h;
+  }
+  void evaluate(double s, State<double>& q, State<double>& rates) {
+    const double t = step.t + s * step.h;
+    q = {2 * std::cos(t), -2 * std::sin(t)}, rates = {q[1], -q[0]};
+    State<double> found(2);
+    system(q, found, t);
+  }
+  /// The places at which the force is evaluated for a gain that is worth a step: the doubt, and its corrections.
+  std::vector<double> places(double worth) {
+    State<double> x(2), dxdt(2);
+    forces.start(system, worth);
+    evaluate(0, step.x, step.dxdt);
+    forces.sample(system, step.t);
+    evaluate(1, step.x1, step.dxdt1);
+    forces.over_step(system, step, x, dxdt);
+    std::vector<double> all;
+    while (forces.doubtful()) {
+      all.push_back(*forces.doubtful());
+      evaluate(all.back(), x, dxdt);
+      forces.confirm(system, step, x, dxdt);
+    }
+    return all;
+  }
+
+  Scene scene = unit_oscillator(2);
+  Wing<double> wing;
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::fixed> system{wing, std::nullopt, work};
+  Step<double> step;
+  ForcePeaks<double, decltype(system)> forces;
+  double place = 0;
+};
+
+} // namespace
+
+// A peak that is right but late costs no accuracy that a run shows: the corrections are held against the crest itself.
+TEST_CASE("corrections of a force's maximum converge, are two at most, and stop once they gain too "
+          "little") {
+  const double crest = 10 * 0.5 * 4;
+  std::array<int, 4> by_count{};
+  for (int k = 0; k < 60; ++k) {
+    Draws draws(40 + k);
+    const double h = draws.uniform(0.5, 1.3),
+                 from = 0.5 * std::numbers::pi - h * draws.uniform(0.2, 0.8);
+    CAPTURE(h, from);
+    CrestInStep eager(from, h);
+    const std::vector<double> all = eager.places(1e-16);
+    REQUIRE(all.size() >= 1);
+    REQUIRE(all.size() <= 3);
+    for (std::size_t c = 1; c < all.size(); ++c)
+      if (std::abs(all[c - 1] - eager.place) > 1e-6)
+        CHECK(std::abs(all[c] - eager.place) < 0.4 * std::abs(all[c - 1] - eager.place));
+    const double off = std::abs(all.back() - eager.place) * h;
+    CHECK(eager.forces.peaks[1].time == Approx(from + all.back() * h).margin(0.05));
+    CHECK(off < 0.2 * std::abs(all[0] - eager.place) * h + 1e-6);
+    for (const double worth : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
+      CrestInStep run(from, h);
+      const std::vector<double> found = run.places(worth);
+      const double lost = 1 - run.forces.peaks[1].value / crest;
+      CAPTURE(worth, found.size(), lost);
+      CHECK(lost < 4 * worth + 1e-14);
+      ++by_count.at(found.size());
+    }
+  }
+  CHECK(std::min({by_count[1], by_count[2], by_count[3]}) >= 20);
 }

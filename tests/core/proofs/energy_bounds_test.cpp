@@ -1,87 +1,20 @@
 // The bounds by energy on the peaks of a latched wing: the tests seek states that break them.
 #include "core/mechanics/energy.hpp"
 #include "core/peaks/base_peaks.hpp"
-#include "core/proofs/energy_bounds.hpp"
-#include "core/proofs/remaining_energy.hpp"
+#include "tests/core/proofs/energy_bounded_wing.hpp"
 #include "tests/support/closed_forms.hpp"
-#include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 using namespace wingspread;
+using oracle::LatchedWing;
 
 namespace {
 
-/// A wing with all latches engaged that it has.
-template <BaseMotion M = BaseMotion::fixed> struct LatchedWing {
-  /// @param stuck hinges that stick when the bounds are prepared, and slip afterwards
-  explicit LatchedWing(const Scene& scene, const std::vector<int>& stuck = {})
-      : wing(with_numbers(scene)), system(wing, std::nullopt, work), at(system.layout()) {
-    for (int i = 1; i <= at.bodies; ++i)
-      if (wing.hinges[i].has_latch) system.engage(i);
-    for (const int i : stuck) system.set_contact(i, Contact::stuck);
-    remaining.prepare(system);
-    bounds.prepare(system);
-    for (const int i : stuck) system.set_contact(i, Contact::none);
-    rest = remaining.rest();
-    system.want_forces(true);
-  }
-
-  /// What no energy exceeds from this state on, at its own time.
-  [[nodiscard]] double energy(const State<double>& x, double t) {
-    return remaining.energy(system, x, t, t).value().whole;
-  }
-
-  /// Largest share of its bound that any moment or force takes at the state rest + s·way, s such
-  /// that the state has the energy.
-  struct Shares {
-    double moment = 0, force = 0;
-  };
-  Shares shares(const State<double>& way, double energy_given, double t = 0) {
-    State<double> x;
-    double low = 0, high = 1;
-    const auto put = [&](double s) {
-      x = rest;
-      for (int k = 0; k < at.size(); ++k) x[k] += s * way[k];
-      return energy(x, t);
-    };
-    while (put(high) < energy_given) high *= 2;
-    for (int pass = 0; pass < 60; ++pass)
-      (put((low + high) / 2) < energy_given ? low : high) = (low + high) / 2;
-    put(low);
-    const double given = energy_given * (1 + 1e-9);
-    bounds.bound(system, remaining, {given, given});
-    return taken(x, t);
-  }
-
-  /// Of the bounds as they were made last.
-  Shares taken(const State<double>& x, double t) {
-    State<double> dxdt(at.size());
-    system(x, dxdt, t);
-    Shares worst;
-    for (int i = 1; i <= at.bodies; ++i) {
-      const Vec2<double>& f = system.work().forces[i];
-      worst.moment = std::max(worst.moment, std::abs(system.moment(x, i)) / bounds.moment[i]);
-      worst.force = std::max(worst.force, std::sqrt(dot(f, f)) / bounds.force[i]);
-    }
-    return worst;
-  }
-
-  Wing<double> wing;
-  Workspace<double> work;
-  System<double, Tree, M> system;
-  Layout at;
-  RemainingEnergy<double> remaining;
-  EnergyBounds<double> bounds;
-  State<double> rest;
-
-private:
-  static Wing<double> with_numbers(const Scene& scene) {
-    Wing<double> made = make_wing<double>(scene, outward_order(scene));
-    set_parameters(made, scene);
-    return made;
-  }
-};
 using PeakShares = LatchedWing<>::Shares;
 
 /// Climbs from random states towards the largest share of the bounds.
@@ -237,97 +170,6 @@ TEST_CASE("no state with the energy breaks the bounds on peaks: hinges without l
       CHECK(worst.moment > 0.3);
     }
   }
-}
-
-// ---- the formulas, by hand
-
-namespace {
-
-/// Two panels in a line, l from hinge to hinge.
-Scene two_in_line(double l, double c1, double c2) {
-  Scene scene = oracle::latching_panel();
-  scene.bodies = {{"inner", 10, 0.5}, {"outer", 4, 0.2}};
-  Hinge& root = scene.hinges[0];
-  root.spring = {0, 0}, root.child_point = {-c1, 0}, root.latch = Latch{1e4, 10};
-  Hinge mid = root;
-  mid.name = "mid", mid.parent = 0, mid.child = 1;
-  mid.parent_point = {l - c1, 0}, mid.child_point = {-c2, 0}, mid.latch = Latch{6e3, 20};
-  scene.hinges.push_back(mid);
-  return scene;
-}
-
-} // namespace
-
-TEST_CASE("the bounds by energy are (2) to (4)") {
-  const double l = 1.5, c1 = 0.7, c2 = 0.4, J1 = 0.5, J2 = 0.2;
-  LatchedWing<> wing(two_in_line(l, c1, c2));
-  const double E = 100;
-  wing.bounds.bound(wing.system, wing.remaining, {E, E});
-  const double M1 = std::sqrt(2 * E * (1e4 + 10 * 10 / J1));
-  const double M2 = std::sqrt(2 * E * (6e3 + 20 * 20 * (1 / J1 + 1 / J2)));
-  CHECK(wing.bounds.moment[1] == Approx(M1));
-  CHECK(wing.bounds.moment[2] == Approx(M2));
-  const double w1 = 2 * E / J1, w2 = 2 * E / J2; // bounds of ω²
-  const double g1 = w1 * c1, g2 = w1 * l + w2 * c2;
-  const double Z = 10 * g1 * g1 + 4 * g2 * g2 + (M1 + M2) * (M1 + M2) / J1 + M2 * M2 / J2;
-  CHECK(wing.bounds.force[1] == Approx(std::sqrt(14 * Z)));
-  CHECK(wing.bounds.force[2] == Approx(std::sqrt(4 * Z)));
-}
-
-TEST_CASE("the bound on what holds a hinge rigidly is (5), whichever hinge is held") {
-  const double l = 1.5, c1 = 0.7, c2 = 0.4, J1 = 0.5, J2 = 0.2, E = 3;
-  for (const int held : {1, 2}) {
-    Scene scene = two_in_line(l, c1, c2);
-    scene.hinges[held - 1].release = Release{.fails = 1};
-    LatchedWing<> wing(scene);
-    wing.system.set_contact(held, Contact::held);
-    wing.remaining.prepare(wing.system), wing.bounds.prepare(wing.system);
-    wing.bounds.bound(wing.system, wing.remaining, {E, E});
-    const double w1 = held == 1 ? 0 : 2 * E / J1, w2 = 2 * E / J2; // of ω²
-    const double M1 = held == 1 ? 0 : std::sqrt(2 * E * (1e4 + 10 * 10 / J1));
-    const double M2 = held == 2 ? 0 : std::sqrt(2 * E * (6e3 + 20 * 20 * (1 / J1 + 1 / J2)));
-    const double g1 = w1 * c1, g2 = w1 * l + w2 * c2, L1 = M1 + M2;
-    const double turns1 = held == 1 ? 0 : L1 * L1 / J1; // a body that stands still takes none
-    const double Z = 10 * g1 * g1 + 4 * g2 * g2 + turns1 + M2 * M2 / J2;
-    const double levers = held == 1 ? 10 * c1 * c1 + 4 * (l + c2) * (l + c2) : 4 * c2 * c2;
-    const double inertias = held == 1 ? J1 + J2 : J2, loads = held == 1 ? L1 + M2 : M2;
-    const double most = (std::sqrt(levers) + std::sqrt(inertias)) * std::sqrt(Z) + loads;
-    CAPTURE(held);
-    CHECK(wing.bounds.moment[held] == Approx(most));
-    CHECK(wing.bounds.moment[3 - held] == Approx(M1 + M2));
-    CHECK(wing.bounds.force[1] == Approx(std::sqrt(14 * Z)));
-    CHECK(wing.bounds.force[2] == Approx(std::sqrt(4 * Z)));
-  }
-}
-
-TEST_CASE("dampers, motors, loops and dissipating latches add their most to the bounds by energy") {
-  const double J1 = 0.5, J2 = 0.2, E = 7, gear = 3, K = 50, D = 4, c = 2;
-  Scene scene = two_in_line(1.5, 0.7, 0.4);
-  Damper damper;
-  damper.coefficient = c, damper.scale = 1.5;
-  scene.hinges[0].damper = damper;
-  Synchronisation cable;
-  cable.name = "loop", cable.first = 0, cable.second = 1, cable.ratio = gear;
-  cable.stiffness = K, cable.damping = D;
-  scene.synchronisations = {cable};
-  const double v1 = std::sqrt(2 * E / J1), v2 = std::sqrt(2 * E * (1 / J1 + 1 / J2)); // (2)
-  const double M1 = std::sqrt(2 * E * (1e4 + 10 * 10 / J1)) + 1.5 * c * v1;
-  const double M2 = std::sqrt(2 * E * (6e3 + 20 * 20 * (1 / J1 + 1 / J2)));
-  const double loop = std::sqrt(2 * K * E) + D * (gear * v1 + v2);
-  for (const double limit : {1e9, 3.}) {
-    scene.hinges[1].motor = Motor{.rate = 0, .gain = 0.8, .torque_limit = limit};
-    LatchedWing<> wing(scene);
-    wing.bounds.bound(wing.system, wing.remaining, {E, E});
-    CAPTURE(limit);
-    CHECK(wing.bounds.moment[1] == Approx(M1 + gear * loop));
-    CHECK(wing.bounds.moment[2] == Approx(M2 + loop + std::min(0.8 * v2, limit)));
-  }
-  scene = two_in_line(1.5, 0.7, 0.4);
-  scene.hinges[1].latch = Latch{.stiffness = 6e3, .dissipation = 0.4};
-  LatchedWing<> wing(scene);
-  wing.bounds.bound(wing.system, wing.remaining, {E, E});
-  const double way = std::sqrt(2 * E / 6e3);
-  CHECK(wing.bounds.moment[2] == Approx(6e3 * way * (1 + 0.4 * v2)));
 }
 
 TEST_CASE("of a free base that turns, the energy of the whole's turning loads no hinge") {

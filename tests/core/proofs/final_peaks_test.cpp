@@ -5,6 +5,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 using namespace wingspread;
 
 TEST_CASE(
@@ -76,4 +80,99 @@ TEST_CASE("the excess of loads is the largest ratio of any bound to its peak") {
   CHECK(of(nullptr, nullptr) == 0);
   bounds.moment << 25, 30;
   CHECK(of(&moments, nullptr) == 2.5);
+}
+
+TEST_CASE("a free base's peaks are proven up to the furthest and fastest that hinges and the whole "
+          "turn it, no less") {
+  for (int trial = 0; trial < 400; ++trial) {
+    oracle::Draws draws(5500 + trial);
+    BaseExcursion<double> seen;
+    seen.first_angle = draws.uniform(-1, 1), seen.first_rate = draws.uniform(-1, 1);
+    const BaseBounds bounds{draws.log_uniform(1e-3, 1), draws.log_uniform(1e-3, 1),
+                            draws.log_uniform(1e-3, 1)};
+    const double at_rest = draws.uniform(-2, 2), mean = draws.uniform(-1, 1),
+                 time = draws.chance(0.2) ? 0 : draws.log_uniform(0.01, 10);
+    double rate = 0, angle = 0; // the largest changes, over the corners of what is possible
+    for (const double side : {-1., 1.})
+      for (const double off : {-1., 1.}) {
+        const double turning = mean + off * bounds.drift;
+        rate = std::max(rate, std::abs(turning + side * bounds.rate - seen.first_rate));
+        for (const double later : {0., time})
+          angle = std::max(
+              angle, std::abs(at_rest + side * bounds.way + turning * later - seen.first_angle));
+      }
+    const auto proven = [&](double of_rate, double of_angle) {
+      seen.rate = of_rate * rate, seen.angle = of_angle * angle;
+      return no_base_peak_can_rise(seen, bounds, at_rest, mean, time);
+    };
+    CAPTURE(trial, rate, angle);
+    CHECK(proven(1 + 1e-9, 1 + 1e-9));
+    CHECK_FALSE(proven(1 - 1e-9, 1 + 1e-9));
+    CHECK_FALSE(proven(1 + 1e-9, 1 - 1e-9));
+  }
+}
+
+namespace {
+
+enum class KindOfHold { rigid, without_latch, elastic, in_loop };
+
+/// Whether the seed wing's holds and loads are proven final where its root is held, the others have latched and swing a
+/// little. @param most what the root's hold has borne, N·m
+bool proves_with_hold(KindOfHold kind, double most, double* bound = nullptr) {
+  Scene scene = oracle::seed_scene();
+  Hinge& root = scene.hinges[0];
+  root.release = Release{.fails = 1};
+  root.spring = {2, 2}, root.harness = {}, root.friction = {};
+  if (kind == KindOfHold::without_latch) root.latch.reset();
+  if (kind == KindOfHold::in_loop) {
+    Synchronisation loop;
+    loop.name = "loop", loop.first = 0, loop.second = 1, loop.stiffness = 10;
+    scene.synchronisations = {loop};
+  }
+  using Held = System<double, Tree, BaseMotion::fixed>;
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  Held system(wing, std::nullopt, work);
+  for (int i = 1; i <= 3; ++i)
+    if (wing.hinge_of[i] != 0) system.engage(i);
+  int held = 1;
+  while (wing.hinge_of[held] != 0) ++held;
+  if (kind == KindOfHold::elastic)
+    system.restrain(held, true);
+  else
+    system.set_contact(held, Contact::held);
+  RemainingEnergy<double> remaining;
+  EnergyBounds<double> bounds;
+  remaining.prepare(system), bounds.prepare(system);
+  State<double> x = remaining.rest();
+  x[system.layout().rate(held == 1 ? 2 : 1)] = 1e-2;
+  if (bound) {
+    bounds.bound(system, remaining, remaining.energy(system, x, 0., 10.).value());
+    *bound = bounds.moment[held] + 2; // what turns the root itself: its spring
+  }
+  std::vector<PeakOf<double>> holds(4);
+  for (PeakOf<double>& peak : holds) peak.value = most;
+  FinalPeaks<double, Held> proofs;
+  proofs.reset();
+  return proofs.prove(system, x, 0., 10., {nullptr, nullptr, nullptr, nullptr, &holds}, false);
+}
+
+} // namespace
+
+TEST_CASE("a hold's peak is final once it exceeds the bound of what crosses the hinge and the "
+          "hinge's own moment") {
+  double bound = 0;
+  (void)proves_with_hold(KindOfHold::rigid, 0, &bound);
+  CHECK(bound > 2);
+  CHECK(proves_with_hold(KindOfHold::rigid, bound * (1 + 1e-9)));
+  CHECK_FALSE(proves_with_hold(KindOfHold::rigid, bound * (1 - 1e-9)));
+}
+
+TEST_CASE(
+    "no peaks are proven where a hold is elastic, in a loop, or of a hinge that has no latch") {
+  CHECK(proves_with_hold(KindOfHold::rigid, 1e9));
+  CHECK_FALSE(proves_with_hold(KindOfHold::elastic, 1e9));
+  CHECK_FALSE(proves_with_hold(KindOfHold::in_loop, 1e9));
+  CHECK_FALSE(proves_with_hold(KindOfHold::without_latch, 1e9));
 }

@@ -312,6 +312,19 @@ TEST_CASE("no motion breaks the bounds by modes: real hinges and loops") {
   CHECK(all.bounded >= 80); // latches with dissipation damp little about rest
 }
 
+TEST_CASE("there is a model of forty bodies and none of more, on a fixed base and on a free one") {
+  for (const int bodies : {most_modelled_bodies, most_modelled_bodies + 1}) {
+    oracle::RandomScene options;
+    options.bodies = bodies, options.motion = BaseMotion::fixed, options.friction = false;
+    Draws draws(3);
+    Scene scene = with_latches(oracle::random_scene(3, options), draws);
+    for (Hinge& hinge : scene.hinges) hinge.spring = {}, hinge.harness = {};
+    CHECK(Latched<BaseMotion::fixed>(scene).has_model == (bodies == most_modelled_bodies));
+    scene.base.motion = BaseMotion::free, scene.base.mass = scene.base.inertia = 10;
+    CHECK(Latched<BaseMotion::free>(scene).has_model == (bodies == most_modelled_bodies));
+  }
+}
+
 TEST_CASE("there is no model by modes of backlash, of air, of a base that turns faster") {
   Scene scene = oracle::seed_scene();
   scene.hinges[0].latch->backlash = 1e-3;

@@ -74,3 +74,31 @@ TEST_CASE(
     CHECK(remaining.steady(1) <= most * (1 + 1e-3));
   }
 }
+
+TEST_CASE("there is no bound of the energy where it may take a hinge to a stop, on either side") {
+  for (const bool far : {false, true})
+    for (const double stowed : {0.02, -0.02}) { // the latch is at 0
+      Scene scene = oracle::latching_panel();
+      Hinge& hinge = scene.hinges[0];
+      hinge.stowed = stowed, hinge.latched = 0;
+      hinge.spring = {}, hinge.harness = {}, hinge.friction = {};
+      Stop stop;
+      stop.stiffness = 1e5, stop.gap = 0.01;
+      (far ? hinge.far_stop : hinge.stop) = stop;
+      const double way = far ? 0.01 : 0.03; // from rest to the stop
+      Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+      set_parameters(wing, scene);
+      Workspace<double> work;
+      System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+      system.find_sides({0, 0}); // where it latches
+      system.engage(1);
+      RemainingEnergy<double> remaining;
+      remaining.prepare(system);
+      for (const double share : {-1.01, -0.99, 0.5, 0.99, 1.01}) { // either way: the hinge swings
+        State<double> x{share * way, 0};
+        system.find_sides(x);
+        CAPTURE(far, stowed, share);
+        CHECK(remaining.energy(system, x, 0., 1.).has_value() == (std::abs(share) < 1));
+      }
+    }
+}

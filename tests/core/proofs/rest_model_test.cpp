@@ -240,3 +240,67 @@ TEST_CASE("a damper with a window damps a rest inside, on whichever side the hin
       }
   }
 }
+
+// Each part of a remainder by itself: what the law exerts at the corners of the box, less what the linear model has of it.
+TEST_CASE("what dampers, dissipating latches and motors leave out of the model is their law less "
+          "its part") {
+  RestModel model;
+  model.parents = {0};
+  model.remainders.resize(1);
+  RestModel::Remainder& left = model.remainders[0];
+  const HingeVector u = HingeVector::Constant(1, 0.3), v = HingeVector::Constant(1, 2.0);
+  const auto bound = [&] { return model.bound_remainders(u, v)(0); };
+  CHECK(bound() == 0);
+  left.steady = 5;
+  CHECK(bound() == 5);
+  left = {}, left.bend = 7;
+  CHECK(bound() == Approx(7 * 0.3));
+  left = {}, left.dissipation = 11;
+  CHECK(bound() == Approx(11 * 0.3 * 2));
+  left = {}, left.damper = DamperTerms<double>{};
+  left.damper->law = DamperLaw::eddy_current, left.damper->strength = 4, left.damper->rate = 1;
+  left.taken = 4; // of S r/(1 + r²)
+  CHECK(bound() == Approx(4 * 2 - 4 * 2 / 5.0));
+  left = {}, left.motor.gain = 3, left.motor.until = 0.5, left.motor.most = 100;
+  CHECK(bound() == Approx(3 * 1.5));
+}
+
+TEST_CASE("what a loop leaves out of the model is its torque less its linear part, with a strand "
+          "slack or not") {
+  for (int trial = 0; trial < 300; ++trial) {
+    Draws draws(6600 + trial);
+    const double G = draws.uniform(0.5, 2),
+                 dG = draws.chance(0.3) ? 0 : G * draws.log_uniform(1e-3, 0.1);
+    const double K = draws.log_uniform(1, 100),
+                 D = draws.chance(0.3) ? 0 : draws.log_uniform(0.1, 10);
+    const double torque = draws.log_uniform(0.1, 10);
+    HingeVector u(2), v(2);
+    u << draws.log_uniform(0.01, 1), draws.log_uniform(0.01, 1);
+    v << draws.log_uniform(0.01, 1), draws.log_uniform(0.01, 1);
+    const double elastic = K * (G * u(0) + u(1)), viscous = D * (G * v(0) + v(1));
+    const double until = draws.chance(0.4) ? 1e9 : elastic * draws.uniform(-0.5, 1.5);
+    RestModel model;
+    model.parents = {0, 1};
+    model.remainders.resize(2);
+    model.loops = {{0, 1, torque, G, dG, K, D, until}};
+    const HingeVector bound = model.bound_remainders(u, v);
+    double most[2] = {0, 0};
+    for (const double now : {G - dG, G})
+      for (const double rest : {G - dG, G}) {
+        const double of_model = K * (rest * u(0) + u(1)) + D * (rest * v(0) + v(1));
+        const double stretched = K * (now * u(0) + u(1)), damped = D * (now * v(0) + v(1));
+        const bool slack = stretched > until; // half of what goes beyond, and half of the damping
+        const double change =
+            slack ? stretched - 0.5 * (stretched - std::max(until, 0.0)) + 0.5 * damped
+                  : stretched + damped;
+        most[1] = std::max(most[1], std::abs(change - of_model));
+        most[0] = std::max(most[0], std::abs(now * (torque + change) - rest * (torque + of_model)));
+      }
+    CAPTURE(trial, G, dG, until, elastic, viscous, most[0], most[1]);
+    const double rounding = 1e-13 * G * (torque + elastic + viscous); // of the differences
+    for (const int i : {0, 1}) CHECK(bound(i) >= most[i] - rounding);
+    const bool taut = until > elastic;
+    if (taut || dG == 0)
+      for (const int i : {0, 1}) CHECK(bound(i) <= 1.15 * most[i] + 1e-12);
+  }
+}
