@@ -194,6 +194,7 @@ private:
   void keep_rounding(const Matrix& residual);
   void keep_columns(const Matrix& vectors, const Matrix& moments);
   void keep_rows();
+  void keep_shares();
   void keep_push(const Matrix& by_turns);
   void keep_cap(const double* least, const double* rest);
   [[nodiscard]] double largest_by_energy(const Mode& mode, const double* least) const;
@@ -228,6 +229,7 @@ private:
   Matrix way_, rate_of_;                    ///< |W_u|, |W_v|, pairs counted twice
   Matrix turn_, swing_;                     ///< |S W_v|, |S W_v Λ|, likewise
   Matrix rounding_, by_turns_, by_hinges_;  ///< of (5), divided by α
+  ModeVector steady_, at_first_;            ///< μ, and ν times α, of (5)
   Matrix swing_by_turns_, swing_by_hinges_; ///< of (6)
   Matrix lever_;                            ///< |Y_ik|
   Matrix force_by_turns_, force_by_hinges_; ///< of (8)

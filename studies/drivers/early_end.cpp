@@ -38,7 +38,10 @@ constexpr Case cases[] = {{"seed", 40000, 30, 11},
                           {"prescribed_base", 4000, 40, 15},
                           {"stall", 8000, 40, 16},
                           {"yoke_wing", 2000, 40, 17},
-                          {"two_wing_free", 1000, 30, 18}};
+                          {"two_wing_free", 1000, 30, 18},
+                          {"satellite", 1000, 20, 19},
+                          {"two_wing_release", 500, 40, 20},
+                          {"bending_wings", 200, 20, 21}};
 
 struct Found {
   long runs = 0, deployed = 0, early = 0, lost = 0;
