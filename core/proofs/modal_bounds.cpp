@@ -174,7 +174,7 @@ void ModalBounds::keep_columns(const Matrix& vectors, const Matrix& moments) {
 void ModalBounds::keep_rows() {
   ModeVector time(modes()); // 1/α
   for (int m = 0; m < modes(); ++m) time(m) = -1 / modes_[m].value.real();
-  keep_shares();
+  keep_drive();
   const Matrix& S = model_->turns;
   by_hinges_ = time.asDiagonal() * sizes_of_rows(drive_);
   const Matrix by_turns = product(drive_, S.transpose());
@@ -189,15 +189,16 @@ void ModalBounds::keep_rows() {
   force_by_hinges_ = lengths(product(x, answer), product(y, answer));
 }
 
-/// μ and ν of (5).
-void ModalBounds::keep_shares() {
-  constexpr double mean = 2 / std::numbers::pi; // of |cos|
-  static const double excess = 2 * (std::sqrt(1 - mean * mean) - mean * std::acos(mean));
-  steady_.setOnes(modes()), at_first_.setZero(modes());
+/// (5a).
+void ModalBounds::keep_drive() {
+  constexpr double average = 2 / std::numbers::pi; // of |cos|
+  static const double excess =
+      2 * (std::sqrt(1 - average * average) - average * std::acos(average));
+  lasting_.setOnes(modes()), at_first_.setZero(modes());
   for (int m = 0; m < modes(); ++m) {
     const double damped = -modes_[m].value.real() / modes_[m].value.imag(); // infinite where real
-    if (!(mean + excess * damped < 1)) continue;
-    steady_(m) = mean, at_first_(m) = excess * damped;
+    if (!(average + excess * damped < 1)) continue;
+    lasting_(m) = average, at_first_(m) = excess * damped;
   }
 }
 
@@ -361,10 +362,10 @@ auto ModalBounds::map(const Box& box, const ModeVector& start, double spin,
   image.drift = m.rigid * off.momentum;
   image.box.rigid = m.spin + m.rigid * spin + image.drift;
   if (m.rigid == 0) image.moments(0) = 0; // the base is not moved by it
-  const ModeVector driven = product(by_turns_, image.moments) + product(by_hinges_, image.remainder);
-  image.box.modes =
-      start.cwiseMax(product(rounding_, box.modes) + steady_.cwiseProduct(driven)) +
-      at_first_.cwiseProduct(driven) + swung_;
+  const ModeVector driven =
+      product(by_turns_, image.moments) + product(by_hinges_, image.remainder);
+  image.box.modes = start.cwiseMax(product(rounding_, box.modes) + lasting_.cwiseProduct(driven)) +
+                    at_first_.cwiseProduct(driven) + swung_;
   if (m.turn_rate != 0) image.moments += m.pushed;
   image.box.accelerations = product(swing_by_turns_, image.moments) +
                             product(swing_by_hinges_, image.remainder) + product(swing_, box.modes);
