@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <type_traits>
 #include <utility>
 
@@ -171,6 +172,7 @@ void ModalBounds::keep_columns(const Matrix& vectors, const Matrix& moments) {
 void ModalBounds::keep_rows() {
   ModeVector time(modes()); // 1/α
   for (int m = 0; m < modes(); ++m) time(m) = -1 / modes_[m].value.real();
+  keep_drive();
   const Matrix& S = model_->turns;
   by_hinges_ = time.asDiagonal() * sizes_of_rows(drive_);
   const Matrix by_turns = product(drive_, S.transpose());
@@ -183,6 +185,19 @@ void ModalBounds::keep_rows() {
   const Matrix &x = model_->lever_x, &y = model_->lever_y;
   force_by_turns_ = lengths(product(x, by_moments), product(y, by_moments));
   force_by_hinges_ = lengths(product(x, answer), product(y, answer));
+}
+
+/// (5a).
+void ModalBounds::keep_drive() {
+  constexpr double average = 2 / std::numbers::pi; // of |cos|
+  static const double excess =
+      2 * (std::sqrt(1 - average * average) - average * std::acos(average));
+  lasting_.setOnes(modes()), at_first_.setZero(modes());
+  for (int m = 0; m < modes(); ++m) {
+    const double damped = -modes_[m].value.real() / modes_[m].value.imag(); // infinite where real
+    if (!(average + excess * damped < 1)) continue;
+    lasting_(m) = average, at_first_(m) = excess * damped;
+  }
 }
 
 /// (9). @param by_turns p_j M_0⁻¹Sᵀ of the rows
@@ -345,8 +360,10 @@ auto ModalBounds::map(const Box& box, const ModeVector& start, double spin,
   image.drift = m.rigid * off.momentum;
   image.box.rigid = m.spin + m.rigid * spin + image.drift;
   if (m.rigid == 0) image.moments(0) = 0; // the base is not moved by it
-  image.box.modes = start + swung_ + product(rounding_, box.modes) +
-                    product(by_turns_, image.moments) + product(by_hinges_, image.remainder);
+  const ModeVector driven =
+      product(by_turns_, image.moments) + product(by_hinges_, image.remainder);
+  image.box.modes = start.cwiseMax(product(rounding_, box.modes) + lasting_.cwiseProduct(driven)) +
+                    at_first_.cwiseProduct(driven) + swung_;
   if (m.turn_rate != 0) image.moments += m.pushed;
   image.box.accelerations = product(swing_by_turns_, image.moments) +
                             product(swing_by_hinges_, image.remainder) + product(swing_, box.modes);

@@ -23,8 +23,16 @@
 ///
 /// so that from now on, while no |w_j| leaves B_j and no |ω̇_k| leaves a_k,
 ///
-///     |w_j| ≤ |w_j(0)| + (Σ |e_jk| B_k + Σ |p_j M_0⁻¹Sᵀ|_k n_k + Σ |p_j M_0⁻¹|_k f_k)/α_j         (5)
+///     |w_j| ≤ max(|w_j(0)|, Σ |e_jk| B_k/α_j + q_j d_j) + b_j d_j                                 (5)
+///     d_j = (Σ |p_j M_0⁻¹Sᵀ|_k n_k + Σ |p_j M_0⁻¹|_k f_k)/α_j
 ///     |ω̇_k| ≤ Σ |S W_v Λ|_kj B_j + Σ |S M_0⁻¹Sᵀ + 1 1ᵀ/I|_kl n_l + Σ |S M_0⁻¹|_kl f_l            (6)
+///
+/// In (5) a start decays as e^(−αt) while what drives the mode builds up as 1 − e^(−αt): the sum stays below the larger of
+/// both. A real mode has q = 1 and b = 0. A mode of a pair turns at ω = Im λ, and n and f are real: only the share
+/// |cos(ωt + φ)| of them drives it further, on average 2/π. The excess over this average adds, by Bonnet's mean value
+/// theorem, no more with the decay than without it over the best part of one period:
+///
+///     q = 2/π,  b = 2 (√(1 − q²) − q acos q) α/ω,      or q = 1, b = 0 where that is less           (5a)
 ///
 /// (3) bounds n and f over this box, with |u| ≤ |W_u| B, |u̇| ≤ |W_v| B and |ω| ≤ |S W_v| B + |r|; (4)
 /// bounds r. If the right sides lie inside the box, the trajectory stays inside it. For w and r this
@@ -42,8 +50,8 @@
 /// that of the larger eigenvalue of the 2×2 matrix of the same products of Re P_j and Im P_j.
 ///
 /// E also bounds every linear function l z of the state, with l in place of P_j in (7), and the part of l z that the
-/// slowest modes make. Slow modes need this: (5) takes friction for a moment of either sign, which could swing them to
-/// many times their size. With m_j = |l w_j|, and l_s z the part of the slowest s modes,
+/// slowest modes make. Slow modes need this: (5) takes friction for a moment of either sign, which could drive them far.
+/// With m_j = |l w_j|, and l_s z the part of the slowest s modes,
 ///
 ///     |l z| ≤ min over s of ( Σ m_j B_j over the others + √(2E/(1 − μ)) √(l_s diag(κ, M_0)⁻¹ l_sᵀ) )    (10)
 ///
@@ -66,7 +74,7 @@
 ///
 ///     w'_j = X e^(iψ)/(2(is − λ_j)) + Y e^(−iψ)/(2(−is − λ_j))       X, Y = p_j M_0⁻¹Sᵀ(g_c ∓ i g_s)      (9)
 ///
-/// In (5), |w_j(0) − w'_j(0)| and the largest |w'_j| then replace |w_j(0)|, and n keeps only what
+/// In (5), |w_j(0) − w'_j(0)| then replaces |w_j(0)|, the largest |w'_j| is added, and n keeps only what
 /// bending adds to the push.
 ///
 /// Eigenvectors and sums are a library's: their last bits may differ between processors. A run may
@@ -191,6 +199,7 @@ private:
   void keep_rounding(const Matrix& residual);
   void keep_columns(const Matrix& vectors, const Matrix& moments);
   void keep_rows();
+  void keep_drive();
   void keep_push(const Matrix& by_turns);
   void keep_cap(const double* least, const double* rest);
   [[nodiscard]] double largest_by_energy(const Mode& mode, const double* least) const;
@@ -225,6 +234,7 @@ private:
   Matrix way_, rate_of_;                    ///< |W_u|, |W_v|, pairs counted twice
   Matrix turn_, swing_;                     ///< |S W_v|, |S W_v Λ|, likewise
   Matrix rounding_, by_turns_, by_hinges_;  ///< of (5), divided by α
+  ModeVector lasting_, at_first_;           ///< q and b of (5a)
   Matrix swing_by_turns_, swing_by_hinges_; ///< of (6)
   Matrix lever_;                            ///< |Y_ik|
   Matrix force_by_turns_, force_by_hinges_; ///< of (8)

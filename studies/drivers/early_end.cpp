@@ -3,6 +3,7 @@
 //
 //   build/release/studies/early_end                 some ten thousand runs of each campaign; minutes
 //   build/release/studies/early_end --quick         a hundred of each
+//   build/release/studies/early_end CAMPAIGN.json … all runs of these, with their own t_end and outputs
 //
 // Exits 1 if any bit differs.
 
@@ -16,7 +17,9 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 using namespace wingspread;
@@ -38,7 +41,10 @@ constexpr Case cases[] = {{"seed", 40000, 30, 11},
                           {"prescribed_base", 4000, 40, 15},
                           {"stall", 8000, 40, 16},
                           {"yoke_wing", 2000, 40, 17},
-                          {"two_wing_free", 1000, 30, 18}};
+                          {"two_wing_free", 1000, 30, 18},
+                          {"satellite", 1000, 20, 19},
+                          {"two_wing_release", 500, 40, 20},
+                          {"bending_wings", 200, 20, 21}};
 
 struct Found {
   long runs = 0, deployed = 0, early = 0, lost = 0;
@@ -57,25 +63,28 @@ bool same(const std::vector<Peak>& a, const std::vector<Peak>& b) {
   });
 }
 
-/// Whether the run to t_end has the latches, peaks and overtravels of the early one.
-bool nothing_lost(const Outcome& early, const Outcome& whole) {
+/// Whether the run to t_end has the latches, overtravels and asked-for peaks of the early one.
+bool nothing_lost(const Outcome& early, const Outcome& whole, const Goal& goal) {
   const bool latches =
       std::equal(early.latches.begin(), early.latches.end(), whole.latches.begin(),
                  whole.latches.end(), [](const LatchEvent& a, const LatchEvent& b) {
                    return a.hinge == b.hinge && a.time == b.time;
                  });
-  return latches && early.overtravel == whole.overtravel &&
+  const auto& [was, is] = std::pair(early.base_peaks, whole.base_peaks);
+  const bool base =
+      !goal.base_motion || !was || (is && was->angle == is->angle && was->rate == is->rate);
+  return latches && base && early.overtravel == whole.overtravel &&
          same(early.peak_moment, whole.peak_moment) && same(early.peak_force, whole.peak_force);
 }
 
-Found compare(Deployment& deployment, const Scene& scene, const Integration& how, long run) {
-  const Outcome early = deployment.run(scene, how, {});
-  Goal to_the_end;
-  to_the_end.to_t_end = true;
-  const Outcome whole = deployment.run(scene, how, to_the_end);
+Found compare(Deployment& deployment, const Scene& scene, const Integration& how, Goal goal,
+              long run) {
+  const Outcome early = deployment.run(scene, how, goal);
+  goal.to_t_end = true;
+  const Outcome whole = deployment.run(scene, how, goal);
   Found found;
   found.runs = 1, found.deployed = early.status == Status::deployed;
-  found.early = early.t_end < whole.t_end, found.lost = !nothing_lost(early, whole);
+  found.early = early.t_end < whole.t_end, found.lost = !nothing_lost(early, whole, goal);
   found.evaluations = static_cast<double>(early.work.rhs_evaluations);
   found.of_whole = static_cast<double>(whole.work.rhs_evaluations);
   if (found.early && found.deployed) found.tail = early.t_end - early.latches.back().time;
@@ -83,7 +92,9 @@ Found compare(Deployment& deployment, const Scene& scene, const Integration& how
   return found;
 }
 
-Found compare_all(const Campaign& campaign, long runs) {
+/// @param goal of the early runs
+Found compare_all(const Campaign& campaign, const Goal& goal) {
+  const long runs = campaign.sampling.runs;
   const RunPlan plan(campaign);
   std::atomic<long> next = 0;
   std::mutex mutex;
@@ -96,7 +107,7 @@ Found compare_all(const Campaign& campaign, long runs) {
     for (long k = next++; k < runs; k = next++) {
       plan.draw(k, draws);
       apply(campaign, draws, campaign.scene, scene);
-      own.add(compare(deployment, scene, campaign.integration, k));
+      own.add(compare(deployment, scene, campaign.integration, goal, k));
     }
     const std::lock_guard lock(mutex);
     all.add(own);
@@ -108,30 +119,51 @@ Found compare_all(const Campaign& campaign, long runs) {
   return all;
 }
 
+/// A study's table, on the terminal and as a file.
+class Report {
+public:
+  Report() {
+    fmt::print("{:24} {:>7} {:>8} {:>11} {:>5} {:>8} {:>17} {:>9}\n", "campaign", "runs",
+               "deployed", "ended early", "lost", "tail, s", "evaluations a run", "to t_end");
+  }
+
+  void add(const std::string& name, const Found& found) {
+    const auto runs = static_cast<double>(found.runs);
+    const double tail = found.tail / static_cast<double>(std::max(1L, found.early));
+    fmt::print("{:24} {:7} {:8} {:11} {:5} {:8.3f} {:17.0f} {:9.0f}\n", name, found.runs,
+               found.deployed, found.early, found.lost, tail, found.evaluations / runs,
+               found.of_whole / runs);
+    table_.add({name, runs, static_cast<double>(found.deployed), static_cast<double>(found.early),
+                static_cast<double>(found.lost), tail, found.evaluations / runs,
+                found.of_whole / runs});
+    lost_ += found.lost;
+  }
+
+  [[nodiscard]] const study::Table& table() const { return table_; }
+  [[nodiscard]] long lost() const { return lost_; }
+
+private:
+  study::Table table_{"campaign", "runs",     "deployed",          "ended early",
+                      "lost",     "tail [s]", "evaluations a run", "to t_end"};
+  long lost_ = 0;
+};
+
 long study_all(const study::StudyOptions& options) {
-  study::Table table{"campaign", "runs",     "deployed",          "ended early",
-                     "lost",     "tail [s]", "evaluations a run", "to t_end"};
-  fmt::print("{:24} {:>7} {:>8} {:>11} {:>5} {:>8} {:>17} {:>9}\n", "campaign", "runs", "deployed",
-             "ended early", "lost", "tail, s", "evaluations a run", "to t_end");
-  long lost = 0;
+  Report report;
+  for (const std::string& file : options.files) {
+    const Campaign campaign = read_campaign_file(file);
+    report.add(file, compare_all(campaign, RunPlan(campaign).goal()));
+  }
   for (const Case& one : cases) {
+    if (!options.files.empty()) break;
     Campaign campaign = read_campaign_file(fmt::format("studies/campaigns/{}.json", one.campaign));
     campaign.sampling.seed = one.seed;
     campaign.sampling.runs = options.quick ? 100 : one.runs;
     campaign.integration.t_end = one.t_end;
-    const Found found = compare_all(campaign, campaign.sampling.runs);
-    const auto runs = static_cast<double>(found.runs);
-    const double tail = found.tail / static_cast<double>(std::max(1L, found.early));
-    fmt::print("{:24} {:7} {:8} {:11} {:5} {:8.3f} {:17.0f} {:9.0f}\n", one.campaign, found.runs,
-               found.deployed, found.early, found.lost, tail, found.evaluations / runs,
-               found.of_whole / runs);
-    table.add({one.campaign, runs, static_cast<double>(found.deployed),
-               static_cast<double>(found.early), static_cast<double>(found.lost), tail,
-               found.evaluations / runs, found.of_whole / runs});
-    lost += found.lost;
+    report.add(one.campaign, compare_all(campaign, {}));
   }
-  table.write(options.folder / "early_end.csv");
-  return lost;
+  report.table().write(options.folder / "early_end.csv");
+  return report.lost();
 }
 
 } // namespace
@@ -140,6 +172,7 @@ int main(int count, char** arguments) {
   long lost = 0;
   const int status = study::run_study(
       count, arguments, "early_end", "What an early end of runs saves, and whether it loses a peak",
-      [&](const study::StudyOptions& options) { lost = study_all(options); });
+      [&](const study::StudyOptions& options) { lost = study_all(options); },
+      "Campaigns in place of the study's own");
   return status != 0 ? status : lost > 0 ? 1 : 0;
 }

@@ -12,12 +12,13 @@
 namespace wingspread::study {
 
 int run_study(int count, char** arguments, const std::string& name, const std::string& purpose,
-              const std::function<void(const StudyOptions&)>& study) {
+              const std::function<void(const StudyOptions&)>& study, const char* files) {
   StudyOptions options;
   std::string out;
   CLI::App app(purpose);
   app.add_flag("--quick", options.quick, "A few points in a few seconds");
   app.add_option("--out", out, "Folder; results/" + name + " by default, with --quick …_quick");
+  if (files) app.add_option("files", options.files, files)->check(CLI::ExistingFile);
   CLI11_PARSE(app, count, arguments);
   options.folder = out.empty() ? "results/" + name + (options.quick ? "_quick" : "") : out;
   try {

@@ -8,20 +8,24 @@
 #include <initializer_list>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace wingspread::study {
 
 /// The options of the command line.
 struct StudyOptions {
   bool quick = false;
-  std::filesystem::path folder; ///< for results; it exists
+  std::filesystem::path folder;   ///< for results; it exists
+  std::vector<std::string> files; ///< named on the command line, of a driver that takes any
 };
 
 /// The main() of a driver: `--quick`, and `--out DIR`, results/NAME by default (…_quick with
-/// --quick). @return the program's exit status: 2 when `study` throws
+/// --quick). @param files what files that the command line may name are for; null: none
+/// @return the program's exit status: 2 when `study` throws
 [[nodiscard]] int run_study(int count, char** arguments, const std::string& name,
                             const std::string& purpose,
-                            const std::function<void(const StudyOptions&)>& study);
+                            const std::function<void(const StudyOptions&)>& study,
+                            const char* files = nullptr);
 
 /// A table to be written as CSV. Its columns' names hold their units, "k [N·m/rad]".
 class Table {
