@@ -228,21 +228,6 @@ void ModalBounds::keep_cap(const double* least, const double* rest) {
   for (int m = 0; m < modes(); ++m) by_energy_(m) = largest_by_energy(modes_[m], least);
 }
 
-/// The second root of (7). For a pair of modes, Re P_j and −Im P_j are half of two rows of P.
-double ModalBounds::largest_by_energy(const Mode& mode, const double* least) const {
-  const int n = size();
-  const auto product_of = [&](int j, int k) { // of rows of P
-    double sum = rows_.row(j).tail(n).dot(drive_.row(k));
-    for (int i = 0; i < n; ++i) sum += rows_(j, i) * rows_(k, i) / least[i];
-    return sum;
-  };
-  const int j = mode.column, k = j + 1;
-  const double own = product_of(j, j);
-  if (!mode.is_pair) return std::sqrt(own);
-  const double other = product_of(k, k);
-  return std::sqrt((own + other + size_of(own - other, 2 * product_of(j, k))) / 8);
-}
-
 // ---- the bounds from a state on
 
 auto ModalBounds::start(const double* angles, const double* rates, double t) const -> ModeVector {

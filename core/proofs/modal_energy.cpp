@@ -14,6 +14,22 @@ template <class A, class B> auto product(const A& a, const B& b) { return a.lazy
 
 } // namespace
 
+/// The second root of (7). For a pair of modes, Re P_j and −Im P_j are half of two rows of P.
+double ModalBounds::largest_by_energy(const Mode& mode, const double* least) const {
+  const int n = size();
+  const auto product_of = [&](int j, int k) { // of rows of P
+    double sum = rows_.row(j).tail(n).dot(drive_.row(k));
+    for (int i = 0; i < n; ++i) sum += rows_(j, i) * rows_(k, i) / least[i];
+    return sum;
+  };
+  const int j = mode.column, k = j + 1;
+  const double own = product_of(j, j);
+  if (!mode.is_pair) return std::sqrt(own);
+  const double other = product_of(k, k);
+  const double apart = own - other, both = 2 * product_of(j, k);
+  return std::sqrt((own + other + std::sqrt(apart * apart + both * both)) / 8);
+}
+
 /// The linear functions of (8), by rows as load_of_, by the columns of W.
 auto ModalBounds::make_loads() const -> Matrix {
   const int n = size();
