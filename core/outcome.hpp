@@ -148,8 +148,8 @@ struct Outcome {
   /// Largest changes of the base's angle and rate up to t_end; nothing if the base is not free.
   std::optional<BasePeaks> base_peaks;
   /// Whether it is proven that no peak of moments and forces would rise after t_end. If false, peaks may still rise, or
-  /// there is no proof. None exists on a base that turns faster and faster, or if a hinge has neither an engaged latch
-  /// nor a spring towards rest.
+  /// there is no proof. None exists if a hinge has neither an engaged latch nor a spring towards rest, and on a base that
+  /// turns faster and faster none that holds for ever.
   bool peaks_final = false;
   /// The same of the moments alone, those in flexible bodies included, and of the forces alone; true where peaks_final
   /// is.

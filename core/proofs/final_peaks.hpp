@@ -143,7 +143,7 @@ public:
     if (system.next_knot() < T(never))
       return false; // the base's motion, or a motor's command, will change
     if (holds_forbid(system)) return false;
-    if (!is_prepared_) prepare(system, x, t, all_latched);
+    if (!is_prepared_) prepare(system, x, t, t_end, all_latched);
     if (!modes_ || !latches_act_fully(system, x)) {
       const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t, t_end);
       return energy && prove_by_energy(system, x, *energy, seen);
@@ -166,7 +166,7 @@ public:
   [[nodiscard]] bool latches_stay(AnySystem& system, const State<T>& x, const T& t, const T& t_end,
                                   bool all_latched) {
     if (system.next_knot() < T(never) || holds_forbid(system)) return false;
-    if (!is_prepared_) prepare(system, x, t, all_latched);
+    if (!is_prepared_) prepare(system, x, t, t_end, all_latched);
     const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t, t_end);
     if (!energy) return false;
     bounds_.bound(system, remaining_, *energy);
@@ -203,7 +203,8 @@ private:
     return true;
   }
 
-  void prepare(AnySystem& system, const State<T>& x, const T& t, bool all_latched) {
+  void prepare(AnySystem& system, const State<T>& x, const T& t, const T& t_end, bool all_latched) {
+    t_end_ = t_end;
     remaining_.prepare(system);
     bounds_.prepare(system);
     is_prepared_ = true;
@@ -217,7 +218,7 @@ private:
   void find_modes(AnySystem& system, const T* rates) {
     const T* rest = &remaining_.rest()[system.layout().angle(1)];
     modes_.reset();
-    if (make_rest_model(system.wing(), system.work(), rest, rates, model_))
+    if (make_rest_model(system.wing(), system.work(), rest, rates, t_end_, model_))
       modes_ = ModalBounds::make(model_, remaining_.least_stiffness(), rest);
   }
 
@@ -323,6 +324,7 @@ private:
   ThoroughAttempts<T> thorough_;
   FinalLoads proven_{false, false};
   bool is_prepared_ = false;
+  T t_end_{}; ///< for which the bounds were prepared, s
 };
 
 } // namespace wingspread

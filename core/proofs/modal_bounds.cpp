@@ -344,6 +344,7 @@ auto ModalBounds::map(const Box& box, const ModeVector& start, double spin,
   image.turned = off.ways, image.moments = off.moments;
   image.drift = m.rigid * off.momentum;
   image.box.rigid = m.spin + m.rigid * spin + image.drift;
+  image.moments += m.dragged;
   if (m.rigid == 0) image.moments(0) = 0; // the base is not moved by it
   const ModeVector driven =
       product(by_turns_, image.moments) + product(by_hinges_, image.remainder);
@@ -352,6 +353,7 @@ auto ModalBounds::map(const Box& box, const ModeVector& start, double spin,
   if (m.turn_rate != 0) image.moments += m.pushed;
   image.box.accelerations = product(swing_by_turns_, image.moments) +
                             product(swing_by_hinges_, image.remainder) + product(swing_, box.modes);
+  image.box.accelerations.array() += m.quickening;
   return image;
 }
 
@@ -371,8 +373,8 @@ HingeBounds ModalBounds::bounds_inside(const Box& box, const Image& image,
                                        const Reach* reach) const {
   constexpr double rounded_up = 1 + 1e-6; // far more than some hundred operations lose
   const int n = size();
-  const BodyVector turned =
-      image.turned.array() * box.accelerations.array() + image.spin.array().square();
+  const BodyVector turned = image.turned.array() * box.accelerations.array() +
+                            image.spin.array().square() + model_->quickening;
   HingeBounds bounds;
   bounds.moment.resize(n), bounds.force.resize(n);
   for (int i = 0; i < n; ++i) {

@@ -18,11 +18,12 @@ namespace {
 
 class Maker {
 public:
-  Maker(const Wing<double>& wing, const Workspace<double>& work, RestModel& model)
-      : wing_(wing), work_(work), m_(model), n_(wing.size()) {}
+  Maker(const Wing<double>& wing, const Workspace<double>& work, double t_end, RestModel& model)
+      : wing_(wing), work_(work), t_end_(t_end), m_(model), n_(wing.size()) {}
 
   bool make(const double* angles, const double* rates) {
     if (!is_modelled()) return false;
+    is_bounded_ = true;
     begin(angles);
     find_rest();
     add_damping(rates);
@@ -58,9 +59,17 @@ private:
   [[nodiscard]] bool is_modelled() const {
     const BaseTerms<double>& base = wing_.base;
     if (n_ > most_modelled_bodies || !wing_.plates.empty()) return false;
-    if (base.motion == BaseMotion::prescribed && !is_steady(base, work_.driven)) return false;
+    if (base.motion == BaseMotion::prescribed && base.table && !is_even(work_.driven)) return false;
     return std::none_of(wing_.real.begin(), wing_.real.end(),
                         [](const auto& real) { return real.has_backlash; });
+  }
+
+  /// Whether all accelerations are constant from this piece on.
+  [[nodiscard]] static bool is_even(const DrivenPiece<double>& piece) {
+    bool even = !(piece.until < never);
+    for (int power = 1; power < 4; ++power)
+      even = even && piece.x[power] == 0 && piece.y[power] == 0 && piece.turning[power] == 0;
+    return even;
   }
 
   void resize() {
@@ -70,14 +79,19 @@ private:
     for (Eigen::MatrixXd* v : {&m_.mass, &m_.stiffness, &m_.damping}) v->setZero(n_, n_);
     for (Eigen::MatrixXd* v : {&m_.lever_x, &m_.lever_y}) v->setZero(n_, n_ + 1);
     m_.turns.setZero(n_ + 1, n_);
-    for (Eigen::VectorXd* v : {&m_.pushed, &m_.push_cosine, &m_.push_sine}) v->setZero(n_ + 1);
+    for (Eigen::VectorXd* v : {&m_.pushed, &m_.push_cosine, &m_.push_sine, &m_.dragged})
+      v->setZero(n_ + 1);
     m_.remainders.assign(n_, {});
     m_.loops.clear(), m_.pairs.clear();
     const bool driven = wing_.base.motion == BaseMotion::prescribed;
     m_.since = wing_.base.table ? work_.driven.from : 0;
     const Drive<double> drive = drive_at(wing_.base, work_.driven, m_.since);
-    push_ = driven ? drive.felt : Vec2<double>{0, 0};
-    m_.turn_rate = driven ? drive.rate : 0, m_.spin = std::abs(m_.turn_rate), m_.rigid = 0;
+    m_.quickening = driven && is_bounded_ ? std::abs(drive.angular_acceleration) : 0, m_.rigid = 0;
+    const double last = driven && is_bounded_ ? drive_at(wing_.base, work_.driven, t_end_).rate : 0;
+    m_.spin = driven ? std::max(std::abs(drive.rate), std::abs(last)) : 0;
+    m_.turn_rate = driven && m_.quickening == 0 ? drive.rate : 0;
+    push_ = driven && m_.quickening == 0 ? drive.felt : Vec2<double>{0, 0};
+    felt_ = driven ? length(drive.felt) : 0;
     turn_.assign(n_ + 1, driven ? drive.angle : 0);
     outward_mass_.assign(n_ + 1, 0);
     own_moment_.assign(n_ + 1, {0, 0}), Y_.assign(n_ + 1, {0, 0});
@@ -278,6 +292,9 @@ private:
         if (k == 0) break;
       }
     }
+    if (m_.quickening != 0)
+      for (int k = 1; k <= n_; ++k)
+        m_.dragged(k) = m_.quickening * std::abs(M.row(k).sum()) + felt_ * length(Y_[k]);
     if (is_free()) refer_to_center(M, s);
     find_turns(M);
     m_.mass = m_.turns.transpose() * M * m_.turns;
@@ -319,9 +336,8 @@ private:
 
   /// Finds Y_ik, the first moment of what is outward of hinge i that body k's turning moves.
   void find_levers() {
-    const double push = length(push_);
     for (int i = 1; i <= n_; ++i) {
-      m_.pushed(i) = push * length(Y_[i]), m_.weight(i - 1) = push * outward_mass_[i];
+      m_.pushed(i) = length(push_) * length(Y_[i]), m_.weight(i - 1) = felt_ * outward_mass_[i];
       if (m_.turn_rate != 0) {
         const Vec2<double> along = turned(Y_[i]), felt = scaled(-1.0, push_);
         m_.push_cosine(i) = dot(along, felt), m_.push_sine(i) = dot(turned(along), felt);
@@ -373,9 +389,12 @@ private:
 
   const Wing<double>& wing_;
   const Workspace<double>& work_;
+  double t_end_;            ///< of bounds
+  bool is_bounded_ = false; ///< not the linear model alone
   RestModel& m_;
   int n_;
-  Vec2<double> push_{0, 0};
+  Vec2<double> push_{0, 0}; ///< in the directions that K and the rest know, m/s²
+  double felt_ = 0;         ///< |a|, m/s²
   Eigen::VectorXd residual_;
   std::vector<double> outward_mass_, turn_;
   std::vector<Vec2<double>> own_moment_; ///< Y in the body's own axes
@@ -385,8 +404,8 @@ private:
 } // namespace
 
 bool make_rest_model(const Wing<double>& wing, const Workspace<double>& work, const double* angles,
-                     const double* rates, RestModel& model) {
-  return Maker(wing, work, model).make(angles, rates);
+                     const double* rates, double t_end, RestModel& model) {
+  return Maker(wing, work, t_end, model).make(angles, rates);
 }
 
 bool make_linear_model(const Wing<double>& wing, const double* angles,
@@ -394,7 +413,7 @@ bool make_linear_model(const Wing<double>& wing, const double* angles,
   Workspace<double> at_the_end;
   for (const MotorTerms<double>& motor : wing.motors)
     at_the_end.motors.push_back(last_motor_piece(motor));
-  return Maker(wing, at_the_end, model).make_linear(angles, is_held);
+  return Maker(wing, at_the_end, 0, model).make_linear(angles, is_held);
 }
 
 } // namespace wingspread

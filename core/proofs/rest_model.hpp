@@ -1,5 +1,5 @@
 /// A latched wing about its rest: the linear model of its motion, and bounds on what the model leaves
-/// out. The base is fixed, pushed, turned at a constant rate, or free.
+/// out. The base is fixed, pushed, turned at a constant rate or faster and faster, or free.
 ///
 /// | symbol  | meaning                                                                    | unit       |
 /// |---------|----------------------------------------------------------------------------|------------|
@@ -27,7 +27,8 @@
 ///
 /// The first sum of (3) is M(θ) − M(rest), the second bounds centripetal accelerations. On a base that
 /// turns, r is the base's rate and has no first sum; the push on the wing at rest, which comes and goes
-/// as the base turns, is kept apart. f holds friction, curves that bend, dampers that are not viscous,
+/// as the base turns, is kept apart. On a base with a constant angular acceleration ε, r is the largest rate up to the
+/// run's end, every ω̇ has ε beside S ü, and n has at most ε |Σ_l M_kl(rest)| + |push| |Y_k| more. f holds friction, curves that bend, dampers that are not viscous,
 /// motors that pass their limits, and loops that go slack.
 #pragma once
 
@@ -83,7 +84,8 @@ struct RestModel {
   Eigen::MatrixXd stiffness, damping; ///< K, C
   Eigen::MatrixXd turns;              ///< S: bodies by hinges
   double rigid = 0;                   ///< 1/I of a free base, else 0
-  double spin = 0;                    ///< |r| of a base that turns, rad/s
+  double spin = 0;                    ///< largest |r| of a base that turns, rad/s
+  double quickening = 0;              ///< |ε|, rad/s²
   std::vector<Pair> pairs;            ///< all with c or s ≠ 0
   /// (i, k): first moment of what is outward of hinge i, as far as body k's turning moves it, kg·m
   Eigen::MatrixXd lever_x, lever_y;
@@ -92,6 +94,7 @@ struct RestModel {
   /// the base has turned by ψ = turn_rate (t − since).
   Eigen::VectorXd push_cosine, push_sine;
   double turn_rate = 0, since = 0; ///< rad/s, s
+  Eigen::VectorXd dragged;         ///< 0 … n: what n has more where ε is not 0, N·m
   Eigen::VectorXd weight;          ///< |a| times the mass outward, N
   Eigen::VectorXd moment;          ///< M of each hinge at rest, N·m
   Eigen::VectorXd room; ///< way from rest to where another law holds or overtravel begins, rad
@@ -138,10 +141,12 @@ struct RestModel {
 /// Makes the model of a wing all of whose latches have engaged. Cost O(n³).
 /// @param angles of the hinges, 0 … n − 1: where the search for rest begins
 /// @param rates  of the hinges, for which dampers are made linear
-/// @return whether there is a model: not for a base that turns faster and faster, backlash, air, or
-///         more than most_modelled_bodies
+/// @param t_end  the run's end, s: the model of a base that turns faster and faster holds up to there
+/// @return whether there is a model: not for backlash, air, or more than most_modelled_bodies, nor where the
+///         base's accelerations change
 [[nodiscard]] bool make_rest_model(const Wing<double>& wing, const Workspace<double>& work,
-                                   const double* angles, const double* rates, RestModel& model);
+                                   const double* angles, const double* rates, double t_end,
+                                   RestModel& model);
 
 /// The angles at rest, mass, stiffness, damping and turns alone, of a wing of any size: no bounds, and no part of air,
 /// friction and backlash. The stiffness includes the push of a base that does not turn, and the bend of loaded gears.

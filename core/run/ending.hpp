@@ -250,8 +250,15 @@ private:
                               !latches_left());
   }
 
+  /// Whether the base turns faster and faster. Proofs then hold up to t_end, and not for ever.
+  [[nodiscard]] bool base_quickens() const {
+    if constexpr (AnySystem::base_motion != BaseMotion::prescribed) return false;
+    return run_.system.drive(run_.step.t).angular_acceleration != T(0);
+  }
+
   /// Sets what is proven of the peaks. Those of a base, of holds and of overtravel are the ones up to t_end.
   void describe_peaks(Finality& final) {
+    if (base_quickens() && !is_stuck()) return;
     const Goal& goal = run_.goal;
     final.peaks = peaks_are_proven_ || is_stuck();
     const bool settled =

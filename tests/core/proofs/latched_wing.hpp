@@ -14,8 +14,10 @@ namespace wingspread::oracle {
 
 /// A wing with all its latches engaged, and its linear model about rest.
 template <BaseMotion M> struct Latched {
-  explicit Latched(const Scene& scene)
-      : wing(with_numbers(scene)), system(wing, std::nullopt, work), at(system.layout()) {
+  /// @param end of the motion on a base that turns faster and faster, s
+  explicit Latched(const Scene& scene, double end = 0)
+      : wing(with_numbers(scene)), system(wing, std::nullopt, work), at(system.layout()),
+        t_end(end) {
     State<double> x;
     system.start(x);
     for (int i = 1; i <= at.bodies; ++i) x[at.angle(i)] = wing.hinges[i].latched, x[at.rate(i)] = 0;
@@ -39,7 +41,7 @@ template <BaseMotion M> struct Latched {
   /// @param rates rates about which dampers are linearized @return whether all modes decay
   bool tune(const double* rates) {
     modes.reset();
-    if (make_rest_model(wing, work, &still[at.angle(1)], rates, model))
+    if (make_rest_model(wing, work, &still[at.angle(1)], rates, t_end, model))
       modes = ModalBounds::make(model, remaining.least_stiffness(), &remaining.rest()[at.angle(1)]);
     return modes.has_value();
   }
@@ -81,6 +83,7 @@ template <BaseMotion M> struct Latched {
   Workspace<double> work;
   System<double, Tree, M> system;
   Layout at;
+  double t_end;
   RemainingEnergy<double> remaining;
   State<double> still;
   RestModel model;

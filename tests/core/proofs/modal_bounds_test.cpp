@@ -54,6 +54,7 @@ std::optional<Shares> shares_from(Latched<M>& wing, State<double> x, Kind kind, 
   };
   for (int step = 0; step < steps; ++step) {
     t = step * h;
+    if (wing.model.quickening != 0 && t > wing.t_end) break;
     wing.bear(x);
     wing.system(x, k1, t);
     for (int i = 1; i <= at.bodies; ++i) {
@@ -181,7 +182,8 @@ TEST_CASE("no motion breaks the bounds by modes: the seed wing") {
 
 namespace {
 
-template <BaseMotion M> Sought seek_on_random_wings(int count, std::uint64_t seed, double turning) {
+template <BaseMotion M>
+Sought seek_on_random_wings(int count, std::uint64_t seed, double turning, double quickening = 0) {
   Sought all;
   for (int k = 0; k < count; ++k) {
     Draws draws(seed + k);
@@ -193,9 +195,10 @@ template <BaseMotion M> Sought seek_on_random_wings(int count, std::uint64_t see
     options.mass_lower = 1, options.mass_upper = 30;
     Scene scene = with_latches(oracle::random_scene(600 + k, options), draws);
     scene.base.rate = M == BaseMotion::prescribed ? turning * draws.uniform(-1, 1) : 0;
-    scene.base.angular_acceleration = 0;
+    scene.base.angular_acceleration =
+        quickening == 0 ? 0 : quickening * draws.log_uniform(1e-3, 1) * (k % 2 == 0 ? 1 : -1);
     for (Hinge& hinge : scene.hinges) hinge.friction.regularization_rate = 0.02;
-    Latched<M> wing(scene);
+    Latched<M> wing(scene, 20);
     if (!wing.has_model) continue;
     Sought sought;
     seek(wing, draws, draws.log_uniform(1e-6, 3e-2), 6, sought);
@@ -229,6 +232,10 @@ TEST_CASE("no motion breaks the bounds by modes: random wings that are pushed") 
 }
 TEST_CASE("no motion breaks the bounds by modes: random wings on bases that turn") {
   check(seek_on_random_wings<BaseMotion::prescribed>(60, 30, 0.3), 130);
+}
+TEST_CASE(
+    "no motion breaks the bounds by modes: random wings on bases that turn faster and faster") {
+  check(seek_on_random_wings<BaseMotion::prescribed>(60, 50, 0.1, 1), 130);
 }
 TEST_CASE("no motion breaks the bounds by modes: random wings on free bases") {
   const Sought all = seek_on_random_wings<BaseMotion::free>(60, 40, 0);
@@ -325,7 +332,7 @@ TEST_CASE("there is a model of forty bodies and none of more, on a fixed base an
   }
 }
 
-TEST_CASE("there is no model by modes of backlash, of air, of a base that turns faster") {
+TEST_CASE("there is no model by modes of backlash, of air, of a base whose accelerations change") {
   Scene scene = oracle::seed_scene();
   scene.hinges[0].latch->backlash = 1e-3;
   CHECK_FALSE(Latched<BaseMotion::fixed>(scene).has_model);
@@ -338,5 +345,9 @@ TEST_CASE("there is no model by modes of backlash, of air, of a base that turns 
   scene.base.rate = 0.1;
   CHECK(Latched<BaseMotion::prescribed>(scene).has_model);
   scene.base.angular_acceleration = 0.1;
-  CHECK_FALSE(Latched<BaseMotion::prescribed>(scene).has_model);
+  CHECK(Latched<BaseMotion::prescribed>(scene, 10).has_model);
+  BaseTable::Columns ramp;
+  ramp.time = {0, 1}, ramp.angular_acceleration = {0.1, 0.3};
+  scene.base.table = std::make_shared<const BaseTable>(ramp, Interpolation::linear);
+  CHECK_FALSE(Latched<BaseMotion::prescribed>(scene, 10).has_model);
 }

@@ -112,6 +112,29 @@ TEST_CASE("with real hinges, an early end misses no latch and no peak", "[long]"
   WARN(final << " of 40 ended by proof");
 }
 
+TEST_CASE("on bases that turn faster and faster, an early end misses no latch and no peak") {
+  RealFeatures features;
+  features.backlash = features.air = features.gravity = features.stops = false;
+  int deployed = 0, early = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    CAPTURE(seed);
+    Draws draws(seed);
+    Scene scene = eager(seed);
+    if (seed % 2 == 0) scene = with_real_hinges(scene, seed, features);
+    scene.base = {};
+    scene.base.motion = BaseMotion::prescribed;
+    scene.base.rate = draws.uniform(-0.02, 0.02);
+    scene.base.angular_acceleration = (seed % 4 < 2 ? 1 : -1) * draws.log_uniform(1e-5, 1e-2);
+    if (seed % 8 == 0) scene.base.acceleration = {0.01, -0.02};
+    check_nothing_lost(scene, 60);
+    const Outcome out = Deployment().run(scene, within(1e-8, 60), {});
+    deployed += out.status == Status::deployed;
+    early += out.status == Status::deployed && out.t_end < 60;
+  }
+  CAPTURE(deployed, early);
+  CHECK((deployed > 20 && early > deployed / 2));
+}
+
 TEST_CASE("with real hinges and smoothed latches, an early end misses no latch and no peak",
           "[long]") {
   RealFeatures features;
