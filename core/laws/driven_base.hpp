@@ -87,13 +87,17 @@ template <class T>
           fused(h, fused(h, T(3) * c3, T(2) * c2), c1), fused(T(6) * h, c3, T(2) * c2)};
 }
 
-/// Whether acceleration and rate are constant from this piece on, so that only the angle changes.
-template <class T> [[nodiscard]] bool is_steady(const DrivenPiece<T>& base) {
-  bool steady = !(base.until < T(never)) && base.turning[0] == T(0);
+/// Whether all accelerations are constant from this piece on.
+template <class T> [[nodiscard]] bool is_even(const DrivenPiece<T>& base) {
+  bool even = !(base.until < T(never));
   for (int power = 1; power < 4; ++power)
-    steady =
-        steady && base.x[power] == T(0) && base.y[power] == T(0) && base.turning[power] == T(0);
-  return steady;
+    even = even && base.x[power] == T(0) && base.y[power] == T(0) && base.turning[power] == T(0);
+  return even;
+}
+
+/// Whether the rate is constant too, so that only the angle changes.
+template <class T> [[nodiscard]] bool is_steady(const DrivenPiece<T>& base) {
+  return is_even(base) && base.turning[0] == T(0);
 }
 
 template <class T> struct BaseTerms {

@@ -30,7 +30,7 @@ public:
     add_dissipation(), add_loops();
     find_masses();
     find_levers();
-    find_remainders();
+    detail::find_remainders(wing_, m_);
     return is_finite();
   }
 
@@ -62,14 +62,6 @@ private:
     if (base.motion == BaseMotion::prescribed && base.table && !is_even(work_.driven)) return false;
     return std::none_of(wing_.real.begin(), wing_.real.end(),
                         [](const auto& real) { return real.has_backlash; });
-  }
-
-  /// Whether all accelerations are constant from this piece on.
-  [[nodiscard]] static bool is_even(const DrivenPiece<double>& piece) {
-    bool even = !(piece.until < never);
-    for (int power = 1; power < 4; ++power)
-      even = even && piece.x[power] == 0 && piece.y[power] == 0 && piece.turning[power] == 0;
-    return even;
   }
 
   void resize() {
@@ -357,34 +349,6 @@ private:
   }
   void set_lever(int i, int k, const Vec2<double>& v) {
     m_.lever_x(i - 1, k) = v.x, m_.lever_y(i - 1, k) = v.y;
-  }
-
-  // ---- f: moments that the linear model leaves out
-
-  void find_remainders() {
-    m_.room.setConstant(std::numeric_limits<double>::infinity());
-    for (int i = 1; i <= n_; ++i) {
-      RestModel::Remainder& left = m_.remainders[i - 1];
-      left.steady += wing_.hinges[i].most_friction();
-      if (wing_.hinges[i].has_latch) // beyond the stowed angle overtravel may rise
-        m_.room(i - 1) = std::abs(m_.angles(i - 1) - wing_.hinges[i].stowed);
-      if (wing_.real.empty()) continue;
-      const RealHingeTerms<double>& real = wing_.real[i];
-      const double phi = m_.angles(i - 1);
-      left.bend = bend_of(real.spring.curve, real.spring.weight, phi) +
-                  bend_of(real.harness.curve, real.harness.weight, phi);
-      double& room = m_.room(i - 1);
-      for (const StopTerms<double>* stop : {&real.stop, &real.far_stop})
-        if (stop->present) room = std::min(room, stop->sense * (phi - stop->contact_angle));
-      if (real.has_damper && real.has_window)
-        for (const double edge : {real.window_low, real.window_high})
-          room = std::min(room, std::abs(phi - edge));
-    }
-  }
-
-  /// By how much the slope of a curve may differ from that at an angle.
-  [[nodiscard]] static double bend_of(const Curve* curve, double weight, double angle) {
-    return curve ? std::abs(weight) * most_change_of_slope(*curve, slope(*curve, angle)) : 0;
   }
 
   const Wing<double>& wing_;

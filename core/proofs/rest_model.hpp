@@ -138,6 +138,13 @@ struct RestModel {
                                    const EnergyOfTurns* energy = nullptr) const;
 };
 
+namespace detail {
+
+/// Finds `room` and the `remainders` of friction and curves. @pre the model has its angles at rest
+void find_remainders(const Wing<double>& wing, RestModel& model);
+
+} // namespace detail
+
 /// Makes the model of a wing all of whose latches have engaged. Cost O(n³).
 /// @param angles of the hinges, 0 … n − 1: where the search for rest begins
 /// @param rates  of the hinges, for which dampers are made linear

@@ -3,8 +3,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wingspread {
+
+namespace {
+
+/// By how much the slope of a curve may differ from that at an angle.
+double bend_of(const Curve* curve, double weight, double angle) {
+  return curve ? std::abs(weight) * most_change_of_slope(*curve, slope(*curve, angle)) : 0;
+}
+
+} // namespace
+
+void detail::find_remainders(const Wing<double>& wing, RestModel& model) {
+  model.room.setConstant(std::numeric_limits<double>::infinity());
+  for (int i = 1; i <= model.size(); ++i) {
+    RestModel::Remainder& left = model.remainders[i - 1];
+    left.steady += wing.hinges[i].most_friction();
+    if (wing.hinges[i].has_latch) // beyond the stowed angle overtravel may rise
+      model.room(i - 1) = std::abs(model.angles(i - 1) - wing.hinges[i].stowed);
+    if (wing.real.empty()) continue;
+    const RealHingeTerms<double>& real = wing.real[i];
+    const double phi = model.angles(i - 1);
+    left.bend = bend_of(real.spring.curve, real.spring.weight, phi) +
+                bend_of(real.harness.curve, real.harness.weight, phi);
+    double& room = model.room(i - 1);
+    for (const StopTerms<double>* stop : {&real.stop, &real.far_stop})
+      if (stop->present) room = std::min(room, stop->sense * (phi - stop->contact_angle));
+    if (real.has_damper && real.has_window)
+      for (const double edge : {real.window_low, real.window_high})
+        room = std::min(room, std::abs(phi - edge));
+  }
+}
 
 bool RestModel::is_tuned_for(const HingeVector& rates) const {
   for (int i = 0; i < size(); ++i) {

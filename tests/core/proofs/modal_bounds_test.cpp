@@ -235,7 +235,7 @@ TEST_CASE("no motion breaks the bounds by modes: random wings on bases that turn
 }
 TEST_CASE(
     "no motion breaks the bounds by modes: random wings on bases that turn faster and faster") {
-  check(seek_on_random_wings<BaseMotion::prescribed>(60, 50, 0.1, 1), 130);
+  check(seek_on_random_wings<BaseMotion::prescribed>(60, 50, 0.1, 0.1), 100);
 }
 TEST_CASE("no motion breaks the bounds by modes: random wings on free bases") {
   const Sought all = seek_on_random_wings<BaseMotion::free>(60, 40, 0);

@@ -177,22 +177,25 @@ TEST_CASE("an early end loses no peak: free bases that spin") {
 TEST_CASE("peaks on a base that turns faster and faster are final up to t_end, and not for ever") {
   Scene scene = seed_scene();
   scene.base.motion = BaseMotion::prescribed;
-  scene.base.angular_acceleration = 0.02;
+  scene.base.angular_acceleration = 1e-3;
   const auto found = [&](double t_end, const Goal& goal) {
     return Deployment().run(scene, within(1e-8, t_end), goal);
   };
-  const Outcome early = found(20, {}), whole = found(20, to_the_end), later = found(400, {});
+  const Outcome early = found(20, {}), whole = found(20, to_the_end);
   CHECK(early.status == Status::deployed);
   CHECK(early.t_end < 10);
   CHECK_FALSE((early.peaks_final || early.moments_final || early.forces_final));
   CHECK(found(20, latches_only).t_end < 10);
-  // in the end the base turns so fast that loads exceed the peaks of the deployment
-  CHECK(later.t_end == 400);
   for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
     CHECK(early.peak_moment[i].value == whole.peak_moment[i].value);
     CHECK(early.peak_force[i].value == whole.peak_force[i].value);
-    CHECK(later.peak_force[i].value > 1.1 * early.peak_force[i].value);
   }
+  // a base that comes to turn so fast that loads exceed the peaks of the deployment
+  scene.base.angular_acceleration = 0.02;
+  const Outcome soon = found(40, to_the_end), later = found(400, {});
+  CHECK(later.t_end == 400);
+  for (std::size_t i = 0; i < scene.hinges.size(); ++i)
+    CHECK(later.peak_force[i].value > 1.1 * soon.peak_force[i].value);
 }
 
 TEST_CASE("an early end loses no peak: hinges without latches") {
