@@ -27,6 +27,7 @@ RUNS = {
     "stall": 3000,
     "prescribed_base": 2000,
     "two_wing_free": 600,
+    "satellite": 600,
     "yoke_wing": 600,
     "two_wing_release": 100,
     "bending_wings": 100,
