@@ -88,16 +88,17 @@ template <class T>
 }
 
 /// Whether all accelerations are constant from this piece on.
-template <class T> [[nodiscard]] bool is_even(const DrivenPiece<T>& base) {
-  bool even = !(base.until < T(never));
+template <class T> [[nodiscard]] bool accelerates_constantly(const DrivenPiece<T>& base) {
+  bool constant = !(base.until < T(never));
   for (int power = 1; power < 4; ++power)
-    even = even && base.x[power] == T(0) && base.y[power] == T(0) && base.turning[power] == T(0);
-  return even;
+    constant =
+        constant && base.x[power] == T(0) && base.y[power] == T(0) && base.turning[power] == T(0);
+  return constant;
 }
 
 /// Whether the rate is constant too, so that only the angle changes.
 template <class T> [[nodiscard]] bool is_steady(const DrivenPiece<T>& base) {
-  return is_even(base) && base.turning[0] == T(0);
+  return accelerates_constantly(base) && base.turning[0] == T(0);
 }
 
 template <class T> struct BaseTerms {

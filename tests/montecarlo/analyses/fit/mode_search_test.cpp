@@ -17,17 +17,24 @@ FitSpec fit_of_time_and_friction(const Campaign& campaign) {
                   "", ".", campaign);
 }
 
+/// That fit, and its runs on this many threads.
+struct TimerFit {
+  explicit TimerFit(int threads) : evaluator({.threads = threads}, never) {}
+
+  Campaign campaign = campaign_of(panel_campaign());
+  FitSpec spec = fit_of_time_and_friction(campaign);
+  ParameterSpace space{campaign, spec};
+  ThreadEvaluator evaluator;
+  TestRuns runs{spec.tests, spec.parameters, space, evaluator};
+};
+
 } // namespace
 
 TEST_CASE("derivatives of a latch time have the closed form's value to 1e-5") {
-  const Campaign campaign = campaign_of(panel_campaign());
-  const FitSpec spec = fit_of_time_and_friction(campaign);
-  const ParameterSpace space(campaign, spec);
-  ThreadEvaluator evaluator({.threads = 2}, never);
-  TestRuns runs(spec.tests, spec.parameters, space, evaluator);
+  TimerFit fit(2);
   FitPoint at(2);
   at << 0.5, -1;
-  const Eigen::MatrixXd slopes = jacobian_of(runs, at);
+  const Eigen::MatrixXd slopes = jacobian_of(fit.runs, at);
   const double s = 1 + 0.05 * 0.5, f = 1 - 0.3, torque = 2 * s - 0.3 * f;
   const double t = panel_latch_time(s, f);
   CHECK(slopes(0, 0) == Approx(-0.5 * t / torque * 2 * 0.05)
@@ -35,18 +42,14 @@ TEST_CASE("derivatives of a latch time have the closed form's value to 1e-5") {
   CHECK(slopes(0, 1) == Approx(0.5 * t / torque * 0.3 * 0.3).epsilon(1e-5));
   CHECK(slopes(1, 0) == Approx(0).margin(1e-9));
   CHECK(slopes(1, 1) == Approx(0.3).epsilon(1e-9));
-  CHECK(runs.runs() == 4);
+  CHECK(fit.runs.runs() == 4);
 }
 
 TEST_CASE("what the runs around a point lack has no slope, and leaves the other slopes alone") {
-  const Campaign campaign = campaign_of(panel_campaign());
-  const FitSpec spec = fit_of_time_and_friction(campaign);
-  const ParameterSpace space(campaign, spec);
-  ThreadEvaluator evaluator({.threads = 1}, never);
-  TestRuns runs(spec.tests, spec.parameters, space, evaluator);
+  TimerFit fit(1);
   FitPoint at(2);
   at << 0, 20; // a friction of 7 · 0.3 N·m, more than the spring's 2
-  const Eigen::MatrixXd slopes = jacobian_of(runs, at);
+  const Eigen::MatrixXd slopes = jacobian_of(fit.runs, at);
   REQUIRE((slopes.rows() == 2 && slopes.cols() == 2));
   CHECK(slopes(0, 0) == 0);
   CHECK(slopes(0, 1) == 0);
@@ -89,22 +92,18 @@ TEST_CASE("Laplace's approximation of one torque from one latch time is Bayes' r
 }
 
 TEST_CASE("starts that lead to one mode find it once, whichever start is the first") {
-  const Campaign campaign = campaign_of(panel_campaign());
-  const FitSpec spec = fit_of_time_and_friction(campaign);
-  const ParameterSpace space(campaign, spec);
-  ThreadEvaluator evaluator({.threads = 2}, never);
-  TestRuns runs(spec.tests, spec.parameters, space, evaluator);
-  const FitData data = data_of(spec.tests);
+  TimerFit fit(2);
+  const FitData data = data_of(fit.spec.tests);
   const auto point = [](double spring, double friction) {
     FitPoint at(2);
     at << spring, friction;
     return at;
   };
-  const FitMode alone = find_modes(data, runs, std::vector{point(0, 0)}).front();
+  const FitMode alone = find_modes(data, fit.runs, std::vector{point(0, 0)}).front();
   const FitPoint stalls = point(0, 20); // its mode is itself: no run near it latches
   for (const auto& starts : {std::vector{point(0, 0), point(1, -1), point(-2, 0.5)},
                              {point(-2, 0.5), stalls, point(1, -1), point(0, 0)}}) {
-    const std::vector<FitMode> modes = find_modes(data, runs, starts);
+    const std::vector<FitMode> modes = find_modes(data, fit.runs, starts);
     REQUIRE(modes.size() == 1);
     CHECK(distance_of(alone, modes[0]) < 1e-3);
     CHECK(modes[0].log_posterior == Approx(alone.log_posterior).epsilon(1e-6));
