@@ -120,8 +120,8 @@ public:
             events_.excess_before(),
             run_.system.writable_workspace().holding,
             peaks_.base(),
-            asked_.stage == Stage::step ? &peaks_.moments_rise() : nullptr,
-            asked_.stage == Stage::step ? &peaks_.holds_rise() : nullptr,
+            asks_for_whole_step() ? &peaks_.moments_rise() : nullptr,
+            asks_for_whole_step() ? &peaks_.holds_rise() : nullptr,
             may_happen_};
   }
 
@@ -281,8 +281,10 @@ private:
 
   void judge_landing(const StepVerdict& verdict) {
     if (!stepping_.count_trial(verdict)) return ask_for_step(stepping_.plan_again());
-    if (landing_.correct_end() || landing_.cut_at_earlier_event(stepping_.kinks()))
-      return ask_to_end(Stage::landing);
+    if (landing_.correct_end()) return ask_to_end(Stage::landing);
+    // the search for events before a kink needs a step that ends just beyond it
+    if (landing_.at_kink() && landing_.carry_end_to_event()) by_lane_ = {};
+    if (landing_.cut_at_earlier_event(stepping_.kinks())) return ask_to_end(Stage::landing);
     accept();
   }
 
@@ -299,6 +301,8 @@ private:
 
   /// Moves to the step's end, applies its event, and ends the run or asks for the next step.
   void finish_step() {
+    if (landing_.carry_end_to_event()) peaks_.include_end();
+    peaks_.close_step();
     diary_.notify_inside([this](const T& s) { return stepping_.evaluate_inside(s); });
     stepping_.advance(landing_.at_event());
     if (landing_.at_jump()) landing_.cross_jump();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace wingspread {
@@ -24,7 +25,7 @@ public:
   /// @return whether there is one: the step must then be made again, to the event
   [[nodiscard]] bool cut_at_event(const EventSearch& search, double rtol) {
     nearest_ = nearest(rtol);
-    missed_ = false, searches_ = 0;
+    missed_ = false, searches_ = 0, rest_ = T(0);
     due_ = events_.first(run_.step, run_.x, run_.dxdt, search);
     if (due_) begin();
     return due_.has_value();
@@ -43,7 +44,7 @@ public:
   }
 
   /// As cut_at_event where a lane has found that there is none.
-  void expect_no_event() { due_.reset(), missed_ = false; }
+  void expect_no_event() { due_.reset(), missed_ = false, rest_ = T(0); }
 
   /// Corrects the end of a cut step that was accepted: Newton's step to the event.
   /// @return whether the step is cut anew, and must be made again; if not, its end is the event
@@ -60,14 +61,23 @@ public:
       cut(step.h - late);
       return true;
     }
-    const T way = bent ? T(-late) : T(-late * fused(T(0.5) * late, at.bend / at.slope, T(1)));
+    rest_ = bent ? T(-late) : T(-late * fused(T(0.5) * late, at.bend / at.slope, T(1)));
+    return false;
+  }
+
+  /// Carries the end of the accepted step over what the landing missed the event by.
+  /// @return whether there is any; the last evaluation is then at the new end, where loads ask for it
+  bool carry_end_to_event() {
+    const T way = std::exchange(rest_, T(0));
+    if (way == T(0)) return false;
+    Step<T>& step = run_.step;
     shift_end(way);
     step.h = smaller(T(step.h + way), longest_);
     // forces and accelerations at the new end
     if (run_.goal.peak_moment || run_.goal.peak_force || due_->event == Event::kink ||
         run_.system.work().stuck > 0)
       run_.system(step.x1, step.dxdt1, step.t + step.h);
-    return false;
+    return true;
   }
 
   /// Searches a step that ends at a kink for events before the kink. The kink was found in a longer step, whose dense
@@ -86,10 +96,11 @@ public:
   /// Whether the step under way ends at an event.
   [[nodiscard]] bool at_event() const { return due_.has_value(); }
 
+  /// Whether it ends at a kink.
+  [[nodiscard]] bool at_kink() const { return due_ && due_->event == Event::kink; }
+
   /// Whether the moments jump there: a damped strand goes slack. (At other events they jump when the event is applied.)
-  [[nodiscard]] bool at_jump() const {
-    return due_ && due_->event == Event::kink && due_->kink.of == Kink<T>::Of::strands;
-  }
+  [[nodiscard]] bool at_jump() const { return at_kink() && due_->kink.of == Kink<T>::Of::strands; }
 
   /// Moves the state across that jump, from a step's end to the next one's start. @pre at_jump()
   void cross_jump() { cross(run_.system, due_->kink, run_.step.x); }
@@ -117,6 +128,7 @@ public:
 private:
   void begin() {
     corrections_ = 0;
+    rest_ = T(0);
     longest_ = run_.step.h;
     cut(due_->s * longest_);
   }
@@ -207,6 +219,7 @@ private:
   int searches_ = 0;          ///< for earlier events, since the step was planned
   bool missed_ = false;       ///< the last landing ended before its event
   T nearest_ = T(0);          ///< how far the end may miss it, in steps
+  T rest_ = T(0);             ///< from the end of the landing to the event, s
   T longest_ = T(0);          ///< the step in which it was found
 };
 

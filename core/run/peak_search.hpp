@@ -84,7 +84,7 @@ public:
     bool forces_may_rise = true; ///< if done
   };
 
-  /// Looks for the peaks of a step just accepted. @pre the last evaluation was at its end
+  /// Looks for the largest loads of a step just accepted. @pre the last evaluation was at its end
   /// @return the first doubt: the fraction of the step to which the method must make a step
   [[nodiscard]] std::optional<T> first_doubt(const LaneSearch& by_lane) {
     made_inner_steps_ = held_is_bounded_ = false, searched_ = by_lane.done;
@@ -92,11 +92,7 @@ public:
     hinge_ = hold_ = 0;
     doubt_.reset(), held_at_.reset(), borne_at_.reset();
     locked_.begin();
-    base_.over_step(run_.at, run_.step);
-    if (is_stuck_for_good(run_.system, run_.step.x)) return std::nullopt; // nothing else changes
-    for (int i = 1; run_.goal.overtravel && i <= run_.at.bodies; ++i)
-      raise_overtravel(overtravel_[i], run_.system.wing(), run_.at, run_.step, i);
-    add_motor_energy(motor_energy_, run_.system, run_.step);
+    if (is_stuck_for_good(run_.system, run_.step.x)) return std::nullopt; // no load changes
     if (run_.goal.peak_force)
       forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt,
                         !by_lane.done || by_lane.forces_may_rise);
@@ -115,6 +111,24 @@ public:
                             run_.dxdt, moment_worth_a_step()))
       return doubt_->s;
     return next_doubt();
+  }
+
+  /// Raises the peaks to the loads at the step's end, which has moved since they were searched. @pre the last evaluation
+  /// was there
+  void include_end() {
+    const T end = run_.step.t + run_.step.h;
+    if (run_.system.work().stuck > 0) held_at_end_ = run_.system.work().holding;
+    include_moments(run_.step.x1, end);
+    if (run_.goal.peak_force) forces_.sample(run_.system, end);
+  }
+
+  /// Adds the step, whose end is final, to what is not a load: the ways of a free base, overtravel, the work of motors.
+  void close_step() {
+    base_.over_step(run_.at, run_.step);
+    if (is_stuck_for_good(run_.system, run_.step.x)) return; // nothing else changes
+    for (int i = 1; run_.goal.overtravel && i <= run_.at.bodies; ++i)
+      raise_overtravel(overtravel_[i], run_.system.wing(), run_.at, run_.step, i);
+    add_motor_energy(motor_energy_, run_.system, run_.step);
   }
 
   /// Whether the method has made steps inside the one accepted.
