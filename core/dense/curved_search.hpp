@@ -60,6 +60,9 @@ template <class T> [[nodiscard]] T shortest_part(const T& t, const T& h) {
 /// A function's value at a fraction of the step.
 template <class T> struct Sampled { T s, value; };
 
+/// Where a function becomes positive, and its slope there by fractions of the step.
+template <class T> struct RisingRoot { T s, slope; };
+
 namespace detail {
 
 template <class T> struct Stretch { Sampled<T> a, b; };
@@ -96,26 +99,52 @@ template <class T>
   return larger(at.a.value, at.b.value) + inside > floor && !(inside <= close);
 }
 
+/// The slope, at the root r, of the parabola through the root and two samples on its two sides.
+template <class T>
+[[nodiscard]] T slope_at_root(const T& r, const Sampled<T>& before, const Sampled<T>& after) {
+  const T back = r - before.s, ahead = after.s - r;
+  return (after.value * back / ahead - before.value * ahead / back) / (back + ahead);
+}
+
+/// The root of a function that is negative at the stretch's start and positive at its end. An evaluation of f is
+/// costly, so the search stops where |f| is 1e-9 of the larger end: a step of the method then corrects the instant. The
+/// slope is that of a parabola through samples beyond 1e-3 of it: nearer ones differ by little more than rounding.
 template <class T, class Function>
-[[nodiscard]] T root_of_rise(const Stretch<T>& at, const Function& f) {
+[[nodiscard]] RisingRoot<T> root_of_rise(const Stretch<T>& at, const Function& f) {
+  using std::abs;
+  const T size = larger(T(-at.a.value), at.b.value);
+  Sampled<T> before = at.a, after = at.b;
+  const auto rounded = [&](const T& s) {
+    const T value = f(s);
+    if (value < T(-1e-3) * size && s > before.s) before = {s, value};
+    if (value > T(1e-3) * size && s < after.s) after = {s, value};
+    return abs(value) <= T(1e-9) * size ? T(0) : value;
+  };
   std::uintmax_t iterations = 60;
-  return boost::math::tools::toms748_solve(f, at.a.s, at.b.s, at.a.value, at.b.value,
-                                           boost::math::tools::eps_tolerance<T>(40), iterations)
-      .second;
+  const T root =
+      boost::math::tools::toms748_solve(rounded, at.a.s, at.b.s, at.a.value, at.b.value,
+                                        boost::math::tools::eps_tolerance<T>(40), iterations)
+          .second;
+  const bool between = before.s < root && root < after.s;
+  return {root, between ? slope_at_root(root, before, after)
+                        : T((at.b.value - at.a.value) / (at.b.s - at.a.s))};
 }
 
 } // namespace detail
 
-/// The first s in [0, 1] where f > 0; none where f ≤ `close` throughout.
+/// The first s in [0, 1] where f > 0, with f's slope; none where f ≤ `close` throughout.
 /// @param first, last f at s = 0 and 1
 /// @param rise  rise(a, b) → Inside between two fractions of the step
 /// @param shortest part of the step that is not halved (shortest_part)
 /// @param crest raised to the largest sample made
 template <class T, class Function, class Bulges>
-[[nodiscard]] std::optional<T> first_positive(const Function& f, const T& first, const T& last,
-                                              const Bulges& rise, const T& close, const T& shortest,
-                                              Sampled<T>& crest) {
-  if (first > T(0)) return T(0);
+[[nodiscard]] std::optional<RisingRoot<T>>
+first_positive(const Function& f, const T& first, const T& last, const Bulges& rise, const T& close,
+               const T& shortest, Sampled<T>& crest) {
+  if (first > T(0)) {
+    constexpr double width = 1e-3;
+    return RisingRoot<T>{T(0), (f(T(width)) - first) / T(width)};
+  }
   detail::OpenStretches<T> open;
   open.push({{T(0), first}, {T(1), last}});
   while (const auto at = open.pop()) {
@@ -124,7 +153,8 @@ template <class T, class Function, class Bulges>
     if (!ends_above && !(larger(at->a.value, at->b.value) + inside > T(0))) continue;
     if (inside <= close || at->b.s - at->a.s <= shortest) {
       if (!ends_above) continue;
-      return at->a.value < T(0) ? detail::root_of_rise(*at, f) : at->a.s;
+      if (at->a.value < T(0)) return detail::root_of_rise(*at, f);
+      return RisingRoot<T>{at->a.s, (at->b.value - at->a.value) / (at->b.s - at->a.s)};
     }
     const T s = T(0.5) * (at->a.s + at->b.s);
     const Sampled<T> middle{s, f(s)};

@@ -70,7 +70,7 @@ public:
 
   /// The earliest release in the step, searched on the dense output where neither a standstill nor the load's curvature
   /// excludes it.
-  /// @pre the last evaluation was at the step's end, as it is again afterwards. Overwrites x and dxdt.
+  /// @pre the last evaluation was at the step's end, as it is again afterwards if there is none. Overwrites x and dxdt.
   template <class AnySystem>
   [[nodiscard]] std::optional<Slip<T>> first_release(AnySystem& system, const Step<T>& step,
                                                      State<T>& x, State<T>& dxdt) {
@@ -88,7 +88,7 @@ public:
       const auto found = release_of(excess_at, i, limit, step);
       if (found && (!first || found->s < first->s)) first = found;
     }
-    system(step.x1, dxdt, step.t + step.h);
+    if (!first) system(step.x1, dxdt, step.t + step.h);
     return first;
   }
 
@@ -129,18 +129,14 @@ private:
                                                   const Step<T>& step) {
     // Heuristics. A crest below the limit by less than 0.1 % of the limit and of the load's change over the step counts as
     // a graze: the step's error may hide a release there. Within 2 % of an end the load at that end decides. A graze ends
-    // the step at the crest, and the load there decides. The slope is a difference over 0.2 % of the step.
-    constexpr double grazes = 1e-3, width = 1e-3, next_to_an_end = 0.02;
+    // the step at the crest, and the load there decides.
+    constexpr double grazes = 1e-3, next_to_an_end = 0.02;
     Sampled<T> crest{T(0), larger(before_[i], after_[i])};
     const auto rise = [&](const T& a, const T& b) { return bound_.friction(i, a, b); };
-    const auto s =
+    const auto found =
         first_positive(excess_at, before_[i], after_[i], rise, negligible_load(bound_, i, limit),
                        shortest_part(step.t, step.h), crest);
-    if (s) {
-      const T slope =
-          (excess_at(T(*s + width)) - excess_at(T(*s - width))) / (T(2 * width) * step.h);
-      return Slip<T>{i, *s, slope, false};
-    }
+    if (found) return Slip<T>{i, found->s, found->slope / step.h, false};
     const bool inside = crest.s > T(next_to_an_end) && crest.s < T(1 - next_to_an_end);
     const T change = crest.value - smaller(before_[i], after_[i]);
     if (inside && crest.value > T(-grazes) * smaller(limit, change))

@@ -15,6 +15,7 @@ namespace {
 struct Wave {
   double size, turns, phase, shift;
   double operator()(double s) const { return size * std::sin(turns * s + phase) + shift; }
+  [[nodiscard]] double slope(double s) const { return size * turns * std::cos(turns * s + phase); }
   [[nodiscard]] double rise() const { return size * turns * turns / 8; }
 };
 
@@ -31,14 +32,15 @@ TEST_CASE("the first point where a function is positive is found, however narrow
     const double expected = (left + cycles * turn - wave.phase) / wave.turns;
     Sampled<double> crest{0, -1e9};
     if (wave(0) > 0) continue;
-    const auto s = first_positive(wave, wave(0), wave(1), Bulge<double>{wave.rise()}, 1e-12,
-                                  1.0 / (1 << 17), crest);
+    const auto root = first_positive(wave, wave(0), wave(1), Bulge<double>{wave.rise()}, 1e-12,
+                                     1.0 / (1 << 17), crest);
     CAPTURE(k, margin, expected);
-    REQUIRE(s.has_value() == (expected <= 1));
-    if (!s) continue;
+    REQUIRE(root.has_value() == (expected <= 1));
+    if (!root) continue;
     ++found;
-    CHECK(std::abs(wave(*s)) < 1e-9);
-    CHECK(*s == Approx(expected).margin(1e-8 + 1e-12 / std::sqrt(margin)));
+    CHECK(std::abs(wave(root->s)) < 1e-9);
+    CHECK(root->s == Approx(expected).margin(1e-8 + 1e-12 / std::sqrt(margin)));
+    CHECK(root->slope == Approx(wave.slope(root->s)).epsilon(0.1));
   }
   CHECK(found > 100);
 }
