@@ -17,6 +17,12 @@
 ///
 /// (M + E)⁻¹ is augmented.hpp's: each hinge carries the inertia E. O(n), no matrix.
 ///
+/// The command of a motor turns time into moments, by its gain c, which can be stiff. Time is then one more variable, with
+/// ṫ = 1: J has the column ∂f/∂t = (0, M⁻¹ c ẇ) of it at the step's start. Its share U_t of a stage is a known number, and
+/// adds to (3)
+///
+///     (M + E)⁻¹ hγ c ẇ U_t                                                                    (5)
+///
 /// ROS34PW2: four stages, order 3(2), L-stable, stiffly accurate [J. Rang & L. Angermann, New
 /// Rosenbrock W-methods of order 3 for partial differential algebraic equations of index 1, BIT 45
 /// (2005) 761-787].
@@ -85,7 +91,7 @@ inline constexpr RosenbrockTableau ros34pw2(
     {2.4212380706095346e-1, -1.2232505839045147, 1.5452602553351020, ros34pw2_gamma},
     {3.7810903145819369e-1, -9.6042292212423178e-2, 5.0000000000000000e-1, 2.1793326075422950e-1});
 
-/// (1 − ηJ)⁻¹ by (3) and (4), with η = hγ.
+/// (1 − ηJ)⁻¹ by (3) to (5), with η = hγ.
 template <class T> class LinearlyImplicit {
 public:
   /// M + E at the step's start. Cost about half an evaluation.
@@ -93,11 +99,13 @@ public:
     const Layout& at = system.layout();
     eta_ = eta;
     added_.resize(at.bodies + 1), spring_.resize(at.bodies + 1);
+    pushed_.assign(system.wing().motors.size(), T(0));
     solved_.resize(at.freedoms());
     for (int i = 1; i <= at.bodies; ++i) {
       const auto hinge = resistance(system, from.x, from.t, i);
       spring_[i] = eta * hinge.stiffness;
       added_[i] = eta * (hinge.damping + spring_[i]);
+      if (!pushed_.empty()) pushed_[i] = eta * command_push(system, from.x, from.t, i);
     }
     linear_.factorize(system, from.x, from.t, [&](int i) { return added_[i]; });
     if (system.wing().loops.empty()) return;
@@ -108,12 +116,15 @@ public:
   }
 
   /// R ← (1 − ηJ)⁻¹ R. Cost about half an evaluation.
-  template <class System> void solve(System& system, State<T>& R) {
+  /// @param time U_t, s
+  template <class System> void solve(System& system, State<T>& R, const T& time) {
     const Layout& at = system.layout();
     linear_.solve(
         system,
         [&](int i) {
-          return fused(added_[i], R[at.rate(i)], spring_[i] * R[at.angle(i)]) + of_loops(at, R, i);
+          const T resisted = fused(added_[i], R[at.rate(i)], spring_[i] * R[at.angle(i)]);
+          const T pushed = pushed_.empty() ? T(0) : T(pushed_[i] * time);
+          return (resisted - pushed) + of_loops(at, R, i);
         },
         solved_.data());
     const int v = at.freedoms();
@@ -124,6 +135,15 @@ public:
   }
 
 private:
+  /// c ẇ of the motor of hinge i at (x, t), N·m/s.
+  template <class System>
+  [[nodiscard]] static T command_push(const System& system, const State<T>& x, const T& t, int i) {
+    const MotorPiece<T>& motor = system.work().motors[i];
+    const T excess = commanded_rate(motor, t) - x[system.layout().rate(i)];
+    return motor_damping(system.wing().motors[i], motor, excess) *
+           cubic_slope(motor.rate, T(t - motor.from));
+  }
+
   /// The loops' share of E R_v + hγ K R_q at hinge i.
   [[nodiscard]] T of_loops(const Layout& at, const State<T>& R, int i) const {
     T sum(0);
@@ -141,6 +161,7 @@ private:
   LinearSolve<T> linear_;
   T eta_ = T(0);
   State<T> added_, spring_, solved_;
+  std::vector<T> pushed_; ///< hγ c ẇ, 1 … n; empty without motors
   std::vector<LoopResistance<T>> loops_;
 };
 
@@ -154,12 +175,16 @@ template <class T> struct RosenbrockW {
     for (State<T>& u : U_) u.resize(from.x.size());
     const T hg = h * T(tableau.gamma);
     linear_.factorize(system, from, hg);
+    std::array<T, RosenbrockTableau::stages> time; // U_t of the stages
     for (int i = 0; i < RosenbrockTableau::stages; ++i) {
       if (i > 0) {
         combine(from.x, tableau.a[i], i, x1);
         system(x1, dxdt1, from.t + T(tableau.nodes[i]) * h);
       }
-      stage(system, i == 0 ? from.dxdt : dxdt1, i, hg);
+      T sum(0);
+      for (int j = 0; j < i; ++j) sum = fused(T(tableau.c[i][j]), time[j], sum);
+      time[i] = fused(T(tableau.gamma), sum, hg);
+      stage(system, i == 0 ? from.dxdt : dxdt1, i, hg, time[i]);
     }
     combine(from.x, tableau.m, RosenbrockTableau::stages, x1);
     zero_.assign(from.x.size(), T(0));
@@ -177,15 +202,16 @@ private:
     }
   }
 
-  /// Eqs. (2)-(4): U_i from f at its stage.
-  template <class System> void stage(System& system, const State<T>& f, int i, const T& hg) {
+  /// Eqs. (2)-(5): U_i from f at its stage. @param time U_t
+  template <class System>
+  void stage(System& system, const State<T>& f, int i, const T& hg, const T& time) {
     State<T>& U = U_[i];
     for (std::size_t k = 0; k < f.size(); ++k) {
       T sum(0);
       for (int j = 0; j < i; ++j) sum = fused(T(tableau.c[i][j]), U_[j][k], sum);
       U[k] = fused(T(tableau.gamma), sum, hg * f[k]);
     }
-    linear_.solve(system, U);
+    linear_.solve(system, U, time);
   }
 
   LinearlyImplicit<T> linear_;

@@ -102,7 +102,7 @@ private:
       if (k > 0) system(at_, dxdt, from.t + T(k) * part);
       const State<T>& f = k > 0 ? dxdt : from.dxdt;
       for (std::size_t c = 0; c < way.size(); ++c) error_[c] = part * f[c];
-      linear_.solve(system, error_);
+      linear_.solve(system, error_, part);
       for (std::size_t c = 0; c < way.size(); ++c) way[c] = way[c] + error_[c];
     }
   }

@@ -83,6 +83,24 @@ TEST_CASE("every method reads a motor's table at the times of its stages") {
   }
 }
 
+TEST_CASE("an implicit method steps over the time constant of a motor while its command changes") {
+  // after a few I/c the rate is a (t − I/c), and the way a t²/2 − a I t/c + a I²/c²
+  constexpr double a = 0.2;
+  for (const double c : {1e3, 1e5, 1e7})
+    for (const char* method : {"seulex", "rosenbrock_w"}) {
+      const double tau = I / c, t = tau + std::sqrt(2 / a - tau * tau);
+      Integration how = within(1e-6, 60);
+      how.method = method;
+      Goal goal;
+      goal.first_latch_only = true;
+      const Outcome out =
+          Deployment().run(driven(by_table({0, 100}, {0, 100 * a}, c, 1e9)), how, goal);
+      CAPTURE(c, method, out.work.steps);
+      check_arrival(out, {t, a * (t - tau)}, 1e-5);
+      CHECK(out.work.steps < 150);
+    }
+}
+
 TEST_CASE("a motor spins an inertia up to its rate, and gives it the kinetic energy") {
   for (const double r : {0.05, 0.5, 2.0})
     for (const double c : {0.3, 3.0, 30.0}) {
