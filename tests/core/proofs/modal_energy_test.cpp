@@ -128,7 +128,6 @@ template <BaseMotion M> void check_against_energy(bool loops, double turning) {
       for (int i = 0; i < wing.model.size(); ++i) {
         const double moment = oracle.moment(allowed, i);
         CHECK(found->moment(i) > 0.98 * moment);
-        CHECK(found->moment(i) < 2 * moment);
         ++all, close += found->moment(i) < 1.03 * moment;
       }
       CHECK(found->base.drift < 1.1 * allowed.drift + 1e-9);
@@ -136,7 +135,7 @@ template <BaseMotion M> void check_against_energy(bool loops, double turning) {
   }
   CAPTURE(all, close);
   CHECK(all > 100);
-  CHECK(close > 0.9 * all); // μ by a few of Collatz's steps may be too large
+  CHECK(close > 0.95 * all); // μ by a few of Collatz's steps may be too large
 }
 
 } // namespace
