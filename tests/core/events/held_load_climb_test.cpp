@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 using namespace wingspread;
 
@@ -16,7 +17,7 @@ namespace {
 
 using oracle::AnyMotion;
 
-/// The largest part of the bound that any hinge's load takes inside the step.
+/// The largest part of the bound that any hinge's load takes inside the step; infinite where a load is above its size.
 template <BaseMotion M> double part_of_load(const AnyMotion<M>& motion, bool narrowed) {
   HeldLoadBound<double> bound;
   bound.over_step(motion.system, motion.step);
@@ -25,6 +26,11 @@ template <BaseMotion M> double part_of_load(const AnyMotion<M>& motion, bool nar
   for (const BodyTerms<double>& body : motion.wing.bodies)
     rounding += 1e-6 * (body.mass + body.central_inertia);
   for (int i = 1; narrowed && i <= n; ++i) bound.narrow(motion.system, motion.step, i);
+  for (const double s : {0.0, 0.3, 0.7, 1.0}) {
+    const std::vector<double> loads = motion.loads(s);
+    for (int i = 1; i <= n; ++i)
+      if (!(loads[i] <= bound.size(i) * (1 + 1e-4) + rounding)) return INFINITY;
+  }
   return oracle::part_taken(
       n, 0, 1, [&](double s) { return motion.loads(s); },
       [&](int i) { return bound.rise(i) + 1e-6 * bound.size(i) + rounding; });

@@ -99,6 +99,9 @@ double most_of_friction(const oracle::RealFeatures& features, bool driven,
     for (int i = 1; i <= motion.wing.size(); ++i) motion.system.set_contact(i, Contact::stuck);
     const HeldLoadBound<double> bound = bound_of(motion);
     CAPTURE(k);
+    for (const double s : {0.0, 0.4, 1.0})
+      for (int i = 1; i <= motion.wing.size(); ++i) // differences of positions have 1e-5 or so
+        CHECK(bound.size(i) >= motion.loads(s)[i] * (1 - 1e-3));
     for (int i = 1; i <= motion.wing.size(); ++i) // the whole step is a part too
       CHECK(bound.friction(i, 0, 1).most == Approx(bound.most_friction(i)).epsilon(1e-9));
     for (const auto& [from, to] : {std::pair(0., 1.), {0., 0.5}, {0.75, 1.}, {0.4, 0.41}}) {

@@ -121,6 +121,54 @@ TEST_CASE("the step that auto counts as held back is a share of the explicit met
   check(1e-2, true, Method::dopri5, DormandPrince5<double>::stable_real);
 }
 
+TEST_CASE("a lane may accept just the steps after which auto does not measure a radius") {
+  for (const long begun : {0L, 1L, 5L, 6L, 7L, 8L, 127L, 128L, 134L, 135L, 1000L}) {
+    MethodChoice choice(within(1e-8, 1), false);
+    choice.restart(0, 0, std::numeric_limits<double>::infinity(), true);
+    choice.resume(begun, choice.held_back());
+    const long more = choice.steps_to_radius();
+    CAPTURE(begun, more);
+    REQUIRE(more >= 0);
+    for (long k = 1; k <= more + 1; ++k) {
+      choice.resume(begun + k, choice.held_back());
+      CHECK(choice.wants_radius() == (k > more));
+    }
+  }
+  CHECK(MethodChoice(within(1e-8, 1), false).steps_to_radius() < 200);
+  Integration named = within(1e-8, 1);
+  named.method = "dop853";
+  CHECK(MethodChoice(named, false).steps_to_radius() == std::numeric_limits<long>::max());
+}
+
+TEST_CASE(
+    "auto leaves the implicit method soon where its steps do not pay, and stays where they do") {
+  for (const double pays : {0.2, 5.0}) { // time by an evaluation, against what it would have to be
+    MethodChoice choice(within(1e-8, 1), false);
+    choice.restart(0, 0, std::numeric_limits<double>::infinity(), true);
+    choice.set_radius(1e3, 0, 0);
+    const double h = choice.held_back().shortest * 1.01;
+    double time = 0;
+    long evaluations = 0;
+    for (int k = 0; choice.active() == Method::dop853; ++k) {
+      REQUIRE(k < 50);
+      (void)choice.after_step(h, time += h, evaluations += 12, 1.0);
+    }
+    REQUIRE(choice.active() == Method::seulex);
+    int steps = 0;
+    bool leaves = false;
+    for (; steps < 100 && !leaves; ++steps) {
+      const double step = pays * choice::implicit_cost * h * 30 / 12;
+      CHECK(choice.may_leave(step));
+      leaves = choice.after_step(step, time += step, evaluations += 30, 1.0);
+    }
+    CAPTURE(pays, steps);
+    CHECK(leaves == (pays < 1));
+    CHECK(choice.active() == (leaves ? Method::dop853 : Method::seulex));
+    CHECK(steps > choice::unjudged_steps);
+    if (leaves) CHECK(steps <= choice::unjudged_steps + 2 * choice::bearable_steps);
+  }
+}
+
 TEST_CASE("auto keeps its first method if nothing is stiff") {
   Scene scene = harmonic_panel();
   CHECK(methods_used(run(scene, 1e-8)) == "taylor");

@@ -46,6 +46,29 @@ TEST_CASE("the bounds by energy are (2) to (4)") {
   CHECK(wing.bounds.force[2] == Approx(std::sqrt(4 * Z)));
 }
 
+TEST_CASE("on a tree the bound by energy of a force has all the masses outward of its hinge") {
+  for (int k = 0; k < 12; ++k) {
+    oracle::RandomScene options;
+    options.bodies = 3 + k % 5, options.motion = BaseMotion::fixed, options.friction = false;
+    Scene scene = oracle::random_scene(500 + k, options);
+    for (Hinge& hinge : scene.hinges) hinge.spring = {}, hinge.harness = {};
+    LatchedWing<> wing(scene);
+    wing.bounds.bound(wing.system, wing.remaining, {2, 2});
+    const auto outward = [&](int i) {
+      double mass = 0;
+      for (int body = 1; body <= wing.at.bodies; ++body)
+        for (int j = body; j != 0; j = wing.system.topology().parent_of(j))
+          if (j == i) mass += wing.wing.bodies[body].mass;
+      return mass;
+    };
+    const double Z = std::pow(wing.bounds.force[1], 2) / outward(1);
+    for (int i = 1; i <= wing.at.bodies; ++i) {
+      CAPTURE(k, i);
+      CHECK(wing.bounds.force[i] == Approx(std::sqrt(outward(i) * Z)));
+    }
+  }
+}
+
 TEST_CASE("on a base that turns and is pushed the bounds by energy know the apparent forces") {
   // three panels in line; of body k: way from the base's origin to its hinge and to its centre
   const double b = 0.3, l[] = {b, 1.5, 1.2}, c[] = {0.7, 0.4, 0.5}, J[] = {0.5, 0.2, 0.3},

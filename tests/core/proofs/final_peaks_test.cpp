@@ -176,3 +176,25 @@ TEST_CASE(
   CHECK_FALSE(proves_with_hold(KindOfHold::in_loop, 1e9));
   CHECK_FALSE(proves_with_hold(KindOfHold::without_latch, 1e9));
 }
+
+TEST_CASE("loads are final where each hinge's own bound lies below its own peak, of moments and of "
+          "forces") {
+  const std::vector<PeakOf<double>> moments{{}, {10, 1}, {20, 1}, {5, 1}},
+      forces{{}, {100, 1}, {50, 1}, {200, 1}};
+  const SeenPeaks<double> seen{&moments, &forces, nullptr, nullptr, nullptr};
+  for (const int first : {0, 1}) // the index of hinge 1 is 1 − first
+    for (int loud = 0; loud <= 3; ++loud)
+      for (const bool by_moment : {false, true}) {
+        std::vector<double> moment(4, 1e9), force(4, 1e9); // what is no hinge's counts for nothing
+        for (int i = 1; i <= 3; ++i) {
+          moment[i - first] = moments[i].value * (by_moment && i == loud ? 1.01 : 1);
+          force[i - first] = forces[i].value * (!by_moment && i == loud ? 1.01 : 1);
+        }
+        const FinalLoads all = final_loads(seen, 3, moment, force, first);
+        CAPTURE(first, loud, by_moment);
+        CHECK(all.moments == !(by_moment && loud > 0));
+        CHECK(all.forces == !(!by_moment && loud > 0));
+        const FinalLoads none = final_loads(SeenPeaks<double>{}, 3, moment, force, first);
+        CHECK((none.moments && none.forces));
+      }
+}

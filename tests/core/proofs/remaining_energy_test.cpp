@@ -1,11 +1,14 @@
 // What the spring of a hinge that cannot reach its latch exerts with the energy left, against the way walked in small steps.
 #include "core/proofs/remaining_energy.hpp"
-#include "tests/support/random_scenes.hpp"
+#include "tests/core/proofs/energy_bounded_wing.hpp"
+#include "tests/support/real_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 using namespace wingspread;
 
@@ -101,4 +104,100 @@ TEST_CASE("there is no bound of the energy where it may take a hinge to a stop, 
         CHECK(remaining.energy(system, x, 0., 1.).has_value() == (std::abs(share) < 1));
       }
     }
+}
+
+namespace {
+
+/// The moment of a spring by a table that is linear between its knots, and its integral from latched to y, y < 0 before the latch.
+struct SteepTable {
+  std::vector<double> ways, torques; ///< y ascending
+
+  [[nodiscard]] double at(double y) const {
+    if (y <= ways.front()) return torques.front();
+    std::size_t k = 1;
+    while (k + 1 < ways.size() && ways[k] < y) ++k;
+    if (y >= ways.back()) return torques.back();
+    return std::lerp(torques[k - 1], torques[k], (y - ways[k - 1]) / (ways[k] - ways[k - 1]));
+  }
+  /// By Simpson's rule in parts that are small beside the table's.
+  [[nodiscard]] double work(double from, double to) const {
+    constexpr int parts = 4000;
+    double sum = 0;
+    for (int k = 0; k < parts; ++k) {
+      const double a = std::lerp(from, to, static_cast<double>(k) / parts),
+                   b = std::lerp(from, to, (k + 1.0) / parts);
+      sum += (b - a) / 6 * (at(a) + 4 * at((a + b) / 2) + at(b));
+    }
+    return sum;
+  }
+  /// The steepest rise between −r and r.
+  [[nodiscard]] double steepest(double r) const {
+    double most = -ways.front() < r ? 0 : -INFINITY; // it is level beyond its ends
+    for (std::size_t k = 1; k < ways.size(); ++k)
+      if (ways[k - 1] < r && ways[k] > -r)
+        most = std::max(most, (torques[k] - torques[k - 1]) / (ways[k] - ways[k - 1]));
+    return most;
+  }
+};
+
+/// Latched at 0 with the stiffness 100; the table rises steeply at some distance before or beyond.
+Scene detained_panel(const SteepTable& table, double sense) {
+  Scene scene = oracle::latching_panel();
+  Hinge& hinge = scene.hinges[0];
+  hinge.stowed = -2 * sense, hinge.latched = 0;
+  hinge.latch = Latch{100, 1}, hinge.harness = {}, hinge.friction = {};
+  std::vector<double> angles;
+  for (const double y : table.ways) angles.push_back(sense * y);
+  hinge.spring = {};
+  hinge.spring.table = oracle::torque_table(angles, table.torques, Interpolation::linear);
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE(
+    "the energy of a hinge with a table steeper than its latch is bounded just where it stays "
+    "in the window that the table leaves") {
+  int bounded = 0, windows = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    oracle::Draws draws(5200 + trial);
+    const double sense = draws.sign(), place = draws.log_uniform(0.02, 1) * draws.sign();
+    const double width = draws.log_uniform(0.1, 1) * 0.1 * std::abs(place),
+                 drive = draws.uniform(0, 3);
+    const double slope = draws.log_uniform(10, 1000);
+    // outside of the steep part the torque falls a little, as a spring's may
+    SteepTable table{{-1.9, place - width, place + width, 1.9},
+                     {drive + 1, drive, drive + 2 * width * slope, drive}};
+    const Scene scene = detained_panel(table, sense);
+    oracle::LatchedWing<> wing(scene);
+    double r = INFINITY;
+    if (!(100 - table.steepest(INFINITY) > 0))
+      for (r = 2; !(100 - 2 * table.steepest(r) > 0);) r /= 2;
+    const double kappa = 100 - table.steepest(r);
+    windows += std::isfinite(r);
+    double rest = 0; // of P' = 100 y − table
+    for (int pass = 0; pass < 2000; ++pass) rest += (table.at(rest) - 100 * rest) / 1000;
+    const double most = std::isfinite(r) ? std::min(1.5 * r, 1.5) : 1;
+    for (int k = -20; k <= 20; ++k) {
+      const double y = most * k / 20 + 1e-7;
+      const double energy = 50 * (y * y - rest * rest) - table.work(rest, y);
+      const double furthest = std::sqrt(2 * std::max(energy, 0.0) / kappa);
+      const double reach = std::abs(rest) + furthest;
+      const bool stays = std::abs(y) <= r && reach < r;
+      if (std::abs(reach / r - 1) < 1e-3 || std::abs(std::abs(y) / r - 1) < 1e-3) continue;
+      State<double> x{sense * y, 0};
+      const auto left = wing.remaining.energy(wing.system, x, 0., 1.);
+      CAPTURE(trial, place, width, slope, r, y, energy, rest, kappa, reach);
+      CHECK(left.has_value() == stays);
+      if (!left || !stays) continue;
+      bounded += std::isfinite(r);
+      CHECK(left->whole == Approx(energy).epsilon(1e-5).margin(1e-7));
+      CHECK(wing.remaining.furthest(1, left->within) ==
+            Approx(furthest).epsilon(1e-4).margin(1e-4));
+    }
+    CHECK(sense * wing.remaining.rest()[0] == Approx(rest).margin(1e-9));
+  }
+  CAPTURE(windows, bounded);
+  CHECK((windows >= 10 && windows <= 30));
+  CHECK(bounded > 100);
 }

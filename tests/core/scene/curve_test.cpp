@@ -154,6 +154,22 @@ TEST_CASE("a sum of curves is the sum of their values and integrals") {
   }
 }
 
+TEST_CASE("a curve of up to eight pieces has them by columns, and no longer one has") {
+  for (int knots = 2; knots <= 12; ++knots) {
+    const RandomTable table(40 + knots, knots);
+    const Curve curve(table.x, table.y, Interpolation::monotone);
+    CAPTURE(knots);
+    REQUIRE(curve.pieces().size() == static_cast<std::size_t>(knots) + 1);
+    REQUIRE(curve.columns().has_value() == (knots + 1 <= 8));
+    for (std::size_t k = 0; curve.columns() && k < curve.pieces().size(); ++k) {
+      CHECK(curve.columns()->from[k] == curve.knots()[k > 0 ? k - 1 : 0]);
+      CHECK(curve.columns()->integral[k] == curve.pieces()[k].integral);
+      for (std::size_t power = 0; power < 4; ++power)
+        CHECK(curve.columns()->c[power][k] == curve.pieces()[k].c[power]);
+    }
+  }
+}
+
 TEST_CASE("a curve's bounds on its slope hold and are met") {
   for_random_tables([](const RandomTable& table, Interpolation how, Beyond beyond) {
     const Curve curve(table.x, table.y, how, beyond);
