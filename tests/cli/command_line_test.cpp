@@ -64,6 +64,9 @@ TEST_CASE("a command line that makes no sense is refused") {
       {{"run", "c.json", "--out", "r", "--until", "deployed 0.1", "requirement deployed"},
        "error: found the argument \"requirement deployed\", expected no further argument (write "
        "--until before each of its values)\nerror: see wingspread run --help\n"},
+      {{"run", "c.json", "--out", "r", "now"}, // no option of the line takes several values
+       "error: found the argument \"now\", expected no further argument\n"
+       "error: see wingspread run --help\n"},
       {{"schema", "scnee"},
        "error: of: found \"scnee\", expected \"scene\" or \"campaign\" (did you mean "
        "\"scene\"?)\nerror: see wingspread schema --help\n"},

@@ -58,6 +58,10 @@ TEST_CASE("margin, from a requirement missed to new springs that meet it") {
   CHECK(search["window"]["upper"]["set_by"][0]["requirement"] ==
         "root.latch_rate ≥ -0.8 rad/s, 97 % at 90 %");
   CHECK(search["recommended"]["confirmation"]["passes"] == true);
+  const double scale = search["recommended"]["scale"];
+  for (const auto& [end, torque] : json["scene"]["hinges"][0]["spring"].items())
+    CHECK(search["recommended"]["values"]["hinges.root.spring." + end].get<double>() ==
+          Approx(scale * torque.get<double>()));
   // the new springs meet the requirements, with the campaign's draws and with others
   const std::string resized = out + "/recommended.json";
   CHECK(program({"run", resized, "--out", out + "2"}).code == 0);

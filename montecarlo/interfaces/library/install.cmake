@@ -14,7 +14,8 @@ foreach(header interfaces/library/wingspread.hpp foundation/formats/spec_error.h
 endforeach()
 
 add_library(wingspread_library STATIC
-  $<TARGET_OBJECTS:wingspread_core> $<TARGET_OBJECTS:wingspread_distributions> $<TARGET_OBJECTS:wingspread_montecarlo>)
+  $<TARGET_OBJECTS:wingspread_core> $<TARGET_OBJECTS:wingspread_distributions> $<TARGET_OBJECTS:wingspread_montecarlo>
+  $<TARGET_OBJECTS:wingspread_montecarlo_cold>)
 # core/CMakeLists.txt links the objects of its instruction sets itself, so TARGET_OBJECTS leaves them out.
 get_target_property(core_sources wingspread_core SOURCES)
 list(FILTER core_sources INCLUDE REGEX "\\.o$")

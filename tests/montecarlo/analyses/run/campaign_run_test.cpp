@@ -60,6 +60,10 @@ TEST_CASE("a campaign's runs and statistics are in its folder", "[parallel]") {
   CHECK(timing["runs"] == 60);
   CHECK(timing["runs_before"] == 0);
   CHECK(timing["interrupted"] == false);
+  CHECK((timing["threads"] == 2 && timing["ranks"] == 1));
+  const double seconds = timing["seconds"], per_second = timing["runs_per_second"];
+  CHECK(seconds > 0);
+  CHECK(per_second * seconds == Approx(60));
   if (timing["lanes"] > 1) {
     double outside = 0;
     for (const auto& [cause, share] : timing["outside_lanes"].items()) {

@@ -75,14 +75,30 @@ TEST_CASE("a hinge's terms: what changes its sense changes its side", "[motoriza
   CHECK(terms_at(hinge, 0).friction == 0.02);
   hinge.friction.static_level = 0.05; // holds at rest
   CHECK(terms_at(hinge, 0).friction == 0.05);
-  TorqueTerms other;
-  other.adhesion = 0.5, other.hysteresis = 0.25;
-  CHECK(terms_at(hinge, 1, {other}).adhesion == 0.5);
-  CHECK(terms_at(hinge, 1, {other}).hysteresis == 0.25);
   const std::vector<double> points = turning_points(hinge);
   REQUIRE(points.size() == 4);
   CHECK(points[1] == Approx(0.25));
   CHECK(points[2] == Approx(2.0 / 3));
+}
+
+TEST_CASE("what a campaign gives a hinge is added to its own terms, each by its gear",
+          "[motorization]") {
+  using Terms = TorqueTerms;
+  const Hinge hinge = hinge_with({2, -1}, {-0.1, 0.3}, 0.02);
+  constexpr std::array all{&Terms::available, &Terms::inertia,  &Terms::spring,
+                           &Terms::motor,     &Terms::friction, &Terms::hysteresis,
+                           &Terms::harness,   &Terms::adhesion, &Terms::acceleration,
+                           &Terms::delivered, &Terms::damping};
+  STATIC_REQUIRE(sizeof(Terms) == all.size() * sizeof(double));
+  for (const double gear : {1.0, -2.5})
+    for (const auto given : all) {
+      Terms other, own, with;
+      other.*given = 0.5;
+      (void)add_terms(hinge, 0.8, gear, {}, own);
+      (void)add_terms(hinge, 0.8, gear, {other}, with);
+      for (const auto term : all)
+        CHECK(with.*term - own.*term == Approx(term == given ? std::abs(gear) * 0.5 : 0));
+    }
 }
 
 TEST_CASE("no place of the travel is worse than the turning points", "[motorization]") {

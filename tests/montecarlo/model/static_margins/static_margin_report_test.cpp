@@ -60,6 +60,12 @@ TEST_CASE("static margins as JSON: every number of the study, with the factors b
   }
 }
 
+TEST_CASE("where the first draw is the worst its number stands in the CSV, as any other's",
+          "[motorization]") {
+  for (CsvRow& row : rows_by_name(static_margins_csv(report_of(1))))
+    for (const auto& kind : margin_kind_names) CHECK(row[std::string(kind) + "_worst_run"] == "0");
+}
+
 TEST_CASE("static margins as CSV: a cell for each name, and a line for each place of the travel",
           "[motorization]") {
   const StaticMarginReport report = report_of(10);

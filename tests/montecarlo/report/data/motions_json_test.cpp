@@ -121,6 +121,11 @@ TEST_CASE("motions are the runs made again, and the same on any number of thread
   const Json motions = motions_json(*source, {}, 1);
   CHECK(motions == motions_json(*source, {}, 2));
   REQUIRE(motions.size() == 3); // nominal, median, slowest
+  for (const std::size_t most : {1, 2, 3, 4}) {
+    PageDetail detail;
+    detail.motions = most;
+    CHECK(motions_json(*source, detail, 1).size() == std::min<std::size_t>(most, 3));
+  }
   CHECK(motions[0]["label"] == "nominal");
   CHECK(motions[0]["run"].is_null());
   for (const Json& motion : motions) {

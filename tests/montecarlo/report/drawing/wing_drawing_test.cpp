@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -90,4 +91,31 @@ TEST_CASE("each name of a drawing stands at what it names, in each view") {
   for (std::size_t k = 0; k < b; ++k) check(scene.bodies[k].name, centres, k, b);
   check("base", base, 0, 1);
   CHECK((base[2] - centres[3 * b - 1]).norm() > 700); // the deployed wing fills the width
+}
+
+TEST_CASE("each spring's arc begins beside the child that the spring turns, in each view") {
+  WingDesign design;
+  design.panels = 4, design.damper = 0;
+  const Scene scene = scene_of(design);
+  const std::string svg = draw_wing(scene);
+  const auto hinges = drawn_at(svg, "class=\"hinge\"", "cx", "cy");
+  const auto centres = drawn_at(svg, " r=\"2.5\"", "cx", "cy");
+  const std::size_t h = scene.hinges.size(), b = scene.bodies.size();
+  REQUIRE(count(svg, "class=\"spring\"") == static_cast<long>(3 * h));
+  std::size_t arc = 0;
+  std::istringstream in(svg);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t at = line.find(" d=\"M ");
+    if (line.find("class=\"spring\"") == line.npos) continue;
+    Eigen::Vector2d begin;
+    std::istringstream(line.substr(at + 6)) >> begin.x() >> begin.y();
+    const std::size_t view = arc / h, k = arc % h;
+    const auto child = static_cast<std::size_t>(scene.hinges[k].child);
+    const Eigen::Vector2d spoke = begin - hinges[arc],
+                          arm = centres[view * b + child] - hinges[arc];
+    CAPTURE(view, scene.hinges[k].name, spoke.transpose(), arm.transpose());
+    CHECK(spoke.dot(arm) > std::cos(0.2) * spoke.norm() * arm.norm()); // 0.15 rad, and rounding
+    ++arc;
+  }
+  CHECK(arc == 3 * h);
 }

@@ -121,6 +121,15 @@ TEST_CASE("a folder of a margin study is a set without runs, by hand", "[page]")
   const auto sets = study_sets_json(folder.path(), "m");
   REQUIRE(sets.size() == 1);
   CHECK(sets[0]["seed"] == "18446744073709551615"); // whole, as text
+  CHECK(sets[0]["campaign"] == "wing");
+  for (const char* here : {"", ".", ".."}) { // a folder's own name, or what was written
+    const std::vector<std::filesystem::path> asked{
+        here == std::string("..") ? folder.path() / "x" / here : folder.path() / here};
+    CAPTURE(asked[0]);
+    std::filesystem::create_directories(folder.path() / "x");
+    CHECK(read_page_sources(asked, 1).studies.at(0)["label"] ==
+          (*here ? asked[0].string() : folder.path().filename().string()));
+  }
   const Json& margin = sets[0]["margin"];
   CHECK(margin["scales"] == Json{0.5, 1.0});
   CHECK(margin["window"] == Json{0.9, nullptr}); // the end of the range is no edge

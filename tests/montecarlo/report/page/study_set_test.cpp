@@ -92,6 +92,7 @@ TEST_CASE("a folder of Sobol' indices is a set with the largest of each output",
 
 TEST_CASE("a folder of a rare event is a set with its levels, strata and likeliest run", "[page]") {
   const Folder folder;
+  CHECK_FALSE(is_study_folder(folder.path())); // an empty one
   const Json study = rare_study();
   folder.write(rare_json_file, study.dump());
   CHECK(is_study_folder(folder.path()));

@@ -153,6 +153,8 @@ TEST_CASE("a campaign without a stamp is another tool's, and read in full") {
         std::string::npos);
   const StoredCampaign stored = read_any_campaign(folder.path());
   CHECK(stored.foreign);
+  CHECK(stored.campaign.outputs.contains(OutputFamily::overtravel) ==
+        campaign.outputs.contains(OutputFamily::overtravel)); // by the header
   const Results results = read_stored_results(stored).results;
   CHECK(results.size() == 3);
   (void)write_statistics(stored, results, campaign.statistics);
