@@ -58,3 +58,10 @@ TEST_CASE("a run that goes on until all hinges stick tells when they do, and not
   CHECK(early.reason.find("stick") == std::string::npos);
   CHECK(rested.reason.find("stick") != std::string::npos);
 }
+
+TEST_CASE("nothing is told to be final of a run on a base that turns faster and faster") {
+  Scene scene = seed_scene();
+  scene.base.motion = BaseMotion::prescribed, scene.base.angular_acceleration = 0.01;
+  const Outcome out = Deployment().run(scene, within(1e-6, 10), {});
+  CHECK_FALSE((out.peaks_final || out.moments_final || out.forces_final));
+}
