@@ -128,6 +128,8 @@ template <BaseMotion M> void check_against_energy(bool loops, double turning) {
       for (int i = 0; i < wing.model.size(); ++i) {
         const double moment = oracle.moment(allowed, i);
         CHECK(found->moment(i) > 0.98 * moment);
+        const double way = allowed.size * std::sqrt((1 - allowed.mu) / oracle.kappa(i));
+        CHECK(found->way(i) < 1.001 * (way + std::abs(oracle.apart(i))));
         ++all, close += found->moment(i) < 1.03 * moment;
       }
       CHECK(found->base.drift < 1.1 * allowed.drift + 1e-9);
