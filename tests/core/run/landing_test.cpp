@@ -76,6 +76,8 @@ TEST_CASE(
   CHECK(beyond < -1e-11);
   CHECK_FALSE(at.landing.correct_end()); // it is not made again
   CHECK(at.landing.at_event());
+  CHECK(at.run.step.x1[0] == beyond); // peaks are searched in the step as it was made
+  CHECK(at.landing.carry_end_to_event());
   CHECK(at.run.step.h == Approx(exact).margin(1e-15));
   CHECK(std::abs(at.run.step.x1[0]) < 1e-16);
   // accelerations and forces are those of the state moved to, to the last bit
@@ -91,6 +93,7 @@ TEST_CASE("where nobody asks for peaks, a step is moved to its event without an 
   at.overshoot();
   const long before = at.work.evaluations;
   CHECK_FALSE(at.landing.correct_end());
+  CHECK(at.landing.carry_end_to_event());
   CHECK(at.work.evaluations == before);
   CHECK(std::abs(at.run.step.x1[0]) < 1e-16);
 }
@@ -140,6 +143,7 @@ TEST_CASE("a step is moved along a curved way: the state stays that of the motio
     step.x = {first[0], first[1]}, step.dxdt = {first[1], first[2]};
     step.x1 = {last[0], last[1]}, step.dxdt1 = {last[1], last[2]};
     CHECK_FALSE(at.landing.correct_end());
+    CHECK(at.landing.carry_end_to_event());
     // to first order alone: ½ ω² way² = 1.6e-9 off in the angle
     CHECK(std::abs(step.x1[0]) < 1e-12);
     CHECK(step.x1[1] == Approx(state(0)[1]).epsilon(1e-10)); // 3e-9
@@ -168,6 +172,7 @@ TEST_CASE("a step that is moved far ends in the exact state at its time") {
     step.x = {first[0], first[1]}, step.dxdt = {first[1], first[2]};
     step.x1 = {last[0], last[1]}, step.dxdt1 = {last[1], last[2]};
     CHECK_FALSE(at.landing.correct_end());
+    CHECK(at.landing.carry_end_to_event());
     const auto exact = state(step.h - h);
     CHECK(std::abs(exact[0]) < 1e-9); // it has been moved
     CHECK(std::abs(step.x1[0] - exact[0]) < 3e-12);
@@ -193,7 +198,23 @@ TEST_CASE(
   CHECK(at.landing.correct_end());
   arrives(quick);
   CHECK_FALSE(at.landing.correct_end());
+  CHECK(at.landing.carry_end_to_event());
   CHECK(std::abs(step.x1[0]) < 1e-12);
+}
+
+TEST_CASE("a step is moved to its event once, and not where the run turns to another step") {
+  const auto moves_after = [](auto&& act) {
+    Arriving at(latches_only);
+    REQUIRE(at.landing.cut_at_event({}, 1e-6));
+    at.overshoot();
+    REQUIRE_FALSE(at.landing.correct_end());
+    act(at);
+    return at.landing.carry_end_to_event();
+  };
+  CHECK(moves_after([](Arriving&) {}));
+  CHECK_FALSE(moves_after([](Arriving& at) { at.landing.carry_end_to_event(); }));
+  CHECK_FALSE(moves_after([](Arriving& at) { at.landing.expect_no_event(); }));
+  CHECK_FALSE(moves_after([](Arriving& at) { (void)at.landing.cut_at_event({}, 1e-6); }));
 }
 
 namespace {
