@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/dense/step.hpp"
+#include "core/laws/motor.hpp"
 #include "core/number/power.hpp"
 
 namespace wingspread {
@@ -34,6 +35,43 @@ template <class T> [[nodiscard]] T roughness(const Layout& at, const Step<T>& st
     const T odd = T(0.12 / 2.2360679774997896) * (abs(twelfth) - rounding);
     const T move = fused(h, larger(T(abs(dxdt[k])), T(abs(dxdt1[k]))), T(T(1e3) * atol));
     worst = larger(worst, larger(T(abs(even)), odd) / (T(0.01) * move));
+  }
+  return worst;
+}
+
+/// The same for the moments of motors on open hinges, c (w − φ̇), and so for their work. The gain c may be so stiff that the
+/// moment hangs on digits of the rate that no tolerance of the rate asks for; an implicit method then still steps far. In
+/// (1) and (2) rates of both interpolants differ by at most
+///
+///     (0.19245 max(|d0|, |d1|)/2 + |d1 − d0|/32)/h        0.19245 = 1/(3 √3) is the largest slope of s²(1 − s)²   (3)
+///
+/// Roughness 1: c times (3) is 2 % of the moment at the larger end, or of a thousandth of the torque limit. Heuristic: the
+/// quintic is then off by far less (the work of random motors is right to 1e-6); a smaller share takes more steps.
+template <class T, class AnySystem>
+[[nodiscard]] T roughness_of_motors(const AnySystem& system, const Step<T>& step) {
+  using std::abs;
+  const T& h = step.h;
+  T worst(0);
+  for (int i = 1; i < static_cast<int>(system.wing().motors.size()); ++i) {
+    if (!system.motor_runs(i) || system.work().engaged[i]) continue;
+    const MotorTerms<T>& terms = system.wing().motors[i];
+    const MotorPiece<T>& piece = system.work().motors[i];
+    const int x = system.layout().angle(i), v = system.layout().rate(i);
+    const auto moment = [&](const State<T>& at, const T& t) {
+      return motor_moment(terms, piece, T(commanded_rate(piece, t) - at[v]));
+    };
+    const T first = moment(step.x, step.t), last = moment(step.x1, T(step.t + h));
+    if (first == last && abs(last) == terms.limit) continue;
+    const T sum = fused(h * h, step.dxdt[v] + step.dxdt1[v], T(2) * h * (step.x[v] - step.x1[v]));
+    const T change =
+        fused(h * h, step.dxdt1[v] - step.dxdt[v],
+              fused(T(-6) * h, step.x[v] + step.x1[v], T(12) * (step.x1[x] - step.x[x])));
+    const T rounding = T(48 * 0x1p-52) * larger(T(abs(step.x[x])), T(abs(step.x1[x])));
+    const T odd = larger(T(abs(change) - rounding), T(0));
+    const T line = T(0.25) * (abs(sum) + odd);
+    const T off = fused(T(0.19245), line, odd / T(32)) / h;
+    const T size = larger(larger(T(abs(first)), T(abs(last))), T(T(1e-3) * terms.limit));
+    worst = larger(worst, T(terms.gain * off / (T(0.02) * size)));
   }
   return worst;
 }

@@ -148,6 +148,8 @@ public:
   /// friction, and with methods of long steps the dense output is accurate inside.
   [[nodiscard]] StepVerdict judged(StepVerdict verdict) const {
     if (verdict.accepted() && run_.system.wing().has_regularized_friction) limit_by_layers(verdict);
+    if (verdict.accepted() && is_implicit(method()))
+      limit_roughness(static_cast<double>(roughness_of_motors(run_.system, run_.step)), verdict);
     if (!verdict.accepted() || !takes_long_steps(method())) return verdict;
     // the interpolant decides whether a hinge that grazes its latch reaches it
     const double finer = method() == Method::bulirsch_stoer ? 10 : 1;

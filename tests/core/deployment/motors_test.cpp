@@ -101,6 +101,28 @@ TEST_CASE("an implicit method steps over the time constant of a motor while its 
     }
 }
 
+TEST_CASE("the work of a motor with a stiff gain is right in the long steps of implicit methods") {
+  RandomScene options;
+  options.bodies = 2, options.reach = 0.5;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Scene scene = random_scene(seed, options);
+    scene.base = {};
+    for (Hinge& hinge : scene.hinges) hinge.latch.reset(), hinge.friction = {};
+    scene.hinges[0].motor = by_table({0, 2, 4}, {0, 0.3, 0.1}, 1e5, 1e4);
+    Integration how = within(1e-10, 4);
+    how.method = "dop853";
+    const Outcome explicitly = Deployment().run(scene, how, {});
+    REQUIRE(explicitly.status != Status::failed);
+    const double exact = explicitly.motor_energy.at(0);
+    for (const char* method : {"seulex", "rosenbrock_w", "auto"}) {
+      how = within(1e-6, 4), how.method = method;
+      const Outcome out = Deployment().run(scene, how, {});
+      CAPTURE(seed, method, out.work.steps, exact, out.motor_energy[0]);
+      CHECK(relative(out.motor_energy[0], exact) < 1e-4);
+    }
+  }
+}
+
 TEST_CASE("a motor spins an inertia up to its rate, and gives it the kinetic energy") {
   for (const double r : {0.05, 0.5, 2.0})
     for (const double c : {0.3, 3.0, 30.0}) {
