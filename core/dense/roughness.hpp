@@ -46,7 +46,7 @@ template <class T> [[nodiscard]] T roughness(const Layout& at, const Step<T>& st
 ///     (0.19245 max(|d0|, |d1|)/2 + |d1 − d0|/32)/h        0.19245 = 1/(3 √3) is the largest slope of s²(1 − s)²   (3)
 ///
 /// Roughness 1: c times (3) is 2 % of the moment at the larger end, or of a thousandth of the torque limit. Heuristic: the
-/// quintic is then off by far less (the work of random motors is right to 1e-6); a smaller share takes more steps.
+/// quintic is then off by far less (tests hold the work to 1e-4 at a gain of 1e5); a smaller share takes more steps.
 template <class T, class AnySystem>
 [[nodiscard]] T roughness_of_motors(const AnySystem& system, const Step<T>& step) {
   using std::abs;

@@ -29,8 +29,8 @@ template <class AnySystem> [[nodiscard]] auto release_margin(const AnySystem& sy
 /// again, that only a step of the method can decide.
 template <class T> struct Slip {
   int hinge;
-  T s; ///< fraction of the step
-  T slope; ///< rate of the excess over the limit, N·m/s; where a kink makes the load jump it may be 0 or less
+  T s;     ///< fraction of the step
+  T slope; ///< rate of the excess over the limit, N·m/s; may be 0 or less if the step starts beyond it
   bool graze;
 };
 

@@ -66,15 +66,23 @@ std::vector<Eigen::Vector2d> drawn_at(const std::string& svg, const std::string&
   return found;
 }
 
+/// A wing of four panels, its drawing, and where hinges and centres of mass stand in it, view after view.
+struct DrawnWing {
+  Scene scene = scene_of([] {
+    WingDesign design;
+    design.panels = 4, design.damper = 0;
+    return design;
+  }());
+  std::string svg = draw_wing(scene);
+  std::vector<Eigen::Vector2d> hinges = drawn_at(svg, "class=\"hinge\"", "cx", "cy");
+  std::vector<Eigen::Vector2d> centres = drawn_at(svg, " r=\"2.5\"", "cx", "cy");
+};
+
 } // namespace
 
 TEST_CASE("each name of a drawing stands at what it names, in each view") {
-  WingDesign design;
-  design.panels = 4, design.damper = 0;
-  const Scene scene = scene_of(design);
-  const std::string svg = draw_wing(scene);
-  const auto hinges = drawn_at(svg, "class=\"hinge\"", "cx", "cy");
-  const auto centres = drawn_at(svg, " r=\"2.5\"", "cx", "cy");
+  const DrawnWing drawn;
+  const auto& [scene, svg, hinges, centres] = drawn;
   const auto base = drawn_at(svg, "stroke-width=\"6\"", "x1", "y1");
   const std::size_t h = scene.hinges.size(), b = scene.bodies.size();
   REQUIRE((hinges.size() == 3 * h && centres.size() == 3 * b && base.size() == 3));
@@ -94,12 +102,8 @@ TEST_CASE("each name of a drawing stands at what it names, in each view") {
 }
 
 TEST_CASE("each spring's arc begins beside the child that the spring turns, in each view") {
-  WingDesign design;
-  design.panels = 4, design.damper = 0;
-  const Scene scene = scene_of(design);
-  const std::string svg = draw_wing(scene);
-  const auto hinges = drawn_at(svg, "class=\"hinge\"", "cx", "cy");
-  const auto centres = drawn_at(svg, " r=\"2.5\"", "cx", "cy");
+  const DrawnWing drawn;
+  const auto& [scene, svg, hinges, centres] = drawn;
   const std::size_t h = scene.hinges.size(), b = scene.bodies.size();
   REQUIRE(count(svg, "class=\"spring\"") == static_cast<long>(3 * h));
   std::size_t arc = 0;
