@@ -58,7 +58,7 @@ template <class T, class AnySystem>
     const MotorPiece<T>& piece = system.work().motors[i];
     const int x = system.layout().angle(i), v = system.layout().rate(i);
     const auto moment = [&](const State<T>& at, const T& t) {
-      return motor_moment(terms, piece, T(commanded_rate(piece, t) - at[v]));
+      return motor_moment(terms, piece, command_excess(piece, t, T(at[v])));
     };
     const T first = moment(step.x, step.t), last = moment(step.x1, T(step.t + h));
     if (first == last && abs(last) == terms.limit) continue;

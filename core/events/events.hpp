@@ -161,7 +161,9 @@ public:
     const bool passes = due && due->event == Event::edge && due->edge == Edge::pass;
     const int latching = passes ? due->hinge : hinge_of(Event::latch);
     const int resting = hinge_of(Event::rest);
+    const std::size_t missed_before = record.missed.size();
     const bool engaged = latches_.engage_simultaneous(latching, step, record);
+    const bool missed = record.missed.size() > missed_before; // settle_edges decides the new side
     const bool rested = stop_simultaneous(system_, resting, step);
     if (due &&
         due->event == Event::edge) // exactly at the edge, where settle_edges decides its side
@@ -171,7 +173,7 @@ public:
                         latches_.disengage_simultaneous(hinge_of(Event::let_go), step, record);
     const bool released = releases_.release_due(hinge_of(Event::seen), step, record);
     const bool changes = due && due->event != Event::graze && due->event != Event::kink;
-    return changes || engaged || rested || let_go || released;
+    return changes || engaged || missed || rested || let_go || released;
   }
 
 private:

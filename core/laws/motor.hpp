@@ -91,6 +91,12 @@ template <class T> [[nodiscard]] T commanded_rate(const MotorPiece<T>& piece, co
   return cubic_at(piece.rate, T(t - piece.from));
 }
 
+/// w − φ̇ at t.
+template <class T>
+[[nodiscard]] T command_excess(const MotorPiece<T>& piece, const T& t, const T& rate) {
+  return commanded_rate(piece, t) - rate;
+}
+
 /// Whether w is constant from this piece on.
 template <class T> [[nodiscard]] bool is_steady(const MotorPiece<T>& piece) {
   return !(piece.until < T(never)) && piece.rate[1] == T(0) && piece.rate[2] == T(0) &&
@@ -116,9 +122,8 @@ template <class T>
 template <class T>
 [[nodiscard]] T motor_moment_rate(const MotorTerms<T>& terms, const MotorPiece<T>& piece,
                                   const T& t, const T& rate, const T& acceleration) {
-  const T u = t - piece.from;
-  return motor_damping(terms, piece, T(cubic_at(piece.rate, u) - rate)) *
-         (cubic_slope(piece.rate, u) - acceleration);
+  return motor_damping(terms, piece, command_excess(piece, t, rate)) *
+         (cubic_slope(piece.rate, T(t - piece.from)) - acceleration);
 }
 
 /// w − φ̇ over a step from t. @param rate φ̇ over the step

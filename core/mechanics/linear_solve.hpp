@@ -48,7 +48,7 @@ template <class T, class Topology, BaseMotion M>
   }
   if (!system.wing().motors.empty()) {
     const MotorPiece<T>& motor = system.work().motors[i];
-    const T excess = commanded_rate(motor, t) - x[at.rate(i)];
+    const T excess = command_excess(motor, t, T(x[at.rate(i)]));
     r.damping = r.damping + motor_damping(system.wing().motors[i], motor, excess);
   }
   if (!system.wing().real.empty()) {

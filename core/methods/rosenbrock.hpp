@@ -139,7 +139,7 @@ private:
   template <class System>
   [[nodiscard]] static T command_push(const System& system, const State<T>& x, const T& t, int i) {
     const MotorPiece<T>& motor = system.work().motors[i];
-    const T excess = commanded_rate(motor, t) - x[system.layout().rate(i)];
+    const T excess = command_excess(motor, t, T(x[system.layout().rate(i)]));
     return motor_damping(system.wing().motors[i], motor, excess) *
            cubic_slope(motor.rate, T(t - motor.from));
   }

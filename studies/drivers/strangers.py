@@ -12,8 +12,8 @@ spent outside the lanes with its three largest causes (timing.json has all); the
 
 With --releases it measures instead what holds cost: the user time of each wing's packs with releases over that without, by turns, the
 best of three. "start": every hinge is let go at t = 0, which changes no motion. "sequence": each hinge but the first is let go once the
-one inward of it has turned by a tenth of its way: another motion, so the evaluations' ratio stands beside; wings have no loops then,
-which would hold what waits.
+one inward of it has turned by a tenth of its way: another motion, so the ratio of the evaluations of all runs (by replay) stands beside,
+and the ratio of the two: what an evaluation costs more. Wings have no loops then, which would hold what waits.
 """
 
 import argparse
@@ -188,8 +188,8 @@ def user_seconds(function):
 
 def compare_releases(given, scratch):
     """Prints each wing's cost with releases over that without. @return whether no run failed"""
-    print(f"{'':4} {'time':>6} {'evaluations':>11} {'deployed':>18}", flush=True)
-    times, failed = [], 0
+    print(f"{'':4} {'time':>6} {'evaluations':>11} {'time each':>9} {'deployed':>18}", flush=True)
+    times, each, failed = [], [], 0
     for index in given.only or range(given.wings):
         scene, words = make_scene(random.Random(f"{given.seed}/{index}"), f"stranger_{index}")
         if given.releases == "sequence":
@@ -205,10 +205,12 @@ def compare_releases(given, scratch):
             best[k] = min(best[k], seconds)
             share[k] = summary["status"]["deployed"]["count"] / summary["runs"]
             failed += summary["status"]["failed"]["count"]
-            evaluations[k] = evaluations[k] or evaluations_of_nominal(given.program, folder / "campaign.json")
+            evaluations[k] = evaluations[k] or sum(evaluations_of_run(given.program, folder / "out", r) for r in range(given.runs))
         times.append(best[1] / best[0])
-        print(f"{index:4} {times[-1]:6.3f} {evaluations[1] / evaluations[0]:11.3f} {share[0]:8.2f} {share[1]:9.2f}   {words}", flush=True)
-    print(f"\ntime with releases over without: median {statistics.median(times):.3f}, least {min(times):.3f}, largest {max(times):.3f}")
+        each.append(times[-1] * evaluations[0] / evaluations[1])
+        print(f"{index:4} {times[-1]:6.3f} {times[-1] / each[-1]:11.3f} {each[-1]:9.3f} {share[0]:8.2f} {share[1]:9.2f}   {words}", flush=True)
+    for name, ratios in (("time with releases over without", times), ("time of an evaluation", each)):
+        print(f"{name:32} median {statistics.median(ratios):.3f}, least {min(ratios):.3f}, largest {max(ratios):.3f}")
     return failed == 0
 
 
@@ -221,6 +223,11 @@ def run(program, campaign, out, *options):
 
 def rows(folder):
     return (folder / "runs.csv").read_bytes()
+
+
+def evaluations_of_run(program, results, number):
+    done = subprocess.run([program, "replay", results, "--run", str(number), "--json"], capture_output=True, text=True, check=False)
+    return json.loads(done.stdout)["work"]["rhs_evaluations"]
 
 
 def evaluations_of_nominal(program, campaign):

@@ -1,10 +1,12 @@
 #include "montecarlo/engine/accuracy/run_check.hpp"
 
 #include "montecarlo/engine/accuracy/accuracy.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/model/campaign/outputs.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace wingspread {
 namespace {
@@ -41,9 +43,19 @@ std::optional<RunCheck> check_run(const Scene& scene, const Integration& integra
     check.agrees = again.status == own.status && check.latch_order == latch_order(scene, own);
     Outputs integrated = all_outputs();
     integrated.erase(OutputFamily::frequency);
-    for (const OutputColumn& column : output_columns(scene, integrated))
-      check.outputs.push_back(compare(column.name, output_of(column, own), output_of(column, again),
-                                      unresolved(column.name, integration)));
+    const std::vector<OutputColumn> columns = output_columns(scene, integrated);
+    std::map<std::string, double> largest; // of the outputs in a unit
+    for (const OutputColumn& column : columns) {
+      double& most = largest[parse_output_name(column.name).unit];
+      most = std::fmax(most, std::abs(output_of(column, again)));
+    }
+    for (const OutputColumn& column : columns) {
+      const double least =
+          std::max(unresolved(column.name, integration),
+                   integration.rtol * largest[parse_output_name(column.name).unit]);
+      check.outputs.push_back(
+          compare(column.name, output_of(column, own), output_of(column, again), least));
+    }
     return check;
   }
   return std::nullopt;

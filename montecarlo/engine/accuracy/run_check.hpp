@@ -13,8 +13,11 @@ namespace wingspread {
 struct CheckedOutput {
   std::string name; ///< as in runs.csv
   double value = 0, reference = 0;
-  int digits = 0;     ///< decimal digits that agree
-  bool moved = false; ///< by more than 1 %, or it happened in only one of the two
+  /// Decimal digits that agree. 16 if both are below what the tolerances resolve: atol for angles and rates, and rtol
+  /// times the run's largest output of the same unit.
+  int digits = 0;
+  bool moved =
+      false; ///< by more than 1 % and more than that, or it happened in only one of the two
 };
 
 struct RunCheck {

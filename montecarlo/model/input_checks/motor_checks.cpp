@@ -14,6 +14,8 @@ namespace {
 
 constexpr double implausible_rate =
     1; // rad/s; heuristic: deployment motors turn some degrees a second
+// Of the fastest command. Heuristic: far below what matters, and each step is then short or implicit.
+constexpr double needless_precision = 1e-9;
 constexpr double much_deflection = 0.0175; // rad, 1°; heuristic: latches hold panels to far less
 
 /// The largest magnitude of the command, rad/s.
@@ -40,6 +42,18 @@ void check_command(const std::string& at, const Hinge& hinge, double time, bool 
                              "in the {:.4g} s of the run",
                              way, travel, time),
                  "a faster command, or a later t_end");
+}
+
+/// A gain so large that the torque limit is reached next to the command itself.
+void check_gain(const std::string& at, const Motor& motor, InputWarnings& warnings) {
+  const double slip = motor.torque_limit / motor.gain, rate = fastest(motor);
+  if (rate > 0 && slip < needless_precision * rate)
+    warnings.add(at + "/gain",
+                 fmt::format("{:.4g} N·m·s/rad: the motor exerts its torque limit {:.2g} rad/s off "
+                             "a command of {:.4g} rad/s, and such stiffness costs many steps",
+                             motor.gain, slip, rate),
+                 fmt::format("{:.1g} N·m·s/rad keeps the rate to a millionth",
+                             1e6 * motor.torque_limit / rate));
 }
 
 /// @param stall of the commands while the latch is engaged
@@ -71,6 +85,7 @@ void check_motor(const Scene& scene, int h, double t_end, const Outcome& nominal
   if (zero_gain || motor.torque_limit == 0)
     return warnings.add(at + (zero_gain ? "/gain" : "/torque_limit"), "0: the motor exerts nothing",
                         "> 0");
+  check_gain(at, motor, warnings);
   const StallTorques stall = stall_torques(motor);
   if (!(stall.most > 0) && stall.least < 0)
     warnings.add(at + "/rate", "never towards the latch",

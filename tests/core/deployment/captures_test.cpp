@@ -77,6 +77,32 @@ TEST_CASE("a pass that is too fast misses the latch; a stop beyond it throws the
   }
 }
 
+TEST_CASE("a pass where the spring's table has a knot is missed once") {
+  for (const double torque : {2., 20., 200.})
+    for (const double latched : {0., 0.1}) {
+      Scene scene = latching_panel();
+      Hinge& hinge = scene.hinges[0];
+      hinge.stowed = 1.5, hinge.latched = latched;
+      hinge.spring.table =
+          torque_table({1.5, 0.6, latched}, {1, torque / 2, torque}, Interpolation::linear);
+      hinge.latch = capturing(0.05);
+      hinge.far_stop = Stop{500, 0.1, 0.1};
+      CAPTURE(torque, latched);
+      std::size_t passes = 0;
+      for (const char* method : {"dop853", "dopri5", "bulirsch_stoer", "rosenbrock_w", "seulex"}) {
+        Integration how = within(1e-8, 4);
+        how.method = method;
+        const Outcome out = Deployment().run(scene, how);
+        CAPTURE(method);
+        if (passes == 0) passes = out.missed.size();
+        CHECK(out.missed.size() == passes);
+        for (std::size_t k = 1; k < out.missed.size(); ++k)
+          CHECK(out.missed[k].time - out.missed[k - 1].time > 1e-3);
+      }
+      CHECK(passes >= 1);
+    }
+}
+
 TEST_CASE("a hinge that a stop has slowed down engages its latch from the far side") {
   const double c = 0.5, gap = 0.05, rate = hunt_crossley_rebound(c, 1);
   Scene scene = thrown_at_latch(capturing(0.99 * 1));

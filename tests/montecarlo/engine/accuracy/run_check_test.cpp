@@ -85,3 +85,20 @@ TEST_CASE("outputs that happen in one of two integrations have moved, those in n
   CHECK(std::isnan(output_of(*check, "deployment_time").reference));
   CHECK_FALSE(output_of(*check, "deployment_time").moved);
 }
+
+TEST_CASE("a base that only rounding turns has not moved", "[accuracy]") {
+  const Scene scene =
+      read_scene_file(three_panel_file().parent_path() / "bending_wings.json"); // mirrored
+  Integration integration;
+  integration.t_end = 8, integration.atol = 1e-18;
+  Goal goal;
+  goal.to_t_end = true, goal.base_motion = true;
+  const Outcome own = Deployment().run(scene, integration, goal, Observer{});
+  const auto check = check_run(scene, integration, goal, own);
+  REQUIRE(check);
+  const CheckedOutput& turn = output_of(*check, "base.peak_rate");
+  CHECK(turn.value != turn.reference);
+  CHECK(std::abs(turn.value - turn.reference) > integration.atol);
+  CHECK_FALSE(turn.moved);
+  CHECK(turn.digits == 16);
+}

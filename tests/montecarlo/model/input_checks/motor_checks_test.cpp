@@ -8,6 +8,24 @@
 
 using namespace wingspread;
 
+TEST_CASE("a gain that keeps a motor within a billionth of its command is warned of",
+          "[warnings]") {
+  Scene scene = read_scene_file(test::three_panel_file());
+  Motor& motor = scene.hinges[1].motor.emplace();
+  motor.rate = 0.1, motor.torque_limit = 5;
+  const auto told = [&](double gain) {
+    motor.gain = gain;
+    InputWarnings warnings(ScenePlace{"scene.json"});
+    check_motors(scene, Integration(), Outcome(), warnings);
+    return warnings.list();
+  };
+  CHECK(told(5e10 * 0.99).empty());
+  const std::vector<InputWarning> warned = told(5e10 * 1.01);
+  REQUIRE(warned.size() == 1);
+  CHECK(warned[0].pointer == "/hinges/1/motor/gain");
+  CHECK_THAT(warned[0].usual, Catch::Contains("5e+07"));
+}
+
 TEST_CASE("a motor that bends its latch is warned of by what is commanded while it is engaged",
           "[warnings]") {
   Scene scene = read_scene_file(test::three_panel_file());
