@@ -18,19 +18,29 @@ template <class T> struct Step {
     return hermite<T>(h, {x[k], x[r], dxdt[r]}, {x1[k], x1[r], dxdt1[r]});
   }
 
-  /// The rate of coordinate k over the step. In a short step the difference of the angles at its ends is rounding, ε φ,
-  /// and the derivative of their quintic noise of ε φ/h. There the rate is the cubic by the rates and accelerations at
-  /// the ends.
-  /// @param path coordinate(k, freedoms)
-  [[nodiscard]] Quintic<T> rate_of(const Quintic<T>& path, int k, int freedoms) const {
+  /// The way of coordinate k since the step's start. `coordinate` is a sum with the angle, which rounds it to ε φ. In a
+  /// short step the difference of the angles at its ends is such rounding, too: there the way's end follows from the
+  /// rates and accelerations at the ends.
+  [[nodiscard]] Quintic<T> way(int k, int freedoms) const {
     const int r = k + freedoms;
-    const T way = fused(T(0.5) * h, x[r] + x1[r], h * h * (T(1) / T(12)) * (dxdt[r] - dxdt1[r]));
-    const auto drowned = is_rounding(T((x1[k] - x[k]) - way), k);
-    if (!any(drowned)) return derivative(path, h);
-    return chosen(drowned, cubic_hermite(h, x[r], dxdt[r], x1[r], dxdt1[r]), derivative(path, h));
+    const T by_angles = x1[k] - x[k];
+    const T by_rates =
+        fused(T(0.5) * h, x[r] + x1[r], h * h * (T(1) / T(12)) * (dxdt[r] - dxdt1[r]));
+    const T end = select(is_rounding(T(by_angles - by_rates), k), by_rates, by_angles);
+    return hermite<T>(h, {T(0), x[r], dxdt[r]}, {end, x1[r], dxdt1[r]});
   }
+
+  /// The distance of coordinate k from `there` over the step. Near `there` it is far more accurate than `coordinate`.
+  [[nodiscard]] Quintic<T> distance(int k, int freedoms, const T& there) const {
+    Quintic<T> d = way(k, freedoms);
+    const T start = x[k] - there;
+    for (T& c : d) c = start + c;
+    return d;
+  }
+
+  /// The rate of coordinate k over the step.
   [[nodiscard]] Quintic<T> rate(int k, int freedoms) const {
-    return rate_of(coordinate(k, freedoms), k, freedoms);
+    return derivative(way(k, freedoms), h);
   }
 
   /// Component k of the state at t + s·h by cubic Hermite interpolation, for the states of smoothed latches.

@@ -31,8 +31,8 @@ template <class T, class AnySystem>
                                               Edge edge) {
   const Layout& at = system.layout();
   const T angle = edge_angle(system.wing(), i, edge), way(way_over(system, i, edge));
-  Quintic<T> past = step.coordinate(at.angle(i), at.freedoms());
-  for (T& c : past) c = way * (c - angle);
+  Quintic<T> past = step.distance(at.angle(i), at.freedoms(), angle);
+  for (T& c : past) c = way * c;
   if (step.x[at.angle(i)] != angle) return first_nonnegative(past);
   past = without_root_at_start(past);
   using std::abs;

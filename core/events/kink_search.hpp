@@ -57,7 +57,7 @@ private:
     for (const CurveTorqueTerms<T>* torque : {&real.spring, &real.harness})
       if (torque->curve) search_knots(*torque->curve, torque->weight, i, angle);
     if (real.friction.level) search_knots(*real.friction.level, real.friction.weight, i, angle);
-    if (!limit_.leaps_only) search_rates(i, step_.rate_of(angle, at.angle(i), at.freedoms()));
+    if (!limit_.leaps_only) search_rates(i, step_.rate(at.angle(i), at.freedoms()));
   }
 
   void search_rates(int i, const Quintic<T>& rate) {
@@ -181,7 +181,7 @@ private:
     for (const T& beyond : {T(0), epsilon})
       offer_passage({Of::angle, i, fused(hinge.sense, beyond, hinge.latched), T(0)}, angle,
                     {i, T(0), T(0), bend, T(0), true});
-    const Quintic<T> rate = step_.rate_of(angle, at.angle(i), at.freedoms());
+    const Quintic<T> rate = step_.rate(at.angle(i), at.freedoms());
     offer_passage({Of::latch, i, epsilon, T(0)},
                   cubic_hermite(step_.h, step_.x[k], step_.dxdt[k], step_.x1[k], step_.dxdt1[k]),
                   {i, T(0), T(0), bend * most_of_smoothed_latch(hinge, angle, rate)});

@@ -59,7 +59,7 @@ template <class T, class AnySystem>
   constexpr int deepest = 45; // 3e-14 of the step: rounding
   std::array<Piece, deepest + 2> open;
   int count = 0;
-  open[count++] = {path, step.rate_of(path, at.angle(i), at.freedoms()), T(0), T(1)};
+  open[count++] = {path, step.rate(at.angle(i), at.freedoms()), T(0), T(1)};
   while (count > 0) {
     const Piece piece = open[--count];
     if (latch.most_excess(hull(piece.angle), hull(piece.rate)) < T(0)) continue;
@@ -110,9 +110,9 @@ public:
   /// The first s in [0, 1] at which hinge i reaches its latched angle in the step; none without one.
   [[nodiscard]] std::optional<T> first_engagement(const Step<T>& step, int i) const {
     const HingeTerms<T>& hinge = system_.wing().hinges[i];
-    Quintic<T> angle = step.coordinate(at_.angle(i), at_.freedoms());
-    for (T& c : angle) c = hinge.sense * (c - hinge.latched);
-    return first_nonnegative(angle);
+    Quintic<T> past = step.distance(at_.angle(i), at_.freedoms(), hinge.latched);
+    for (T& c : past) c = hinge.sense * c;
+    return first_nonnegative(past);
   }
 
   /// Engages, at the start of a step, hinge `due` (0: none) and every latch that engages simultaneously.

@@ -48,10 +48,10 @@ public:
   /// The first s in [0, 1] at which hinge i's hold sees the angle for which it waits; none if it does not.
   [[nodiscard]] std::optional<T> first_passage(const Step<T>& step, int i) const {
     if (!watches(i)) return std::nullopt;
-    Quintic<T> past =
-        step.coordinate(system_.layout().angle(terms(i).after), system_.layout().freedoms());
+    Quintic<T> past = step.distance(system_.layout().angle(terms(i).after),
+                                    system_.layout().freedoms(), terms(i).angle);
     const T& sense = system_.wing().hinges[terms(i).after].sense;
-    for (T& c : past) c = sense * (c - terms(i).angle);
+    for (T& c : past) c = sense * c;
     return first_nonnegative(past);
   }
   /// Signed distance past that angle, rad, in the deploying sense of the hinge that moves.

@@ -87,6 +87,17 @@ private:
     return step.coordinate(system.layout().angle(i), system.layout().freedoms());
   }
 
+  /// Lanes in which hinge i may reach `there` in this sense in the step.
+  template <class AnySystem>
+  [[nodiscard]] static Mask may_reach(const AnySystem& system, const Step<P>& step, int i,
+                                      const P& there, const P& sense) {
+    Mask any{};
+    const Layout& at = system.layout();
+    for (const P& c : step.distance(at.angle(i), at.freedoms(), there))
+      any = any || !(sense * c < P(0.0));
+    return any;
+  }
+
   [[nodiscard]] static bool waits_for_hinge(const Wing<P>& wing, int i) {
     return !wing.releases.empty() && wing.releases[i].after > 0;
   }
@@ -94,10 +105,7 @@ private:
   template <class AnySystem>
   [[nodiscard]] static Mask may_engage(const AnySystem& system, const Step<P>& step, int i) {
     const HingeTerms<P>& hinge = system.wing().hinges[i];
-    Mask any{};
-    for (const P& c : angle_of(system, step, i))
-      any = any || !(hinge.sense * (c - hinge.latched) < P(0.0));
-    return any;
+    return may_reach(system, step, i, hinge.latched, hinge.sense);
   }
 
   template <class AnySystem>
@@ -105,15 +113,16 @@ private:
     const auto& wing = system.wing();
     Mask any{};
     if (!wing.real[i].has_edge()) return any;
-    const Quintic<P> angle = angle_of(system, step, i);
+    const Layout& at = system.layout();
+    const Quintic<P> way = step.way(at.angle(i), at.freedoms());
     for (int e = 0; e < edges_of_hinge; ++e) {
       const Edge edge = static_cast<Edge>(e);
       const bool passes = edge == Edge::pass;
       if (!has_edge(wing, i, edge, wing.hinges[i].has_latch && !passes)) continue;
-      const P there = edge_angle(wing, i, edge);
+      const P start = step.x[at.angle(i)] - edge_angle(wing, i, edge);
       const bool of_latch = edge == Edge::backlash_low || edge == Edge::backlash_high;
-      for (const P& c : angle) {
-        const Mask stays = ways_[e][i] * (c - there) < P(0.0);
+      for (const P& c : way) {
+        const Mask stays = ways_[e][i] * (start + c) < P(0.0);
         any = any || (of_latch ? !stays && !waits(i) : passes ? !stays && waits(i) : !stays);
       }
     }
@@ -128,7 +137,7 @@ private:
     if (!any(engaged)) return engaged;
     const Quintic<P> angle = angle_of(system, step, i);
     const Layout& at = system.layout();
-    const Quintic<P> rate = step.rate_of(angle, at.angle(i), at.freedoms());
+    const Quintic<P> rate = step.rate(at.angle(i), at.freedoms());
     return engaged && !(latch.most_excess(hull(angle), hull(rate)) < P(0.0));
   }
 
@@ -136,11 +145,7 @@ private:
   template <class AnySystem>
   [[nodiscard]] static Mask may_be_seen(const AnySystem& system, const Step<P>& step, int i) {
     const ReleaseTerms<P>& hold = system.wing().releases[i];
-    const P& sense = system.wing().hinges[hold.after].sense;
-    Mask any{};
-    for (const P& c : angle_of(system, step, hold.after))
-      any = any || !(sense * (c - hold.angle) < P(0.0));
-    return any;
+    return may_reach(system, step, hold.after, hold.angle, system.wing().hinges[hold.after].sense);
   }
   /// As Releases::passes_now.
   template <class AnySystem>

@@ -57,7 +57,7 @@ private:
   [[nodiscard]] Changes changes(const Layout& at, const Step<T>& step) const {
     Changes now;
     now.angle = step.coordinate(coordinate, at.freedoms());
-    now.rate = step.rate_of(now.angle, coordinate, at.freedoms());
+    now.rate = step.rate(coordinate, at.freedoms());
     for (T& c : now.angle) c = c - first_angle;
     for (T& c : now.rate) c = c - first_rate;
     return now;

@@ -28,7 +28,7 @@ public:
         latch_state_(system.layout().latch(i)), epsilon_(system.epsilon()),
         smoothed_(system.layout().smoothed && hinge_.has_latch) {
     own_.angle = angle_of(i);
-    own_.rate = depends_on_rate() ? rate_of(own_.angle, i) : Quintic<T>{};
+    own_.rate = depends_on_rate() ? rate_of(i) : Quintic<T>{};
     linear_ = linear_moment(system.work().laws[i], own_.angle, own_.rate);
     if (has_motor()) excess_ = motor_excess(system.work().motors[i], step.t, step.h, own_.rate);
   }
@@ -116,8 +116,8 @@ private:
            smoothed_;
   }
 
-  [[nodiscard]] Quintic<T> rate_of(const Quintic<T>& angle, int i) const {
-    return step_.rate_of(angle, system_.layout().angle(i), system_.layout().freedoms());
+  [[nodiscard]] Quintic<T> rate_of(int i) const {
+    return step_.rate(system_.layout().angle(i), system_.layout().freedoms());
   }
 
   /// A hinge's motion over the step.
@@ -132,7 +132,7 @@ private:
     if (joined_[place] != i) {
       joined_[place] = i;
       paths_[place].angle = angle_of(i);
-      paths_[place].rate = rate_of(paths_[place].angle, i);
+      paths_[place].rate = rate_of(i);
     }
     return paths_[place];
   }

@@ -35,7 +35,7 @@ void raise_overtravel(T& most, const Wing<T>& wing, const Layout& at, const Step
   const HingeTerms<T>& hinge = wing.hinges[i];
   if (may_turn_back(wing, at, step, i, most)) {
     const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
-    Quintic<T> rate = step.rate_of(angle, at.angle(i), at.freedoms());
+    Quintic<T> rate = step.rate(at.angle(i), at.freedoms());
     for (T& c : rate) c = hinge.sense * c;
     if (const std::optional<T> s = first_nonnegative(rate))
       most = larger(most, beyond_stowed(hinge, value(angle, *s)));

@@ -240,7 +240,7 @@ private:
     const Step<T>& step = run_.step;
     const ReleaseTerms<T>& hold = run_.system.wing().releases[hold_];
     const Quintic<T> angle = step.coordinate(run_.at.angle(hold_), run_.at.freedoms());
-    const Quintic<T> rate = step.rate_of(angle, run_.at.angle(hold_), run_.at.freedoms());
+    const Quintic<T> rate = step.rate(run_.at.angle(hold_), run_.at.freedoms());
     Quintic<T> load;
     for (int k = 0; k < 6; ++k)
       load[k] = fused(hold.stiffness, angle[k] - run_.system.wing().hinges[hold_].stowed,
