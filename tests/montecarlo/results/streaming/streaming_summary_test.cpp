@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <random>
 
 using namespace wingspread;
@@ -306,5 +308,30 @@ TEST_CASE("without rows: what the rows say, in any order") {
   SECTION("tolerance limits hold those of the rows") { check_tolerance_limits(made); }
   SECTION("the same bytes however runs are shared out, and read back") {
     check_bytes_in_any_order(made);
+  }
+}
+
+// Most of the 40 bins have no value: the same stored edge is then the nearest to several of theirs.
+TEST_CASE("a histogram of few values without rows has no bin without width") {
+  Json json = quick_campaign(6);
+  json["statistics"] = {{"bins", 40}};
+  const Campaign campaign = campaign_of(json);
+  const ResultNames names = RunPlan(campaign).names();
+  Results rows(names);
+  for (long run = 0; run < 6; ++run)
+    rows.append({run, Status::deployed, std::vector<double>(names.draws.size(), 1.0),
+                 std::vector<double>(names.outputs.size(),
+                                     run == 5 ? 90.0 : 1 + 1e-7 * static_cast<double>(run)),
+                 "root>mid>tip", ""});
+  StreamingStatistics statistics(campaign, names, rows);
+  for (std::size_t row = 0; row < rows.size(); ++row) (void)statistics.add(rows.row(row), {});
+  const Summary found =
+      streaming_summary({"r", campaign, stamp_of(campaign, {})}, statistics, campaign.statistics);
+  for (const OutputSummary& output : found.outputs) {
+    const auto& [edges, counts] = output.histogram;
+    REQUIRE(edges.size() == counts.size() + 1);
+    CHECK((edges.front() == 1 && edges.back() == 90));
+    CHECK(std::ranges::adjacent_find(edges, std::ranges::greater_equal{}) == edges.end());
+    CHECK(std::accumulate(counts.begin(), counts.end(), 0L) == 6);
   }
 }
