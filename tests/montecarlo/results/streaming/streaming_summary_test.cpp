@@ -311,27 +311,36 @@ TEST_CASE("without rows: what the rows say, in any order") {
   }
 }
 
-// Most of the 40 bins have no value: the same stored edge is then the nearest to several of theirs.
-TEST_CASE("a histogram of few values without rows has no bin without width") {
-  Json json = quick_campaign(6);
+// The grid is that of pilot runs with small values: at 1000 its bins are wider than the 40 asked for, and their edges are
+// the nearest to several of these.
+TEST_CASE("a histogram without rows has no bin without width") {
+  constexpr long runs = 101;
+  Json json = quick_campaign(static_cast<int>(runs));
   json["statistics"] = {{"bins", 40}};
   const Campaign campaign = campaign_of(json);
   const ResultNames names = RunPlan(campaign).names();
-  Results rows(names);
-  for (long run = 0; run < 6; ++run)
-    rows.append({run, Status::deployed, std::vector<double>(names.draws.size(), 1.0),
-                 std::vector<double>(names.outputs.size(),
-                                     run == 5 ? 90.0 : 1 + 1e-7 * static_cast<double>(run)),
-                 "root>mid>tip", ""});
-  StreamingStatistics statistics(campaign, names, rows);
-  for (std::size_t row = 0; row < rows.size(); ++row) (void)statistics.add(rows.row(row), {});
+  const auto row = [&](long run, double value) {
+    return ResultRow{run,
+                     Status::deployed,
+                     std::vector<double>(names.draws.size(), 1.0),
+                     std::vector<double>(names.outputs.size(), value),
+                     "root>mid>tip",
+                     ""};
+  };
+  Results pilot(names);
+  for (long run = 0; run < runs; ++run) pilot.append(row(run, 1e-5 * static_cast<double>(run)));
+  StreamingStatistics statistics(campaign, names, pilot);
+  for (long run = 0; run < runs; ++run)
+    (void)statistics.add(row(run, 1000 + static_cast<double>(run)), {});
   const Summary found =
       streaming_summary({"r", campaign, stamp_of(campaign, {})}, statistics, campaign.statistics);
+  REQUIRE_FALSE(found.outputs.empty());
   for (const OutputSummary& output : found.outputs) {
     const auto& [edges, counts] = output.histogram;
     REQUIRE(edges.size() == counts.size() + 1);
-    CHECK((edges.front() == 1 && edges.back() == 90));
+    CHECK((edges.front() == 1000 && edges.back() == 1100));
+    CHECK((counts.size() > 2 && counts.size() < 40));
     CHECK(std::ranges::adjacent_find(edges, std::ranges::greater_equal{}) == edges.end());
-    CHECK(std::accumulate(counts.begin(), counts.end(), 0L) == 6);
+    CHECK(std::accumulate(counts.begin(), counts.end(), 0L) == runs);
   }
 }
