@@ -1,5 +1,6 @@
 """What would make a failed requirement pass, loads that no requirement limits, inputs in plain words, tables and gaps: as the data have them."""
 
+import math
 import re
 
 import pages
@@ -55,6 +56,23 @@ class ChangeChecks:
         bounds = self.run_script("return [...arguments[0].querySelectorAll('.needed-table tbody tr')].map(row => row.cells[2].textContent)",
                                  self.one(".findings li"))
         self.assertEqual(bounds, ["× 0.838 – 0.842", "× 0.84 – 0.84", "12.48 – 12.52"])
+
+    def test_where_margin_can_make_no_change_there_is_no_command(self):
+        self.opened_with("""W.sets.forEach(set => set.requirements.forEach(one => one.changes = one.verdict === "failed" && one.beyond ?
+            [{ for: "limit", runs: 1234, explained: 0.8567, levers: [warm] }] : []));""")
+        item = self.one(".findings li")
+        self.assertEqual(self.run_script("return [...arguments[0].querySelectorAll('.needed-table tbody tr')].map(row => row.cells[1].textContent)", item), ["20.0 → 12.5"])
+        self.assertIn("An estimated change, not yet run: confirm it first.", item.text)
+        self.assertNotIn("wingspread margin", self.run_script("return arguments[0].textContent", item))
+
+    def test_means_by_case_in_both_units_of_angles(self):
+        self.open(pages.made_up("loads"))
+        for unit, factor in (("rad", 1), ("deg", 180 / math.pi)):
+            self.run_script("W.choose('angles', arguments[0])", unit)
+            for name, (of_unit, times) in {"root.latch_rate": (f"{unit}/s", factor), "root.peak_moment": ("N·m", 1)}.items():
+                said, means = self.run_script("return [W.caseMeans(W.set(), arguments[0]), W.sets.map(set => set.outputs.find(one => one.name === arguments[0]).mean)]", name)
+                self.assertTrue(said.endswith(f" {of_unit}. "), said)
+                self.check(said.partition(":")[2], *(mean * times for mean in means), about=said)
 
     def test_without_an_estimate_it_says_why(self):
         """Too few runs; no input that is enough; no run that deploys."""

@@ -197,5 +197,13 @@ class FitPageChecks:
         self.run_script("Object.assign(W.data.comparisons[0].outputs[0], { difference: 123.4567, lower: null, upper: null }); Object.assign(W.data.comparisons[0].outputs[1], { difference: 0, lower: null, upper: null }); W.comparison()")
         unbounded = self.table(f"Differences of the means: {comparison['text']}")[:2]
         self.assertEqual([row[2:4] for row in unbounded], [["+123.5", "no bounds"], ["0", "no bounds"]])  # a twentieth of the difference is its grain
+        self.run_script("Object.assign(W.data.comparisons[0].outputs[0], { difference: 1, lower: 0.88, upper: 1.12 }); W.comparison()")
+        bounded = self.table(f"Differences of the means: {comparison['text']}")[0]
+        self.assertEqual(bounded[2:4], ["+1.00", "0.88 … 1.12"])  # half of the interval is its grain
+        folds = lambda: self.run_script("return [...document.querySelectorAll('#comparison details.later')].map(one => one.open)")
+        self.run_script("W.data.comparisons = [true, false, false, false].map(folders => ({ ...W.data.comparisons[0], folders })); W.comparison()")
+        self.assertEqual(folds(), [True, False, False, False])
+        self.run_script("W.data.comparisons.forEach(one => one.folders = false); W.comparison()")
+        self.assertEqual(folds(), [True, True, False, False])
         self.run_script("W.data.comparisons.length = 0; W.comparison()")
         self.assertIn("No set has a partner to compare with.", self.one("#comparison").text)

@@ -37,6 +37,7 @@ class MarkChecks:
         known = [(place, of(tick_value(text.replace(" s", "")))) for place, text in ticks]
         (first, low), (last, high) = known[0], known[-1]
         slope = (last - first) / (high - low)
+        self.assertGreater(slope if which == "x" else -slope, 0, f"{figure} {which}: larger values lie to the right, and above")
         for place, value in known:
             self.assertLess(abs(first + slope * (value - low) - place), 1.5, f"{figure} {which}: {ticks}")
         return lambda value: first + slope * (of(value) - low)

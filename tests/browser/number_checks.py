@@ -68,6 +68,7 @@ class Numbers:
             const at = tick.transform.baseVal[0].matrix; return [arguments[1] === 'x' ? at.e : at.f, tick.textContent]; }).filter(tick => tick[1] !== '')""", figure, which)
         (first, low), (last, high) = [(at - 0.5, parsed(text)[0]) for at, text in (ticks[0], ticks[-1])]  # d3 sets ticks half a pixel off
         slope = (high[0] - low[0]) / (last - first)
+        self.assertGreater(slope if which == "x" else -slope, 0, f"{figure} {which}: larger values lie to the right, and above")
         for at, text in ticks:  # every tick lies on the line
             self.assertLessEqual(abs(low[0] + slope * (at - 0.5 - first) - parsed(text)[0][0]), abs(slope) + 2 * parsed(text)[0][1], text)
         return lambda pixel: low[0] + slope * (pixel - first), abs(slope) + low[1] + high[1]

@@ -1,5 +1,7 @@
 """What each part of the page is called and does: heads of tables, titles of axes, legends, exported columns, buttons, lists, and the words that depend on the data."""
 
+import statistics
+
 import pages
 from number_checks import DEGREES, parsed
 
@@ -234,3 +236,46 @@ class PartChecks:
             self.run_script("document.querySelector('figure.history .catch').dispatchEvent(new PointerEvent(arguments[0], { clientX: arguments[1], buttons: arguments[2] }))", kind, left + x(want) * width, buttons)
             self.assertAlmostEqual(time(), at, places=2, msg=kind)
         self.assertTrue(parsed(self.one("output.time").text))
+
+    def described(self, figure, nth=0):
+        return self.run_script("return document.querySelectorAll(`figure.${arguments[0]} svg desc`)[arguments[1]].textContent", figure, nth)
+
+    def test_descriptions_have_the_numbers_of_their_pictures(self):
+        """What is read aloud in place of a picture; angles in the unit that is chosen."""
+        self.open(pages.made_up("plain"))
+        for unit, factor in (("rad", 1), ("deg", DEGREES)):
+            self.run_script("W.choose('angles', arguments[0]); W.choose('output', 'root.latch_rate')", unit)
+            pages.settle(self.driver)
+            one_set = self.run_script("return W.set()")
+            output = next(one for one in one_set["outputs"] if one["name"] == "root.latch_rate")
+            spread, _, orders = self.described("histogram").partition("; by latch order: ")
+            self.check(spread, output["count"], *(output[key] * factor for key in ("min", "max", "mean")), about=spread)
+            by_order = [sum(counts) for counts in output["histogram"]["by_order"] if sum(counts)]
+            self.assertEqual([int(parsed(part)[-1][0]) for part in orders.split(", ")][: len(by_order)], by_order)
+            quantiles = [one.get("among") or one for one in output["quantiles"]]
+            for part, one, given in zip(self.described("distribution").partition("band. ")[2].rstrip(".").split("; "), quantiles, output["quantiles"], strict=True):
+                self.check(part.partition(": ")[0], one.get("p", given["p"]), share=True, about=part)
+                self.check(part.partition(": ")[2], one["value"] * factor, about=part)
+        wing, envelopes, motion = one_set["wing"], one_set["envelopes"], one_set["motions"][0]
+        self.check(self.described("strobe"), 9, max(one["time"] for one in motion["latches"]), about="strobe")
+        levels = envelopes["levels"]
+        shares = [level for at in range(len(levels) // 2) for level in (levels[at], levels[-1 - at])]
+        self.assertEqual(sorted(value for value, _ in parsed(self.described("envelopes"))), sorted(round(100 * share, 6) for share in shares))
+        for part, hinge, times in zip(self.described("strips").split("; "), wing["hinges"], envelopes["latch_times"], strict=True):
+            self.assertTrue(part.startswith(f"{hinge['name']}: "), part)
+            self.check(part.partition(": ")[2], statistics.median(times), times[0], times[-1], about=part)
+        for nth, pair in enumerate(one_set["scatters"][:2]):
+            words = self.described("scatter", nth)
+            self.assertIn(f"over the dispersion {pair['draw']}, ", words)
+            self.check(words.partition("coefficient ")[2], round(pair["spearman"], 2), len(pair["points"]["run"]), about=words)
+        for part, one in zip(self.described("static-margins").split("; "), one_set["static_margins"]["hinges"]):
+            self.assertTrue(part.startswith(f"{one['hinge']}: "), part)
+            self.check(part.partition("least ")[2], round(one["least"], 2), about=part)
+        rare, margin = one_set["rare"], one_set["margin"]
+        levels = [one for one in rare["levels"] if one["threshold"] is not None and one["probability"] > 0]
+        times = DEGREES if (rare.get("beyond") or {"unit": ""})["unit"].startswith("rad") else 1
+        for part, one in zip(self.described("rare").split("; "), levels, strict=True):
+            self.check(part, one["threshold"] * times, one["probability"], about=part)
+        found = parsed(self.described("margin"))
+        for want in (value for value in (*margin["window"], margin["recommended"]) if value is not None):
+            self.assertTrue(any(abs(value - want) <= half for value, half in found), f"{want} of {found}")

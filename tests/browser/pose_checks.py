@@ -55,6 +55,19 @@ class PoseChecks:
             for got, want in zip([now["angles"][0], now["rates"][0], now["moments"][0], *(now["base"][key] for key in ("x", "y", "angle"))], wanted, strict=True):
                 self.assertAlmostEqual(got, want, places=12, msg=str(time))
 
+    def test_samples_that_are_unknown_are_not_invented(self):
+        """Between a known and an unknown sample nothing is drawn but the earlier one; without samples there is none."""
+        self.open(pages.made_up("single"))
+        row = [4, 5, None, 8]
+        at = lambda time, **more: self.run_script("return W.pose.at(arguments[0], arguments[1])", {"t": [0, 1, 2, 3], "angles": [row], **more}, time)
+        for time, want in ((0, 4), (0.5, 4.5), (1.25, 5), (2.5, None), (3, None)):
+            self.assertEqual(at(time)["angles"], [want], time)
+            self.assertEqual(at(time, rates=[None])["angles"], [want], time)
+            got = at(time, rates=[row], moments=[row, None], base={"x": row, "y": None, "angle": [0, 0, 0, 0]})
+            self.assertEqual((got["rates"], got["moments"], got["base"]), ([want], [want, None], {"x": want, "y": None, "angle": 0}), time)
+        self.assertEqual(at(1.25, rates=[row])["angles"], [5])  # a cubic needs all four
+        self.assertEqual((at(1)["rates"], at(1)["moments"], at(1)["base"]), ([], [], None))
+
     def drawn(self, figure, bodies):
         """Poses of a figure in metres, up to a shift: its bodies' corners by its bar of length."""
         svg = self.run_script("""const svg = document.querySelector(`figure.${arguments[0]} svg`), bar = svg.querySelector('.bar-of-length');
@@ -85,6 +98,10 @@ class PoseChecks:
     def test_the_player_and_its_clock(self):
         self.open(pages.made_up("plain"))
         motion, names = self.run_script("return [W.set().motions[0], W.set().wing.hinges.map(hinge => hinge.name)]")
+        described = self.run_script("return document.querySelector('figure.stage desc').textContent")
+        self.assertTrue(motion["why"])
+        for words in (motion["label"], motion["why"]):
+            self.assertIn(words, described)
         end, latches = motion["t"][-1], sorted((one["time"], names[one["hinge"]]) for one in motion["latches"])
         seek = lambda time: self.run_script("W.player.seek(arguments[0]); return [W.player.time, document.querySelector('output.time').textContent, document.querySelector('.stage .clock').textContent]", time)
         for time in (-3, 0, 1.23456, end, 99):

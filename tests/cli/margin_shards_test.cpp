@@ -78,6 +78,22 @@ TEST_CASE("margin goes on from shards of its first looks to the bytes of one pro
                                             "rows of a finished shard"));
 }
 
+// What was read is not made now: the rate that the line shows would be that of the disk.
+TEST_CASE("the line on a terminal counts the runs of shards, and has no rate of them") {
+  const Shards shards;
+  std::vector<std::string> from{"margin", shards.campaign, "--out", shards.at("out"), "--threads",
+                                "1",      "--from"};
+  for (const int i : {1, 2}) {
+    CHECK(shards.shard(i, 2).code == 0);
+    from.push_back(shards.at("part" + std::to_string(i)));
+  }
+  const std::string shown = shown_on_terminal(from);
+  const std::string first = shown.substr(0, shown.find("\x1b[K"));
+  CAPTURE(first);
+  CHECK_THAT(first, Catch::Contains(" analysis 1 of at most ") && Catch::Contains(" runs") &&
+                        !Catch::Contains(" 0 of at most ") && !Catch::Contains("runs/s"));
+}
+
 TEST_CASE("shards that are missing, unfinished, of another study or no shards are refused") {
   const Shards shards;
   CHECK(shards.shard(1, 3).code == 0);

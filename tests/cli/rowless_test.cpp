@@ -117,6 +117,10 @@ TEST_CASE(
         "error: " + c + ": found runs from 6000, expected run 3000: each run in one folder\n");
   CHECK(made.program({"merge", c, a, b, "--out", out}).code <= 1);
   CHECK(contents(out) == whole);
+  const Finished again = made.program({"merge", a, b, c, "--out", out}); // writes over nothing
+  CHECK(again.code == 2);
+  CHECK_THAT(again.error, HasFacts({out, "a new or an empty folder"}));
+  CHECK(contents(out) == whole);
 }
 
 TEST_CASE("what takes every row refuses a folder without rows; the rest works on it") {

@@ -189,7 +189,7 @@ void read_row_values(JsonObject& object, const std::filesystem::path& directory,
                      std::vector<Dispersion>& columns, Json& resolved) {
   std::string name;
   const auto values = object.find("values"), file = object.find("file");
-  if (object.is_object() && values.has_value() == file.has_value())
+  if (values.has_value() == file.has_value())
     return void(object.at().refuse(values ? "both values and a file" : "neither a file nor values",
                                    "one of them"));
   if (file && !file->read(name, "a string, the name of a CSV file")) return;
@@ -222,6 +222,7 @@ std::vector<Dispersion> read_rows(const JsonCursor& at, const std::string& name,
                                   const std::filesystem::path& directory, Json& resolved) {
   std::vector<Dispersion> columns;
   JsonObject object(at, "rows: an object with file, columns and apply");
+  if (!object.is_object()) return columns;
   Apply apply = Apply::set;
   object.required_choice("apply", apply, apply_names);
   const auto named = object.require("columns", "an object with paths by the names of columns");

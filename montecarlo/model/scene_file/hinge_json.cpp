@@ -93,7 +93,7 @@ void read_stop(const JsonCursor& at, Hinge& hinge) {
   enum class Side { stowed, latched } side = Side::stowed;
   const bool known = object.optional_choice("side", side, stop_side_names);
   std::optional<Stop>& stop = side == Side::latched ? hinge.far_stop : hinge.stop;
-  if (known && stop) at.refuse_repeated("one stop at each side");
+  if (known && stop && object.is_object()) at.refuse_repeated("one stop at each side");
   stop.emplace();
   object.required("stiffness", stop->stiffness, Dimension{"N·m/rad", "≥ 0"});
   object.optional("dissipation", stop->dissipation, Dimension{"s/rad", "≥ 0"});

@@ -78,11 +78,14 @@ bool ShardCheckpoints::have(const RunPlan& plan, RunRange range) const {
 long ShardCheckpoints::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
   if (!have(plan, range)) return inner_.make(plan, range, sink);
   long handed_on = 0;
+  const auto count = [&](const Batch& batch) {
+    read_ += std::ssize(batch.rows); // before it is handed on: then the progress is shown
+    sink.take(batch);
+  };
   for (ShardLog& each : shards_) {
     const RunRange part = part_of_analysis(range, each.shard);
-    const long got = each.log.enter(plan, part, sink, stop_);
+    const long got = each.log.enter(plan, part, {count, sink.wants_csv}, stop_);
     handed_on += got;
-    read_ += got;
     if (stop_) break;
     if (got < part.size())
       throw SpecError({{each.log.file().string(), "", "missing or damaged rows",

@@ -4,7 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <functional>
+#include <sstream>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -128,6 +130,29 @@ TEST_CASE("each fault of the tests has its place") {
         "numbers as parameters");
 }
 
+TEST_CASE("the numbers of a fit are accepted up to their limits, and no further") {
+  const Files files;
+  Json json = tests_json();
+  json["candidates"] =
+      parse_json(R"([ { "name": "next", "trace": { "times": { "to": 2, "step": 0.5 },
+      "columns": { "root.angle": { "std": 0.01 } } } } ])");
+  const auto check = [&](const char* pointer, const Json& good, const Json& bad) {
+    CAPTURE(pointer, good, bad);
+    Json changed = json;
+    changed[Json::json_pointer(pointer)] = good;
+    CHECK(files.problems(changed).empty());
+    changed[Json::json_pointer(pointer)] = bad;
+    CHECK_THAT(files.problems(changed), Catch::StartsWith("tests.json: /"));
+  };
+  check("/fit/starts", 1, 0);
+  check("/fit/starts", 1000, 1001);
+  check("/fit/samples", 100, 99);
+  check("/fit/samples", 10'000'000, 10'000'001);
+  check("/candidates/0/trace/times/to", 0.5, 0.4);       // at least the first step
+  check("/candidates/0/trace/times/step", 2e-5, 1.9e-5); // 1e5 times
+  check("/candidates/0/trace/times/step", 2, 0);
+}
+
 TEST_CASE("no object of the tests has a key that is not read") {
   const Files files;
   Json json = tests_json();
@@ -245,6 +270,22 @@ TEST_CASE("a trace of another hinge is refused, with its name") {
   CHECK(told("b", "a").find("t: /tests/0/trace/columns/root.angle: found the motion of tip.angle, "
                             "expected the motion of root.angle: is it another hinge's column?") !=
         std::string::npos);
+  // another clock is told once, not of every column
+  for (const auto& [times, later] : {std::pair(1000.0, 0.0), {1.0, 7.0}}) {
+    std::istringstream rows(text);
+    std::string changed, row;
+    std::getline(rows, changed);
+    while (std::getline(rows, row)) {
+      const std::size_t comma = row.find(',');
+      changed +=
+          '\n' + csv_cell(times * std::stod(row.substr(0, comma)) + later) + row.substr(comma);
+    }
+    folder.write("t1.csv", changed + '\n');
+    const std::string message = told("a", "b");
+    CAPTURE(message);
+    CHECK_THAT(message, Catch::StartsWith("t: /tests/0/trace/time: found times"));
+    CHECK(std::ranges::count(message, '\n') == 0);
+  }
 }
 
 TEST_CASE("a correlation of a fitted and another dispersion is refused") {

@@ -140,7 +140,7 @@ TEST_CASE("one unphysical draw, one cut peak and one open latch are doubts, and 
     CAPTURE(count);
     const std::vector<std::string> said = doubts_of(result);
     REQUIRE(std::ssize(said) == 3 * count);
-    CHECK(has(rare_text(result, {}, campaign_with(1)), "t_end cut the peak in 1 of 2000 runs") ==
+    CHECK(has(rare_text(result, {}, campaign_with(1)), "\nt_end cut the peak in 1 of 2000 runs") ==
           (count > 0));
     if (count == 0) continue;
     CHECK(said[0].starts_with("1 of 2000 runs have an unphysical draw"));

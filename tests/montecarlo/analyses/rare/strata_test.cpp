@@ -304,6 +304,25 @@ TEST_CASE("levels of common draws end where all strata add less than a thousandt
   }
 }
 
+TEST_CASE(
+    "levels of rare values end at the smallest probability of the draws and the event together",
+    "[rare]") {
+  Json json = lid();
+  json["dispersions"] = {
+      normal_law("D", 5, 0.4, "set", "hinges.h.release.delay"),
+      discrete_law("late", {0, 10}, {0.999, 1e-3}, "add", "hinges.h.release.delay")};
+  const RareResult found = estimate_of(
+      json, {.event = {"h.latch_time", 99, true}, .samples = 100, .repeats = 1, .smallest = 1e-7});
+  REQUIRE(found.strata.size() == 2);
+  for (const StratumEstimate& part : found.strata)
+    for (const SubsetEstimate& estimate : part.estimates) {
+      CHECK_FALSE(estimate.reached);
+      const double last = estimate.last_level * part.stratum.probability;
+      CAPTURE(part.stratum.probability, last);
+      CHECK((last < 2e-7 && last > 1e-7 / 20));
+    }
+}
+
 namespace {
 
 /// A stratum of probability w in which the event has the probability p, or at most `upper` if no repeat reached it.

@@ -91,6 +91,8 @@ TEST_CASE("a run that is stopped keeps its runs, and resuming completes the fold
   CHECK(part.interrupted->kept >= 100);
   REQUIRE(part.interrupted->kept < 600);
   CHECK(part.folders.at(0).summary.runs == part.interrupted->kept);
+  Caller unasked; // who does not ask to resume gets no runs of another session
+  CHECK_THROWS_AS(unasked.run(request), SpecError);
   RunRequest again = request;
   again.resume = true;
   Caller caller;

@@ -212,6 +212,34 @@ TEST_CASE("beyond the values drawn, and where wings drawn there stall, no change
   CHECK(far->bounds.upper);
 }
 
+// Every tenth run with a below 0.9 stalls, and no other: of the runs with so small a b far fewer.
+TEST_CASE("of draws that move together that one is counted beyond which most wings stall",
+          "[needed]") {
+  const auto output = [](double a, double b, double) { return 3 * a + 3 * b; };
+  for (const bool is_first : {true, false}) { // of the two draws that which stalls
+    InventedRuns sample(4000, 4, output);
+    for (std::size_t i = 0; i < sample.a.size(); i += 10)
+      if ((is_first ? sample.a : sample.b)[i] < 0.9) sample.status[i] = Status::stalled;
+    const std::vector<double>& stalling = is_first ? sample.a : sample.b;
+    for (const MovedDraws& moved : {both_scaled, MovedDraws{{1, 0}, true}}) {
+      const auto found =
+          needed_of(NeededFor::limit, limited(6.5, 0.9), sample.results(), {moved}).front();
+      REQUIRE((found && found->known));
+      double sum = 0, deployed = 0; // the mean is that of the wings that deploy
+      for (std::size_t i = 0; i < stalling.size(); ++i)
+        if (sample.status[i] == Status::deployed) sum += stalling[i], ++deployed;
+      long runs = 0, stalled = 0;
+      for (std::size_t i = 0; i < stalling.size(); ++i) {
+        if (stalling[i] > found->change * sum / deployed) continue;
+        ++runs, stalled += sample.status[i] == Status::stalled ? 1 : 0;
+      }
+      CHECK(stalled > 0);
+      CHECK(found->beyond_runs == runs);
+      CHECK(found->beyond_undeployed == stalled);
+    }
+  }
+}
+
 TEST_CASE("too few runs never promise a change", "[needed]") {
   // of 300 runs none may break 99 % at 90 %, so no number of seen ones is few enough
   const InventedRuns sample(300, 9, [](double a, double, double z) { return a + 0.1 * z; });

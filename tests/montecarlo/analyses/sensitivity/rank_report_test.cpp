@@ -1,9 +1,13 @@
+#include "montecarlo/analyses/sensitivity/effect_table.hpp"
 #include "montecarlo/analyses/sensitivity/rank_report.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 #include "tests/montecarlo/csv_support.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <sstream>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -128,6 +132,27 @@ TEST_CASE("the short table names what moves an output, and stops") {
       "  nothing visible moves root.overtravel one way. A draw that moves an output both ways has "
       "no rank\n"
       "  correlation: Sobol' indices show it (sensitivity of the campaign's file)\n");
+}
+
+TEST_CASE("a line with many dispersions goes on below its second column") {
+  MovedBy moved;
+  const auto name = [](std::size_t k) {
+    return "a_dispersion_of_a_long_name_" + std::to_string(k);
+  };
+  moved.add(
+      "root.latch_time", 5, [](std::size_t) { return 1; }, 0.1, name);
+  std::istringstream table(moved.table("moved by"));
+  std::string line;
+  std::getline(table, line);
+  std::size_t found = 0;
+  for (long lines = 0; std::getline(table, line); ++lines) {
+    CAPTURE(line);
+    CHECK(line.size() <= table_width);
+    CHECK(line.find("a_dispersion") == name_width + 2);
+    CHECK((lines == 0 || line.find_first_not_of(' ') == name_width + 2));
+    for (std::size_t k = 0; k < 5; ++k) found += line.find(name(k)) != std::string::npos;
+  }
+  CHECK(found == 5);
 }
 
 TEST_CASE("effects on peaks that t_end cut are told to be those on the cut values") {

@@ -77,6 +77,7 @@ TEST_CASE("text that goes on a line is broken at blanks, and no word is cut", "[
 TEST_CASE("long lines of a text go on below, deeper", "[text_layout]") {
   const std::string word(40, 'w'), short_line = "  a b\n";
   CHECK(wrapped_lines(short_line) == short_line);
+  CHECK(wrapped_lines("  a  b\n") == "  a  b\n"); // as it is, its blanks too
   CHECK(wrapped_lines("  " + word + ' ' + word + ' ' + word + "\nend") ==
         "  " + word + ' ' + word + "\n      " + word + "\nend\n");
   const std::string columns = word + "   " + word + "   " + word + '\n';

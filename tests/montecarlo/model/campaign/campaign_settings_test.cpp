@@ -195,6 +195,47 @@ TEST_CASE("Each fault of the statistics is told", "[campaign_settings]") {
   CHECK(facts_of(read(json, StatisticsSpec{}, read_statistics).problems) == facts_of(message));
 }
 
+TEST_CASE("each number of the settings is accepted up to its limits, and no further",
+          "[campaign_settings]") {
+  const auto check = [](auto defaults, auto reader, const char* good, const char* bad) {
+    CAPTURE(good, bad);
+    CHECK(read(good, defaults, reader).problems.empty());
+    CHECK_FALSE(read(bad, defaults, reader).problems.empty());
+  };
+  for (const auto& [good, bad] : std::vector<std::pair<const char*, const char*>>{
+           {R"({"runs": 1})", R"({"runs": 0})"},
+           {R"({"runs": 2147483647})", R"({"runs": 2147483648})"},
+           {R"({"replicates": 1})", R"({"replicates": 0})"},
+           {R"({"design": "sobol", "runs": 8, "replicates": 8})",
+            R"({"design": "sobol", "runs": 8, "replicates": 9})"},
+           {R"({"design": "sobol", "runs": 2000000, "replicates": 1000000})",
+            R"({"design": "sobol", "runs": 2000000, "replicates": 1000001})"},
+           {R"({"runs": 9, "extended_from": [1]})", R"({"runs": 9, "extended_from": [0]})"},
+           {R"({"runs": 9, "extended_from": [8]})", R"({"runs": 9, "extended_from": [9]})"},
+           {R"({"runs": 9, "extended_from": [4, 5]})", R"({"runs": 9, "extended_from": [5, 5]})"}})
+    check(Sampling{}, read_sampling, good, bad);
+  for (const auto& [good, bad] : std::vector<std::pair<const char*, const char*>>{
+           {R"({"rtol": 1e-15})", R"({"rtol": 0.99e-15})"},
+           {R"({"rtol": 0.999})", R"({"rtol": 1})"},
+           {R"({"atol": 1e-300})", R"({"atol": 0})"},
+           {R"({"max_steps": 1})", R"({"max_steps": 0})"},
+           {R"({"t_end": 1e-9})", R"({"t_end": 0})"},
+           {R"({"latch": {"smoothed": 1e-9}})", R"({"latch": {"smoothed": 0}})"}})
+    check(Integration{}, read_integration, good, bad);
+  for (const auto& [good, bad] : std::vector<std::pair<const char*, const char*>>{
+           {R"({"bins": 1})", R"({"bins": 0})"},
+           {R"({"bins": 10000})", R"({"bins": 10001})"},
+           {R"({"accuracy_runs": 0})", R"({"accuracy_runs": -1})"},
+           {R"({"accuracy_runs": 10000})", R"({"accuracy_runs": 10001})"},
+           {R"({"confidence": 1e-9})", R"({"confidence": 0})"},
+           {R"({"confidence": 0.999})", R"({"confidence": 1})"},
+           {R"({"tolerance": [{"probability": 0.9, "confidence": 0.999}]})",
+            R"({"tolerance": [{"probability": 0.9, "confidence": 1}]})"},
+           {R"({"tolerance": [{"probability": 1e-9, "confidence": 0.9}]})",
+            R"({"tolerance": [{"probability": 0, "confidence": 0.9}]})"}})
+    check(StatisticsSpec{}, read_statistics, good, bad);
+}
+
 TEST_CASE("Lists that nobody writes by hand are refused before anything is done",
           "[campaign_settings]") {
   Json json{{"quantiles", Json::array()}, {"tolerance", Json::array()}};

@@ -162,6 +162,24 @@ TEST_CASE("Each fault of a margin is told", "[margin]") {
   CHECK(test::facts_of(margin_problems(change)) == test::facts_of(change.message));
 }
 
+TEST_CASE("the numbers of a margin study are accepted up to their limits, and no further",
+          "[margin]") {
+  const auto check = [](const char* pointer, const char* good, const char* bad) {
+    CAPTURE(pointer, good, bad);
+    CHECK(margin_problems({pointer, good, ""}).empty());
+    CHECK_THAT(margin_problems({pointer, bad, ""}), Catch::StartsWith("/margin/"));
+  };
+  check("/points", "2", "1");
+  check("/points", "1000", "1001");
+  check("/tolerance", "1e-9", "0");
+  check("/tolerance", "0.99", "1");
+  check("/springs_per_hinge", "2", "1");
+  check("/motorization", R"({"points": 2})", R"({"points": 1})");
+  check("/motorization", R"({"points": 1000})", R"({"points": 1001})");
+  check("/motorization", R"({"rates": {"mid": 0}})", R"({"rates": {"mid": -1e-9}})");
+  check("/motorization", R"({"nasa": {"variable": 1e-9}})", R"({"nasa": {"variable": 0}})");
+}
+
 TEST_CASE("What does not go with the sized parameters is refused", "[margin]") {
   Json json = small_margin();
   json["scale"] = {"bodies.*.mass"};

@@ -179,6 +179,25 @@ TEST_CASE("at every object of every file, schema and reader know the same keys")
   }
 }
 
+TEST_CASE("a truth value in place of an object is told once, and nothing of what it lacks") {
+  Subject scene = scenes(), campaign = campaigns();
+  scene.documents = scene_specimens(), campaign.documents = campaign_specimens();
+  for (const Subject& subject : {scene, campaign})
+    for (const Json& document : subject.documents)
+      walk(document, subject.schema,
+           [&](const std::string& pointer, const Json& value, const std::vector<const Json*>&) {
+             if (!value.is_object() || pointer == "/wingspread") return; // a stamp may be anything
+             Json changed = document;
+             changed[Json::json_pointer(pointer)] = true;
+             std::vector<std::string> of_it;
+             for (const Problem& problem : subject.problems_of(changed))
+               if (problem.pointer == pointer || problem.pointer.starts_with(pointer + '/'))
+                 of_it.push_back(to_string(problem));
+             CAPTURE(pointer, of_it);
+             CHECK(of_it.size() == 1);
+           });
+}
+
 TEST_CASE("what a schema requires the reader misses") {
   for (const Subject& subject : {scenes(), campaigns()})
     for (const Json& document : subject.documents)

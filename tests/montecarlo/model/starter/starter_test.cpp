@@ -100,6 +100,23 @@ TEST_CASE("the same design gives the same bytes, and each kind of line is explai
   CHECK(starter.page.find("    wingspread new --wings 2\n") != std::string::npos);
 }
 
+TEST_CASE("a new wing's files have their parts in the order of the manual") {
+  const Starter starter = make_starter(WingDesign{}, "wingspread new");
+  const auto in_order = [](const std::string& text, const std::vector<std::string>& keys) {
+    std::size_t at = 0;
+    for (const std::string& key : keys) {
+      CAPTURE(key);
+      const std::size_t found = text.find("\n  \"" + key + "\"");
+      REQUIRE(found != std::string::npos);
+      CHECK(found >= at);
+      at = found;
+    }
+  };
+  in_order(starter.campaign,
+           {"scene", "dispersions", "cases", "sampling", "integration", "requirements"});
+  in_order(starter.scene, {"name", "base", "bodies", "hinges"});
+}
+
 TEST_CASE("each note of a new wing's page stands once, though its lines are alike") {
   for (const int panels : {1, 2, 4}) {
     WingDesign design;

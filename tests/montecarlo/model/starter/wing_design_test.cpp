@@ -2,6 +2,7 @@
 #include "montecarlo/model/input_checks/placement.hpp"
 #include "montecarlo/model/starter/starter_scene.hpp"
 #include "montecarlo/model/starter/wing_design.hpp"
+#include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -90,5 +91,51 @@ TEST_CASE("an impossible wing is refused by its options, all together") {
     CHECK(places == std::vector<std::string>{"--name", "--wings", "--panels", "--panel-mass",
                                              "--harness", "--damper"});
     CHECK(error.problems()[3].found == "-1");
+  }
+}
+
+TEST_CASE("the name of a design is of letters, digits, \"-\" and \"_\", and may be 60 of them") {
+  for (char c = ' '; c <= '~'; ++c) {
+    const bool fits = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_';
+    CAPTURE(c);
+    CHECK(is_design_name(std::string("w") + c) == fits);
+  }
+  CHECK_FALSE(is_design_name("w\xC3\xA9"));
+  CHECK_FALSE(is_design_name("w\n"));
+  CHECK_FALSE(is_design_name("-w"));
+  CHECK_FALSE(is_design_name(""));
+  CHECK(is_design_name(std::string(60, 'w')));
+  CHECK_FALSE(is_design_name(std::string(61, 'w')));
+}
+
+TEST_CASE("a design's numbers are accepted up to their limits, and no further") {
+  const auto is_accepted = [](auto change) {
+    WingDesign design;
+    change(design);
+    return test::message_of([&] { return check_design(design), 0; }).empty();
+  };
+  const auto with_panels = [&](int panels) {
+    return is_accepted([&](WingDesign& design) { design.panels = panels; });
+  };
+  CHECK((with_panels(1) && with_panels(most_panels)));
+  CHECK_FALSE((with_panels(0) || with_panels(most_panels + 1)));
+  const auto with_wings = [&](int wings) {
+    return is_accepted([&](WingDesign& design) { design.wings = wings; });
+  };
+  CHECK((with_wings(1) && with_wings(2)));
+  CHECK_FALSE((with_wings(0) || with_wings(3)));
+  const auto with_damper = [&](double damper) {
+    return is_accepted([&](WingDesign& design) { design.damper = damper; });
+  };
+  CHECK((with_damper(0) && with_damper(5)));
+  CHECK_FALSE((with_damper(-1e-9) || with_damper(INFINITY)));
+  for (const DesignNumber& number : design_numbers()) {
+    CAPTURE(number.option);
+    const auto with = [&](double value) {
+      return is_accepted([&](WingDesign& design) { design.*number.value = value; });
+    };
+    CHECK(with(1));
+    CHECK(with(0) == number.may_be_zero);
+    CHECK_FALSE((with(-1e-9) || with(INFINITY)));
   }
 }

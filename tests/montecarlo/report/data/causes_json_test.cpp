@@ -1,3 +1,5 @@
+#include "montecarlo/analyses/sensitivity/levers.hpp"
+#include "montecarlo/analyses/sensitivity/rank_sensitivity.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/report/data/causes_json.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
@@ -118,6 +120,32 @@ TEST_CASE("effects come strongest first, and there are none of a single run", "[
   CHECK(effects_json(*made(quick_campaign(1)), {}).is_null());
 }
 
+TEST_CASE("an effect has the coefficients and bounds of the rank analysis, of its own draw",
+          "[page]") {
+  const auto source = made(quick_campaign(100));
+  const Json json = effects_json(*source, {});
+  const RankSensitivity all =
+      rank_sensitivity(source->results, source->confidence, {source->replication, {}});
+  CHECK(json["confidence"] == source->confidence);
+  CHECK(json["idle"] == Json(all.idle));
+  REQUIRE(json["effects"].size() >= 8);
+  for (const Json& effect : json["effects"]) {
+    const auto output =
+        std::ranges::find(all.outputs, effect["output"].get<std::string>(), &OutputRanks::output);
+    const auto draw = std::ranges::find(all.dispersions, effect["draw"].get<std::string>());
+    REQUIRE((output != all.outputs.end() && draw != all.dispersions.end()));
+    const RankEffect& wanted =
+        output->effects[static_cast<std::size_t>(draw - all.dispersions.begin())];
+    for (const auto& [name, of] :
+         {std::pair(std::string("spearman"), wanted.spearman), {"prcc", wanted.partial}}) {
+      CAPTURE(name, effect.dump());
+      CHECK(effect.at(name) == page_number(of.value, 4));
+      CHECK(effect.at(name + "_lower") == page_number(of.bounds.lower));
+      CHECK(effect.at(name + "_upper") == page_number(of.bounds.upper));
+    }
+  }
+}
+
 namespace {
 
 /// Numbers that have so many significant digits, no more, and not all of them fewer.
@@ -161,19 +189,22 @@ TEST_CASE("coefficients have three or four digits on the page, points six and bo
 
 namespace {
 
-/// A set of 1000 invented runs whose deployment time is 13 − 4 × the root spring's factor, limited.
-std::unique_ptr<PageSource> slow_set(double limit) {
-  Json json = quick_campaign(1000);
+/// A set of invented runs whose deployment time is 13 − 4 × the root spring's factor, limited.
+std::unique_ptr<PageSource> slow_set(double limit, int runs = 1000, const char* design = "random") {
+  Json json = quick_campaign(runs);
+  json["sampling"]["design"] = design;
+  if (runs > 10'000) json["statistics"]["accuracy_runs"] = 0;
   json["requirements"] =
       parse_json(R"([ { "output": "deployment_time", "probability": 0.99, "confidence": 0.9 } ])");
   json["requirements"][0]["max"] = limit;
+  if (design != std::string("random")) json.erase("requirements"); // of independent draws alone
   const Campaign campaign = campaign_of(json);
   const ResultNames names = RunPlan(campaign).names();
   const auto column = std::ranges::find(names.outputs, "deployment_time") - names.outputs.begin();
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   Results results(names);
-  for (long run = 0; run < 1000; ++run) {
+  for (long run = 0; run < runs; ++run) {
     std::vector<double> draws{1 + 0.05 * normal(random)};
     for (int panel = 0; panel < 3; ++panel) draws.push_back(9 + 2 * uniform(random));
     std::vector<double> outputs(names.outputs.size(), 1.0);
@@ -228,6 +259,53 @@ TEST_CASE(
   CHECK(unknown["levers"][0]["upper"].is_null());
   CHECK(unknown["levers"][0]["lower"].get<double>() > 1);
   CHECK(unknown["needs"][0]["change"].is_null());
+}
+
+TEST_CASE("effects of independent draws are those of the first 10000 runs, of a design of all",
+          "[page]") {
+  const auto source = slow_set(9, 10'003);
+  const RunsMade made{source->replication, {}};
+  Results first(RunPlan(source->stored.campaign).names());
+  for (std::size_t row = 0; row < most_effect_runs; ++row) first.append(source->results.row(row));
+  const RankSensitivity wanted = rank_sensitivity(first, source->confidence, made);
+  const Json json = effects_json(*source, {});
+  CHECK(json["runs"] == most_effect_runs);
+  const Json& effect = json["effects"].at(0);
+  CHECK(effect["draw"] == "root_spring");
+  const auto output =
+      std::ranges::find(wanted.outputs, effect["output"].get<std::string>(), &OutputRanks::output);
+  REQUIRE(output != wanted.outputs.end());
+  CHECK(effect["prcc_lower"] == page_number(output->effects[0].partial.bounds.lower));
+  const auto net = slow_set(0, 10'003, "sobol"); // in one replicate
+  CHECK(effects_json(*net, {})["runs"] == 10'003);
+}
+
+TEST_CASE("a block of changes has the numbers of the analysis, each under its key",
+          "[page][needed]") {
+  const auto source = slow_set(9.37);
+  const Verdict& verdict = source->summary.requirements.front();
+  const auto found = lever_changes(NeededFor::limit, source->stored.campaign, verdict,
+                                   source->results, source->replication, source->confidence, 24);
+  REQUIRE((found && !found->levers.empty()));
+  const auto& [lever, change] = found->levers.front();
+  const Json block = changes_json(*source, verdict).at(0);
+  CHECK(block["runs"] == found->runs);
+  const Json& json = block["levers"].at(0);
+  CHECK((json["draws"] == Json(lever.draws) && json["unit"] == lever.unit));
+  CHECK(json["scaled"] == lever.moved.scaled);
+  for (const auto& [key, wanted] : {std::pair("now", change.now),
+                                    {"change", change.change},
+                                    {"least", change.least},
+                                    {"most", change.most},
+                                    {"of_broken", change.of_broken},
+                                    {"of_others", change.of_others}}) {
+    CAPTURE(key);
+    CHECK(json.at(key) == page_number(wanted));
+  }
+  CHECK((json["beyond_runs"] == change.beyond_runs && json["known"] == change.known));
+  CHECK(json["beyond_undeployed"] == change.beyond_undeployed);
+  CHECK(json.at("lower") == page_number(change.bounds.lower));
+  CHECK(json.at("upper") == page_number(change.bounds.upper));
 }
 
 TEST_CASE("a requirement that a single run fails has a block too, and one that none fails has none",

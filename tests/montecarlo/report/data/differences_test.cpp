@@ -185,6 +185,20 @@ TEST_CASE(
   check(above, zero, false);
 }
 
+TEST_CASE("where one of two sets has no rows, they are compared as if neither had", "[page]") {
+  const RowlessPair rowless;
+  const auto first = made(quick_campaign(2)), second = made(quick_campaign(2));
+  const Json wanted = comparison_json(*rowless.first, *rowless.second, {0, 1});
+  CHECK_THAT(wanted["text"].get<std::string>(),
+             Catch::Contains("rows were not kept: 2 and 2 runs"));
+  for (const Json& compared : {comparison_json(*rowless.first, *second, {0, 1}),
+                               comparison_json(*first, *rowless.second, {0, 1})}) {
+    CHECK(compared["outputs"] == wanted["outputs"]);
+    CHECK(compared["text"] == wanted["text"]);
+  }
+  CHECK(comparison_json(*first, *second, {0, 1})["outputs"] != wanted["outputs"]);
+}
+
 TEST_CASE("sets are paired run by run only if each has the other's draws", "[page]") {
   const auto set = made(quick_campaign(4));
   const auto changed = [](auto change) {

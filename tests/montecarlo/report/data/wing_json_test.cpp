@@ -77,6 +77,18 @@ TEST_CASE("a panel reaches from hinge to hinge, as thick as these stand off its 
   CHECK(wing_span(scene) == Approx(3.03).epsilon(1e-12));
 }
 
+TEST_CASE("a panel without thickness is drawn 0.8 % of its length thick, on both sides", "[page]") {
+  Scene scene = read_scene_file(three_panel_file());
+  for (Hinge& hinge : scene.hinges) hinge.parent_point.y() = hinge.child_point.y() = 0;
+  scene.hinges[1].parent_point.x() = 0.2; // the outer hinge is nearer to the centre than the inner
+  const BodyOutline outline = body_outline(scene, 0);
+  REQUIRE(outline.points.size() == 4);
+  for (const Eigen::Vector2d& corner : outline.points) {
+    CHECK(corner.x() == Approx(corner.x() < 0 ? -0.505 : 0.2));
+    CHECK(std::abs(corner.y()) == Approx(0.008 * 0.705));
+  }
+}
+
 TEST_CASE("a body whose hinges lie off any line is drawn as lines to them", "[page]") {
   Scene scene = read_scene_file(three_panel_file());
   scene.hinges[1].parent_point = {0.2, 0.9};

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <random>
 
 using namespace wingspread;
@@ -306,5 +308,39 @@ TEST_CASE("without rows: what the rows say, in any order") {
   SECTION("tolerance limits hold those of the rows") { check_tolerance_limits(made); }
   SECTION("the same bytes however runs are shared out, and read back") {
     check_bytes_in_any_order(made);
+  }
+}
+
+// The grid is that of pilot runs with small values: at 1000 its bins are wider than the 40 asked for, and their edges are
+// the nearest to several of these.
+TEST_CASE("a histogram without rows has no bin without width") {
+  constexpr long runs = 101;
+  Json json = quick_campaign(static_cast<int>(runs));
+  json["statistics"] = {{"bins", 40}};
+  const Campaign campaign = campaign_of(json);
+  const ResultNames names = RunPlan(campaign).names();
+  const auto row = [&](long run, double value) {
+    return ResultRow{run,
+                     Status::deployed,
+                     std::vector<double>(names.draws.size(), 1.0),
+                     std::vector<double>(names.outputs.size(), value),
+                     "root>mid>tip",
+                     ""};
+  };
+  Results pilot(names);
+  for (long run = 0; run < runs; ++run) pilot.append(row(run, 1e-5 * static_cast<double>(run)));
+  StreamingStatistics statistics(campaign, names, pilot);
+  for (long run = 0; run < runs; ++run)
+    (void)statistics.add(row(run, 1000 + static_cast<double>(run)), {});
+  const Summary found =
+      streaming_summary({"r", campaign, stamp_of(campaign, {})}, statistics, campaign.statistics);
+  REQUIRE_FALSE(found.outputs.empty());
+  for (const OutputSummary& output : found.outputs) {
+    const auto& [edges, counts] = output.histogram;
+    REQUIRE(edges.size() == counts.size() + 1);
+    CHECK((edges.front() == 1000 && edges.back() == 1100));
+    CHECK((counts.size() > 2 && counts.size() < 40));
+    CHECK(std::ranges::adjacent_find(edges, std::ranges::greater_equal{}) == edges.end());
+    CHECK(std::accumulate(counts.begin(), counts.end(), 0L) == runs);
   }
 }

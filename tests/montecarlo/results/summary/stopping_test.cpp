@@ -151,6 +151,8 @@ TEST_CASE("of two goals both have to be met", "[stopping]") {
     const Json summary = parse_json_file(folder.path() / "r" / summary_file);
     for (const Json& goal : summary["until"]["widths"]) met.push_back(goal["met"]);
     CHECK(summary["until"]["stopped"] == (runs < 2500));
+    CHECK(summary.at("accuracy").at("runs") >
+          0); // of a campaign that stopped early as of a whole one
     return std::pair(runs, met);
   };
   const char *soon = "deployed 0.5", *late = "root.latch_time@0.5 0.38%", *never = "stalled 1e-9";

@@ -291,7 +291,18 @@ TEST_CASE("without a standard error the integration's errors are compared with t
   const auto line = [&] { return unwrapped(summary_table(summary, "t", "out")); };
   CHECK_THAT(line(), Catch::Contains("\nACCURACY  integration errors ≤ 2e-07 % of a value without "
                                      "standard error (it does not vary) in ≥ 74.1 %"));
-  summary.accuracy->outputs[1].largest = 3e-12;
+  summary.accuracy->outputs[0].largest = 0; // all exact
+  CHECK_THAT(line(), Catch::Contains("errors ≤ 0 % of a value without"));
+  std::swap(summary.outputs[0].moments, summary.outputs[1].moments); // and where the value is 0
+  summary.accuracy->outputs.resize(1);
+  CHECK_THAT(line(), Catch::Contains("errors ≤ 0 % of a value without"));
+  summary.outputs[0].moments.mean = -0.25; // of any sign and size
+  summary.accuracy->outputs[0].largest = 5e-10;
+  CHECK_THAT(line(), Catch::Contains("errors ≤ 2e-07 % of a value without"));
+  std::swap(summary.outputs[0].moments, summary.outputs[1].moments);
+  summary.outputs[1].moments.mean = 0;
+  summary.accuracy->outputs = {{"root.latch_time", 10, 8e-9, 4e-9},
+                               {"base.peak_angle", 10, 3e-12, 1e-12}};
   CHECK_THAT(line(), Catch::Contains("3e-12 rad of base.peak_angle, which is 0"));
   summary.one_run = true;
   CHECK_THAT(line(), Catch::Contains(" in all 20 runs\n"));
