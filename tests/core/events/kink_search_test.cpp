@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -152,6 +153,109 @@ TEST_CASE("a step ends where a motor reaches its limit, if its gain matters") {
     const double tau = h * std::min(s, 1 - s);
     CAPTURE(seed, sense, way);
     panel.check(s, sense * 0.2, 0.5 * std::abs(a) * tau * tau * motor.gain);
+  }
+}
+
+TEST_CASE(
+    "a step ends where a stop lets go of a hinge that leaves it fast, if its damping matters") {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Draws draws(seed);
+    const bool far = seed % 2 == 0;
+    Scene scene = lawless_panel();
+    Hinge& hinge = scene.hinges[0];
+    const Stop stop{.stiffness = draws.log_uniform(1, 100), .dissipation = 5, .gap = 0.1};
+    (far ? hinge.far_stop : hinge.stop) = stop;
+    const double outward = far ? way_of(scene) : -way_of(scene); // into the stop
+    const double contact = (far ? hinge.latched : hinge.stowed) + outward * stop.gap;
+    const double h = draws.log_uniform(1e-3, 1), s = draws.uniform(0.1, 0.9);
+    const double there = -outward / stop.dissipation, a = draws.sign() * 0.1 / h;
+    PanelInStep panel(scene, h, contact + outward * 0.5, there - a * s * h, a);
+    const double deepest = outward > 0 ? std::max(panel.step.x[0], panel.step.x1[0]) - contact
+                                       : contact - std::min(panel.step.x[0], panel.step.x1[0]);
+    const double tau = h * std::min(s, 1 - s);
+    CAPTURE(seed, far, a, deepest);
+    panel.check(s, there,
+                0.5 * std::abs(a) * tau * tau * stop.stiffness * stop.dissipation * deepest);
+  }
+}
+
+namespace {
+
+/// The panel with a smoothed latch in a step in which its angle and S change uniformly.
+struct SmoothedStep {
+  static constexpr double epsilon = 0.1;
+
+  SmoothedStep(const Scene& scene, double h, std::array<double, 2> angle, std::array<double, 2> S)
+      : wing(make_wing<double>(scene, outward_order(scene))),
+        system((set_parameters(wing, scene), wing), epsilon, work) {
+    const double rate = (angle[1] - angle[0]) / h, of_latch = (S[1] - S[0]) / h;
+    step.t = 0.25, step.h = h;
+    step.x = {angle[0], rate, S[0]}, step.x1 = {angle[1], rate, S[1]};
+    step.dxdt = step.dxdt1 = {rate, 0, of_latch};
+  }
+
+  /// Checks at which relative tolerance the only kink stops to matter.
+  void check(double s, double at, double limit) {
+    const auto search = [&](double rtol) {
+      return KinkSearch<double, decltype(system)>(system, step, {rtol, 0}).first();
+    };
+    CAPTURE(s, at, limit);
+    const auto found = search(limit * 0.999);
+    REQUIRE(found);
+    CHECK(found->s == Approx(s).margin(1e-9));
+    CHECK(found->kink.at == Approx(at).margin(1e-14));
+    CHECK_FALSE(search(limit * 1.001));
+  }
+
+  Wing<double> wing;
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::fixed> system;
+  Step<double> step;
+};
+
+} // namespace
+
+// Ṡ = h(u) and the latch's share is h(S/ε): h'' jumps by 6 at either end of a step of h, its half by 3/ε² of the argument.
+TEST_CASE(
+    "a step ends at the ends of a smoothed latch's rise, if they matter to the latch's state") {
+  constexpr double epsilon = SmoothedStep::epsilon;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Draws draws(seed);
+    const Scene scene = latching_panel();
+    const double at = scene.hinges[0].latched + (seed % 2 == 0 ? way_of(scene) * epsilon : 0);
+    const double h = draws.log_uniform(1e-3, 1), s = draws.uniform(0.1, 0.9);
+    const double way = draws.sign() * draws.log_uniform(0.1, 0.9) * epsilon; // passes one of both
+    const double S = draws.uniform(0.1, 0.9) * epsilon;
+    SmoothedStep step(scene, h, {at - way * s, at + way * (1 - s)}, {S, S});
+    const double tau = std::min(s, 1 - s), passed = std::abs(way) * tau;
+    step.check(s, at, h * tau * passed * passed * (3 / (epsilon * epsilon)) / 3 / S);
+    SmoothedStep engaged(scene, h, {at - way * s, at + way * (1 - s)}, {epsilon, epsilon});
+    CHECK_FALSE(
+        KinkSearch<double, decltype(engaged.system)>(engaged.system, engaged.step, {0, 0}).first());
+  }
+}
+
+TEST_CASE(
+    "a step ends where a smoothed latch holds by all its might, if that matters to the hinge") {
+  constexpr double epsilon = SmoothedStep::epsilon;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Draws draws(seed);
+    Scene scene = latching_panel();
+    Latch& latch = *scene.hinges[0].latch;
+    const double k = latch.stiffness;
+    if (seed % 2 == 0) latch.dissipation = 0.3, latch.damping = 0;
+    const double h = draws.log_uniform(1e-3, 1), s = draws.uniform(0.1, 0.9);
+    const double way = way_of(scene) * 0.1 * epsilon, v = std::abs(way) / h; // away from the latch
+    const double first = scene.hinges[0].latched + way_of(scene) * 0.5 * epsilon;
+    const double rise = draws.uniform(0.1, 0.5) * epsilon;
+    SmoothedStep step(scene, h, {first, first + way},
+                      {epsilon - rise * s, epsilon + rise * (1 - s)});
+    const double y = 0.6 * epsilon;
+    const double load = k * y + latch.damping * v + (seed % 2 == 0 ? k * 0.3 * y * v : 0);
+    const double tau = std::min(s, 1 - s), passed = rise * tau / epsilon;
+    const double inertia = step.wing.bodies[1].central_inertia;
+    CAPTURE(seed, load);
+    step.check(s, epsilon, h * tau * passed * passed * load / inertia / v);
   }
 }
 
