@@ -290,3 +290,49 @@ TEST_CASE("a strand that goes slack ends a step though one of the loop's hinges 
     if (found) CHECK(found->s == Approx(0.8).epsilon(1e-9));
   }
 }
+
+TEST_CASE("a step ends where a strand goes slack or taut, if that matters to either hinge") {
+  int of_first = 0, of_second = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Draws draws(seed);
+    const double J1 = draws.log_uniform(0.1, 10), J2 = draws.log_uniform(0.1, 10);
+    Scene scene = coaxial_discs(J1, J2);
+    Synchronisation given;
+    given.name = "loop", given.first = 0, given.second = 1;
+    given.ratio = draws.sign() * draws.uniform(0.3, 3), given.stiffness = draws.log_uniform(1, 100);
+    given.damping = draws.chance(0.5) ? draws.log_uniform(1e-2, 1) : 0;
+    given.preload = draws.log_uniform(1, 10);
+    scene.synchronisations = {given};
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    // e = g x1 − x2 passes ±2 M_p/K by a tenth of that, at equal rates
+    const double slack = 2 * *given.preload / given.stiffness, side = draws.sign();
+    const double h = draws.log_uniform(1e-3, 1), s = draws.uniform(0.1, 0.9);
+    const double fast = draws.sign() * 0.1 * slack / h, v1 = draws.uniform(-1, 1) * 0.1 * slack / h;
+    const double v2 = given.ratio * v1 - fast, first = draws.uniform(-1, 1);
+    Step<double> step;
+    step.t = 0.5, step.h = h;
+    step.x = {first, given.ratio * first - (side * slack - fast * s * h), v1, v2};
+    step.x1 = {step.x[0] + v1 * h, step.x[1] + v2 * h, v1, v2};
+    step.dxdt = step.dxdt1 = {v1, v2, 0, 0};
+    const double tau = h * std::min(s, 1 - s);
+    const double impulse = tau * (0.5 * given.damping * std::abs(fast) +
+                                  0.25 * given.stiffness * std::abs(fast) * tau); // of half of K e
+    const double on_first = std::abs(given.ratio) * impulse / J1 / std::abs(v1);
+    const double on_second = impulse * (1 / J1 + 1 / J2) / std::abs(v2);
+    ++(on_first > on_second ? of_first : of_second);
+    const double limit = std::max(on_first, on_second);
+    const auto search = [&](double rtol) {
+      return KinkSearch<double, decltype(system)>(system, step, {rtol, 0}).first();
+    };
+    CAPTURE(seed, given.damping, given.ratio, on_first, on_second);
+    const auto found = search(0.999 * limit);
+    REQUIRE(found);
+    CHECK(found->s == Approx(s).margin(1e-9));
+    CHECK(found->kink.at == Approx(side * 2 * *given.preload).epsilon(1e-14));
+    CHECK_FALSE(search(1.001 * limit));
+  }
+  CHECK(std::min(of_first, of_second) > 10);
+}
