@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 #include <vector>
 
 using namespace wingspread;
@@ -124,6 +125,23 @@ TEST_CASE("the quantile of a point's tails is the point") {
         const double size = std::isinf(scale.lower) ? std::abs(x) + std::get<Normal>(law).std : x;
         CHECK(backward_error(point, smaller, x) * std::abs(x / size) < 64 * epsilon);
       }
+}
+
+// There the inverse is a series of two terms, and beyond it a root finder.
+TEST_CASE("the quantile of a point's tails is the point: points close to an end of a beta law") {
+  std::mt19937_64 random(7);
+  const auto log_uniform = [&](double lower, double upper) {
+    return lower * std::pow(upper / lower, std::ldexp(static_cast<double>(random() >> 11), -53));
+  };
+  for (int k = 0; k < 400; ++k) {
+    const Beta law{log_uniform(0.5, 20), log_uniform(0.5, 20), 0, 1};
+    const Beta turned{law.beta, law.alpha, -1, 0}; // its upper end is the other's lower one
+    const double x = log_uniform(1e-10, 1e-6) / (1 + law.beta);
+    const Tails at = tails(law, x), at_turned = tails(turned, -x);
+    CAPTURE(law.alpha, law.beta, x);
+    CHECK(inverse(law, at) == Approx(x).epsilon(1e-12));
+    CHECK(-inverse(turned, at_turned) == Approx(x).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("outside of the support there is no probability") {

@@ -168,6 +168,12 @@ TEST_CASE("a design that says nothing of replicates is one") {
   }
 }
 
+TEST_CASE("a design of which nothing is said draws at random, for no run") {
+  const Design none;
+  CHECK((none.kind == DesignKind::random && none.seed == 1));
+  CHECK((none.runs == 0 && none.replicates == 1));
+}
+
 TEST_CASE("the order in which dispersions are listed changes no draw of any design") {
   const std::vector<std::string> forth{"a", "b", "c", "d"}, back{"d", "c", "b", "a"};
   CHECK(order_by_name({"b", "a.2", "a", "\xC3\xA9"}) == std::vector<std::size_t>{2, 1, 0, 3});

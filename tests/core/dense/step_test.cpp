@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace wingspread;
 
 namespace {
@@ -55,5 +57,35 @@ TEST_CASE("the rate in a step of a few roundings is between those at its ends") 
     CHECK(x[1] == Approx(rate).epsilon(1e-9));
     CHECK(value(inside, s) == Approx(rate).epsilon(1e-9));
     CHECK(value(derivative(inside, h), s) == Approx(acceleration).epsilon(1e-3));
+  }
+}
+
+// Rounding is a share of the angle: what would be rounding of an angle of 1e4 rad is motion of one of 1e-4 rad.
+TEST_CASE(
+    "a step's dense output does not depend on the unit of its angle, in long and short steps") {
+  for (const double unit : {0x1p-40, 0x1p-14, 1.0, 0x1p14, 0x1p40}) {
+    CAPTURE(unit);
+    const auto in_unit = [&](Step<double> step) {
+      for (State<double>* state : {&step.x, &step.dxdt, &step.x1, &step.dxdt1})
+        for (double& component : *state) component *= unit;
+      return step;
+    };
+    const Layout at{0, 1, false};
+    State<double> x(2);
+    Step<double> bent = polynomial_step();
+    for (State<double>* state : {&bent.x, &bent.dxdt, &bent.x1, &bent.dxdt1}) state->pop_back();
+    const double h = 2e-14, v = 1.75;
+    Step<double> tiny{0.3, h, {1.3, v}, {v, 0}, {std::nextafter(1.3 + h * v, 2.0), v}, {v, 0}};
+    for (const double s : {0.2, 0.5, 0.9}) {
+      CAPTURE(s);
+      const Step<double> step = in_unit(bent);
+      step.interpolate(at, s, x);
+      CHECK(x[0] == Approx(unit * angle(s * step.h)).epsilon(1e-14));
+      CHECK(x[1] == Approx(unit * rate(s * step.h)).epsilon(1e-13));
+      CHECK(value(step.rate(0, 1), s) == Approx(unit * rate(s * step.h)).epsilon(1e-13));
+      in_unit(tiny).interpolate(at, s, x);
+      CHECK(x[1] == Approx(unit * v).epsilon(1e-12));
+      CHECK(value(in_unit(tiny).rate(0, 1), s) == Approx(unit * v).epsilon(1e-12));
+    }
   }
 }

@@ -141,6 +141,35 @@ TEST_CASE("a lane may accept just the steps after which auto does not measure a 
 }
 
 TEST_CASE(
+    "a radius measured where its bound holds steps back decides as early as one measured from "
+    "the start") {
+  for (const int free : {0, 3, 40}) {
+    MethodChoice choice(within(1e-8, 1), false);
+    choice.restart(0, 0, 1e3, true); // bounded by 1e3 1/s
+    double time = 0;
+    long evaluations = 0;
+    const auto leaves_after = [&](double h) {
+      return choice.after_step(h, time += h, evaluations += 12, 1.0);
+    };
+    const double h = choice.held_back().shortest;
+    for (int k = 0; k < free; ++k) REQUIRE_FALSE(leaves_after(0.99 * h));
+    int by_bound = 0, by_radius = 0;
+    for (; !choice.wants_radius(); ++by_bound) {
+      REQUIRE(by_bound < 50);
+      REQUIRE_FALSE(leaves_after(1.01 * h));
+    }
+    CHECK(by_bound == HeldBackSteps<double>::enough);
+    choice.set_radius(1e3, time, evaluations);
+    for (bool leaves = false; !leaves; ++by_radius) {
+      REQUIRE(by_radius < 50);
+      leaves = leaves_after(1.01 * h);
+    }
+    CAPTURE(free);
+    CHECK(by_radius == choice::steps_to_first_radius);
+  }
+}
+
+TEST_CASE(
     "auto leaves the implicit method soon where its steps do not pay, and stays where they do") {
   for (const double pays : {0.2, 5.0}) { // time by an evaluation, against what it would have to be
     MethodChoice choice(within(1e-8, 1), false);

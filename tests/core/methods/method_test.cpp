@@ -1,4 +1,4 @@
-// How every method treats an acceleration that is not finite.
+// How every method treats an acceleration that is not finite, and a step that it has refused.
 #include "core/methods/steppers.hpp"
 #include "tests/support/stepping.hpp"
 
@@ -103,5 +103,34 @@ TEST_CASE("a number that is none, at any evaluation of a step, rejects that step
           const State<long double> got(run.at.x.begin(), run.at.x.end());
           REQUIRE(apart(got, there) < 1e-6L);
         }
+    });
+}
+
+TEST_CASE("the step after a refused one does not grow, and the one after that may") {
+  Steppers<double> methods_there_are;
+  for (std::size_t m = 0; m < method_names.size(); ++m)
+    methods_there_are.with(static_cast<Method>(m), [&](auto& fresh) {
+      using Stepper = std::decay_t<decltype(fresh)>;
+      // series fit their steps; odeint's extrapolation begins anew with a step of another size than it asked for
+      const bool by_other_rules =
+          method_names[m] == "taylor" || method_names[m] == "bulirsch_stoer";
+      if (Stepper::fixed_step || by_other_rules) return;
+      UnderWay<Stepper> run(fresh);
+      const auto attempt = [&](double h) {
+        return run.at.attempt(run.stepper, run.wing.system, h);
+      };
+      CAPTURE(method_names[m], run.h);
+      double h = run.h;
+      int doublings = 0;
+      for (; attempt(h).accepted(); h *= 2) REQUIRE(++doublings < 12);
+      run.stepper.rejected();
+      h = 0.05 * run.h; // far below what the tolerance allows
+      StepVerdict verdict = attempt(h);
+      REQUIRE(verdict.accepted());
+      CHECK(verdict.factor <= 1);
+      run.at.accept(run.stepper, verdict, h);
+      verdict = attempt(h);
+      REQUIRE(verdict.accepted());
+      CHECK(verdict.factor > 1);
     });
 }

@@ -1,8 +1,14 @@
-#include "core/mechanics/wing.hpp"
+#include "core/mechanics/system.hpp"
 #include "core/packs/fields.hpp"
 #include "core/run/lane_protocol.hpp"
+#include "tests/support/random_scenes.hpp"
+#include "tests/support/real_scenes.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
 
 using namespace wingspread;
 
@@ -86,4 +92,32 @@ TEST_CASE("assign_where copies all numbers of a struct, in the lanes of the mask
   REQUIRE(numbers_of(out) == numbers_of(numbered<StepHistory<double>>(1)));
   get_lane(1, to, out);
   REQUIRE(numbers_of(out) == numbers_of(numbered<StepHistory<double>>(4000)));
+}
+
+TEST_CASE("an idle lane computes finite numbers beside a run with any laws") {
+  int dampers = 0, stops = 0, plates = 0, loops = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    oracle::RandomScene options;
+    options.bodies = 3, options.motion = BaseMotion::fixed;
+    const Scene scene = oracle::with_real_hinges(oracle::random_scene(seed, options), seed);
+    Wing<double> run = make_wing<double>(scene, outward_order(scene));
+    set_parameters(run, scene);
+    Wing<P> wing;
+    Workspace<P> work;
+    System<P, Tree, BaseMotion::fixed> system(set_harmless(wing, run), std::nullopt, work);
+    set_lane(0, wing, run);
+    system.reset();
+    State<P> x(system.layout().size(), P(0.0)), dxdt = x;
+    for (const Hinge& hinge : scene.hinges) dampers += hinge.damper.has_value();
+    for (const RealHingeTerms<double>& real : run.real) stops += real.stop.present;
+    plates += !run.plates.empty(), loops += !run.loops.empty();
+    for (const double rate : {0.0, 0.1}) { // of the run; the idle lane is at rest
+      for (int i = 1; i <= system.layout().bodies; ++i) x[system.layout().rate(i)].v[0] = rate;
+      system(x, dxdt, P(0.0));
+      for (const P& component : dxdt) CHECK(std::isfinite(component.v[1]));
+      for (int i = 1; i <= system.layout().bodies; ++i)
+        CHECK(std::isfinite(system.moment(x, i).v[1]));
+    }
+  }
+  CHECK(std::min({dampers, stops, plates, loops}) > 5);
 }

@@ -139,6 +139,30 @@ TEST_CASE("lanes stay full: each takes the next run at once") {
   }
 }
 
+TEST_CASE("what lanes make and what runs make outside them are all the runs' trial steps") {
+  // their friction excludes series: half of them begin with another method, in batches of their own
+  std::vector<Scene> scenes = units(oracle::seed_scene(), 40);
+  for (std::size_t k = 0; k < scenes.size(); k += 2)
+    for (Hinge& hinge : scenes[k].hinges) hinge.friction.coulomb = 0;
+  for (const char* method : {"auto", "dopri5"})
+    for (const InstructionSet set : instruction_sets()) {
+      if (set == InstructionSet::scalar) continue;
+      CAPTURE(method, to_string(set));
+      Integration how = within(1e-6, 20);
+      how.method = method;
+      long made = 0;
+      const Occupancy lanes = run_in_lanes(set, scenes, how, first_latch, [&](long, Outcome&& out) {
+        made += out.work.steps + out.work.rejected;
+      });
+      CHECK(lanes.trial_steps % lanes_of(set) == 0);
+      CHECK(lanes.busy <= lanes.trial_steps); // a lane may be idle in a step, and makes no other
+      CHECK(lanes.returns <= lanes.busy);
+      // a step is made again to end at its event, and counts once
+      CHECK(lanes.busy + lanes.scalar >= made);
+      CHECK(lanes.busy + lanes.scalar <= made + 2 * std::ssize(scenes));
+    }
+}
+
 TEST_CASE("overtravel that is not asked for is not searched, and nothing else changes") {
   Scene swinging = oracle::seed_scene();
   swinging.hinges[1].initial_rate = -0.5; // turns beyond its stowed angle
@@ -204,6 +228,8 @@ TEST_CASE("the time of runs in packs is counted by where it goes") {
   for (const Cause cause :
        {Cause::start, Cause::limit, Cause::event, Cause::release, Cause::moment})
     CHECK(outside(cause) > 0);
+  REQUIRE(count.scalar > 0); // where all hinges rest, the lane has nothing to do
+  CHECK(outside(Cause::method) > 0);
   CHECK(outside(Cause::base) == 0); // it is fixed
   Occupancy twice = count;
   twice += count;

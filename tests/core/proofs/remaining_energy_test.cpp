@@ -11,6 +11,7 @@
 #include <vector>
 
 using namespace wingspread;
+using oracle::LatchedWing;
 
 namespace {
 
@@ -200,4 +201,19 @@ TEST_CASE(
   CAPTURE(windows, bounded);
   CHECK((windows >= 10 && windows <= 30));
   CHECK(bounded > 100);
+}
+
+TEST_CASE("the energy bounds ways by each hinge's stiffness, but not on a driven base, where it "
+          "may grow") {
+  Scene scene = oracle::seed_scene();
+  const LatchedWing<> fixed(scene);
+  REQUIRE(fixed.remaining.least_stiffness());
+  for (int i = 1; i <= 3; ++i) {
+    const double latch = scene.hinges[fixed.wing.hinge_of[i]].latch->stiffness;
+    CHECK(fixed.remaining.least_stiffness()[i - 1] == Approx(latch).epsilon(1e-2)); // and a spring
+  }
+  scene.base.mass = 100, scene.base.inertia = 30, scene.base.motion = BaseMotion::free;
+  CHECK(LatchedWing<BaseMotion::free>(scene).remaining.least_stiffness());
+  scene.base.motion = BaseMotion::prescribed, scene.base.rate = 0.1;
+  CHECK_FALSE(LatchedWing<BaseMotion::prescribed>(scene).remaining.least_stiffness());
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -183,4 +184,43 @@ TEST_CASE(
     beyond += expected > 1e-3 && sense * (rest - angle) > 0;
   }
   CHECK((backwards > 8 && beyond > 8)); // the spring's rest lies on either side
+}
+
+TEST_CASE("energy that an open hinge lacks is proven beside hinges that are latched or held") {
+  Draws draws(37);
+  for (int k = 0; k < 40; ++k) {
+    Scene scene = seed_scene();
+    const int open = k % 3;
+    for (Hinge& hinge : scene.hinges) hinge.friction = {}, hinge.harness = {}, hinge.spring = {};
+    Hinge& resting = scene.hinges[open]; // where its spring takes it, before its latch
+    const double gone = draws.uniform(0, 0.9), stiffness = draws.log_uniform(0.1, 10);
+    const double rest = resting.stowed + gone * (resting.latched - resting.stowed);
+    const double way = resting.latched - rest;
+    pull_towards(resting, rest, stiffness);
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    State<double> x, dxdt;
+    system.start(x);
+    dxdt = x;
+    for (int i = 1; i <= 3; ++i) {
+      const Hinge& here = scene.hinges[wing.hinge_of[i]];
+      double& angle = x[system.layout().angle(i)];
+      x[system.layout().rate(i)] = 0;
+      if (wing.hinge_of[i] == open) {
+        angle = rest;
+      } else if (draws.chance(0.5)) {
+        angle = here.latched;
+        system.engage(i);
+      } else {
+        system.set_contact(i, Contact::held);
+      }
+    }
+    system(x, dxdt, 0);
+    const std::optional<double> missing = energy_missing(system, x, 0.0);
+    CAPTURE(k, open, stiffness, way);
+    REQUIRE(missing);
+    CHECK(*missing == Approx(0.5 * stiffness * way * way).epsilon(1e-9));
+  }
 }

@@ -65,3 +65,53 @@ TEST_CASE("nothing is told to be final of a run on a base that turns faster and 
   const Outcome out = Deployment().run(scene, within(1e-6, 10), {});
   CHECK_FALSE((out.peaks_final || out.moments_final || out.forces_final));
 }
+
+namespace {
+
+/// The seed wing with a light flap on its last panel, whose hinge has no latch.
+Scene seed_with_flap() {
+  Scene scene = seed_scene();
+  Body light = scene.bodies[2];
+  light.name = "flap", light.mass *= 0.01, light.inertia *= 0.01;
+  scene.bodies.push_back(light);
+  Hinge flap = scene.hinges[2];
+  flap.name = "flap", flap.parent = 2, flap.child = 3;
+  flap.latch.reset(), flap.spring = {1e-3, 1e-3};
+  scene.hinges.push_back(flap);
+  return scene;
+}
+
+/// Checks that a run for this goal, which ends some time after the last latch, ends in the state that the motion has
+/// there.
+void check_end_state(const Scene& scene, Goal goal, double t_end) {
+  goal.end_state = goal.final_angle = true;
+  const Outcome out = Deployment().run(scene, within(1e-10, t_end), goal);
+  const Outcome whole = Deployment().run(scene, within(1e-10, out.t_end), {.to_t_end = true});
+  REQUIRE(out.latches.size() == 3);
+  CHECK(out.t_end > out.latches.back().time + 0.1);
+  CHECK(whole.t_end == out.t_end);
+  for (std::size_t k = 0; k < scene.hinges.size(); ++k) {
+    CAPTURE(k);
+    CHECK(out.final.angles[k] == Approx(whole.final.angles[k]).margin(1e-6));
+    CHECK(out.final.rates[k] == Approx(whole.final.rates[k]).margin(1e-6));
+  }
+}
+
+} // namespace
+
+TEST_CASE("a run that goes on after its last latch ends in the same state though nobody asks for "
+          "peaks") {
+  Goal to_t_end = no_output, to_rest = no_output, energy = no_output;
+  to_t_end.to_t_end = to_rest.to_rest = energy.motor_energy = true;
+  check_end_state(seed_scene(), to_t_end, 8);
+  check_end_state(seed_with_flap(), to_t_end, 8);
+  Scene rubbing = seed_scene();
+  for (Hinge& hinge : rubbing.hinges) rub(hinge, 0.05);
+  check_end_state(rubbing, to_rest, 60);
+  Scene held = seed_with_flap();
+  held.hinges[3].release = Release{.time = 7}; // its latches have engaged before
+  check_end_state(held, no_output, 9);
+  Scene driven = seed_with_flap();
+  driven.hinges[3].motor = Motor{.rate = 0.2, .gain = 3, .torque_limit = 1};
+  check_end_state(driven, energy, 8);
+}

@@ -74,6 +74,8 @@ TEST_CASE("the rest of a scene of which nothing is said is at rest in empty spac
   const BaseTable::Piece piece;
   CHECK((is_zero(piece.velocity) && all_zero(piece.from, piece.rate, piece.angle)));
   for (const auto& c : {piece.x, piece.y, piece.turning}) CHECK(all_zero(c[0], c[1], c[2], c[3]));
+  const Curve::Piece part;
+  CHECK(all_zero(part.from, part.integral, part.c[0], part.c[1], part.c[2], part.c[3]));
 }
 
 TEST_CASE("a run of which nothing is said has the settings that its documentation tells") {

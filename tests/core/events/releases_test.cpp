@@ -1,0 +1,83 @@
+// Holds that let go at one instant: those of mirrored wings, and those that wait for one hinge.
+#include "core/deployment.hpp"
+#include "tests/support/closed_forms.hpp"
+#include "tests/support/similar_scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+/// The hinge that carries the body on which hinge h hangs.
+int inner_hinge_of(const Scene& scene, int h) {
+  const auto carries = [&](const Hinge& hinge) { return hinge.child == scene.hinges[h].parent; };
+  return static_cast<int>(std::ranges::find_if(scene.hinges, carries) - scene.hinges.begin());
+}
+
+/// The mirrored wings of symmetric_tree(): each outer hinge is held until the inner one's travel is this share of its
+/// whole.
+Scene mirrored_holds(double share) {
+  Scene scene = symmetric_tree();
+  for (int h = 0; h < std::ssize(scene.hinges); ++h) {
+    if (scene.hinges[h].parent == base_index) continue;
+    const int inner = inner_hinge_of(scene, h);
+    const double travel = std::abs(scene.hinges[inner].latched - scene.hinges[inner].stowed);
+    scene.hinges[h].release =
+        Release{.event = Release::Event::passed, .after = inner, .angle = share * travel};
+  }
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("holds of mirrored wings that see the same angle let go at one instant, in any unit of "
+          "time") {
+  for (int k = 0; k < 24; ++k) {
+    const double share = 0.11 + 0.03 * k;
+    const Scene scene = mirrored_holds(share);
+    for (const double time : {0x1p-14, 1.0, 0x1p14}) {
+      Integration how = within(1e-8, 15 * time);
+      how.atol *= std::max(1 / time, 1e-3);
+      const Outcome out = Deployment().run(in_units(scene, {.time = time}), how, latches_only);
+      CAPTURE(share, time, out.reason);
+      REQUIRE(out.releases.size() == 2);
+      CHECK(out.releases[0].time == out.releases[1].time);
+    }
+  }
+}
+
+TEST_CASE("all holds that wait for one hinge's angle let go as it passes, and no other") {
+  const double acceleration = 2 / panel_inertia; // of the panel, from rest
+  Draws draws(3);
+  for (int k = 0; k < 20; ++k) {
+    Scene scene = latching_panel();
+    scene.hinges[0].latch.reset();
+    // three panels without springs beside the one that moves
+    const double angle = draws.uniform(0.05, 1.4), other = draws.uniform(0.05, 1.4);
+    for (int panel = 1; panel <= 3; ++panel) {
+      scene.bodies.push_back(scene.bodies[0]);
+      Hinge hinge = scene.hinges[0];
+      hinge.child = panel, hinge.spring = {};
+      scene.bodies[panel].name += std::to_string(panel), hinge.name += std::to_string(panel);
+      hinge.release =
+          Release{.event = Release::Event::passed, .after = 0, .angle = panel == 3 ? other : angle};
+      scene.hinges.push_back(hinge);
+    }
+    const Outcome out = Deployment().run(scene, within(1e-10, 2.5), latches_only);
+    REQUIRE(out.releases.size() == 3);
+    for (const HingeEvent& release : out.releases) {
+      const double way = release.hinge == 3 ? other : angle;
+      CAPTURE(k, release.hinge, way);
+      CHECK(release.time == Approx(std::sqrt(2 * way / acceleration)).epsilon(1e-9));
+    }
+    const auto time_of = [&](int hinge) {
+      return std::ranges::find(out.releases, hinge, &HingeEvent::hinge)->time;
+    };
+    CHECK(time_of(1) == time_of(2));
+  }
+}
