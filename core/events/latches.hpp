@@ -142,7 +142,9 @@ public:
     bool any = false;
     for (int i = 1; i <= at_.bodies; ++i) {
       if (!may_let_go(i) || (i != due && !lets_go_at_edge(i, step.x))) continue;
-      system_.disengage(i, step.x);
+      if (gap(step.x, i) > T(0)) // rounding
+        step.x[at_.angle(i)] = system_.wing().hinges[i].latched;
+      system_.disengage(i);
       ++left_;
       events.let_go.push_back(hinge_event(system_.wing(), at_, step.x, step.t, i));
       any = true;

@@ -46,10 +46,10 @@ public:
     update_law(i);
   }
 
-  /// Disengages the latch of hinge i at x.
-  void disengage(int i, const State<T>& x) {
+  /// Disengages the latch of hinge i, which bears on its stowed side.
+  void disengage(int i) {
     work_.engaged[i] = false;
-    work_.above[i][static_cast<int>(Edge::pass)] = x[layout_.angle(i)] > wing_.hinges[i].latched;
+    work_.above[i][static_cast<int>(Edge::pass)] = wing_.hinges[i].sense < T(0);
     update_law(i);
   }
 

@@ -39,10 +39,18 @@ inline constexpr double order_8_below_if_smoothed = 5e-4;
 inline constexpr double series_below = 5e-5;
 
 /// A step counts as held back if it is longer than this share of the stable step, which is the limit
-/// on the real axis. On the imaginary axis the limit is 0.30 of that for dopri5, 0.55 for taylor and
-/// 0.93 for dop853, and ρ is known to a fifth. Smaller: accurate steps count as held back. Larger:
-/// modes that ring hold steps back unnoticed.
-inline constexpr double held_back_share = 0.4;
+/// on the real axis. Where fast modes have died out, the estimate of the error may hold steps at 0.12 to
+/// 0.4 of it: with an elastic hold of 5e4 N·m/rad on a panel of 0.2 kg 294,000 steps in 0.4 s. Steps that
+/// resolve a ringing mode are as long (0.2 at rtol 1e-8). Smaller: more looks at the promise.
+inline constexpr double held_back_share = 0.1;
+/// Beyond this share a step is surely held back. On the imaginary axis the limit is 0.30 of the real one for
+/// dopri5, 0.55 for taylor and 0.93 for dop853, and ρ is known to a fifth. Smaller: accurate steps count as
+/// surely held back. Larger: modes that ring hold steps back unnoticed.
+inline constexpr double surely_held_back_share = 0.4;
+/// A step that is not surely held back is left only if it is a smaller share than this of the time in which
+/// the motion changes. Larger: vain trials on wings that move freely, 0.01. Smaller: the
+/// elastic hold above, 0.002.
+inline constexpr double clearly_promising_share = 0.004;
 /// Steps from a phase's start to the first measurement of ρ, where nothing bounds ρ. Most phases of
 /// ordinary wings are over by then and need none. Larger: stiff latches are noticed later.
 inline constexpr int steps_to_first_radius = 7;
@@ -53,7 +61,7 @@ inline constexpr int steps_between_radii = 128;
 /// accuracy limits long steps of high order, not stability.
 inline constexpr int steps_before_leaving_series = 100;
 
-/// The implicit method is promising if the stable step is a smaller share than this of the time in
+/// For steps that are surely held back the implicit method is promising if the stable step is a smaller share than this of the time in
 /// which the motion changes (`quickness`), beyond which implicit steps cannot reach. An implicit step
 /// takes about 30 evaluations, which cost as much as 30·implicit_cost/12 = 6.5 steps of order 8, so it
 /// breaks even at a share of 0.15; half of that, for `quickness` is known to a factor of two. Larger:
@@ -61,8 +69,8 @@ inline constexpr int steps_before_leaving_series = 100;
 inline constexpr double promising_share = 0.08;
 /// Steps until `auto` checks the promise again, doubled from check to check between these limits.
 inline constexpr int first_recheck = 10, longest_recheck = 80;
-/// Held-back steps in a row after which the implicit method is tried without a promise, for `quickness`
-/// may be wrong: of a wing that creeps it is. 200 steps of order 8 are 2,400 evaluations, a vain trial
+/// Held-back steps in a row after which a surely held-back one lets the implicit method be tried without a
+/// promise, for `quickness` may be wrong: of a wing that creeps it is. 200 steps of order 8 are 2,400 evaluations, a vain trial
 /// costs about a third of that, and waits double. With 1,600 steps in place of 200 a wing that seulex alone integrates
 /// in 1,300 evaluations took 29,000.
 inline constexpr int steps_to_try_anyway = 200;
@@ -231,8 +239,12 @@ private:
     if (!held_back_.may_leave(h, now.steps)) return false;
     wants_first_ = !measured_;
     if (wants_first_) return false;
-    const bool promising = stable_step_ * quickness < choice::promising_share;
-    if (!promising && now.steps < held_back_.last_free.steps + choice::steps_to_try_anyway) {
+    const bool surely = h > choice::surely_held_back_share * stable_step_;
+    const bool promising = surely ? stable_step_ * quickness < choice::promising_share
+                                  : h * quickness < choice::clearly_promising_share;
+    const bool anyway =
+        surely && now.steps >= held_back_.last_free.steps + choice::steps_to_try_anyway;
+    if (!promising && !anyway) {
       held_back_.wait_until = now.steps + wait_after_check_;
       wait_after_check_ = std::min(2 * wait_after_check_, choice::longest_recheck);
       return false;

@@ -219,6 +219,12 @@ public:
   [[nodiscard]] std::optional<T> kink_inside() const {
     if (run_.system.wing().real.empty() || needs_smooth_laws(method()) || !has_memory())
       return std::nullopt;
+    // a trial step in which the wing flies apart says nothing of kinks
+    constexpr double believable = 1; // rad; heuristic: steps of a run are shorter
+    using std::abs;
+    for (int i = 1; i <= run_.at.bodies; ++i)
+      if (!(abs(run_.step.x1[run_.at.angle(i)] - run_.step.x[run_.at.angle(i)]) < T(believable)))
+        return std::nullopt;
     const KinkLimit limit{tolerance().rtol, tolerance().atol};
     return KinkSearch<T, AnySystem>(run_.system, run_.step, limit).first_of_hinges();
   }

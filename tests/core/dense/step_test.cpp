@@ -60,6 +60,25 @@ TEST_CASE("the rate in a step of a few roundings is between those at its ends") 
   }
 }
 
+TEST_CASE(
+    "a hinge that starts at an angle leaves it by its rates, not by the rounding of the angle") {
+  for (const double angle : {1.5708, -40.})
+    for (const double h : {1e-15, 1e-8, 1e-4})
+      for (const double rate : {4e-23, 1e-12, 2.}) {
+        const double a = 1.1, end = rate + h * a, way = h * (rate + 0.5 * h * a);
+        for (const double rounding : {angle + way, std::nextafter(angle + way, 100.)}) {
+          const Step<double> step{0, h, {angle, rate}, {rate, a}, {rounding, end}, {end, a}};
+          const Quintic<double> distance = step.distance(0, 1, angle);
+          CAPTURE(angle, h, rate);
+          CHECK(distance[0] == 0);
+          for (int k = 1; k < 6; ++k) CHECK(distance[k] > distance[k - 1]);
+          CHECK(distance[1] == Approx(0.2 * h * rate).epsilon(1e-12));
+          CHECK(distance[5] == Approx(way).epsilon(1e-3).margin(64e-16 * std::abs(angle)));
+          CHECK(step.rate(0, 1)[0] == Approx(rate).epsilon(1e-12).margin(0));
+        }
+      }
+}
+
 // Rounding is a share of the angle: what would be rounding of an angle of 1e4 rad is motion of one of 1e-4 rad.
 TEST_CASE(
     "a step's dense output does not depend on the unit of its angle, in long and short steps") {

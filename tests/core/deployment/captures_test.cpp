@@ -157,6 +157,23 @@ TEST_CASE(
   CHECK(relative(whole.peak_moment[0].value, out.peak_moment[0].value) < 1e-9);
 }
 
+TEST_CASE("a latch whose damper pulls it open where it begins to bear lets go once") {
+  for (const double rtol : {1e-4, 1e-6, 1e-8})
+    for (const double damping : {40., 60., 80., 100., 120., 150.}) // back at 0.7 … 0.2 rad/s
+      for (const char* method : {"dop853", "dopri5", "bulirsch_stoer", "rosenbrock_w", "seulex"}) {
+        Scene scene = thrown_at_latch(holding(1e3, 10, damping));
+        scene.hinges[0].far_stop = Stop{1e4, 0, 0};
+        for (const Scene& way : {scene, other_sense(scene)}) {
+          CAPTURE(rtol, damping, method);
+          Integration how = within(rtol, 4);
+          how.method = method;
+          const Outcome out = Deployment().run(way, how, every_peak);
+          CHECK(out.latches.size() == 1);
+          CHECK(out.let_go.size() == 1);
+        }
+      }
+}
+
 TEST_CASE("without peaks a run ends only when it is proven that its latches hold") {
   Scene scene = latching_panel();
   scene.hinges[0].latch = holding(1e4, 120, 10);

@@ -1,6 +1,7 @@
 // Exact (set-valued) Coulomb friction: hinges that slide, come to rest and stick,
 // against closed forms and the energy that friction takes.
 #include "core/deployment.hpp"
+#include "core/events/contact.hpp"
 #include "tests/core/events/rubbed_wings.hpp"
 #include "tests/support/whole_runs.hpp"
 
@@ -197,4 +198,17 @@ TEST_CASE("what energy a wing loses is what its friction takes") {
         },
         &samples);
   }
+}
+
+TEST_CASE("a hinge that sets out at a tiny rate does not come to rest at once") {
+  const Layout at{0, 1, false};
+  for (const double angle : {1.5708, -300.})
+    for (const double rate : {0., 1e-18, 1e-14})
+      for (const double h : {1e-7, 2e-4, 1e-2}) {
+        const double a = 13.9, a1 = 9.3, end = rate + 0.49 * h * (a + a1); // its acceleration bends
+        const double way = h * rate + h * h * (a / 3 + a1 / 6);
+        const Step<double> step{3.55, h, {angle, rate}, {rate, a}, {angle + way, end}, {end, a1}};
+        CAPTURE(angle, rate, h);
+        CHECK(all_negative(way_to_rest(at, step, 1, -1.0)));
+      }
 }

@@ -198,6 +198,37 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("auto leaves steps that are not surely held back on a clear promise only") {
+  const double stable = DormandPrince853<double>::stable_real / 1e3;
+  struct Case {
+    double share, quickness; ///< of a step in the stable one; 1/s
+    int first, last;         ///< step after which auto leaves
+  };
+  constexpr int never = 3000;
+  const auto near = [&](double share, double of_promise) {
+    return of_promise * choice::clearly_promising_share / (share * stable);
+  };
+  const double sure = choice::promising_share / stable;
+  for (const Case& c :
+       {Case{0.11, near(0.11, 0.9), 5, 50}, Case{0.11, near(0.11, 1.1), never, never},
+        Case{0.39, near(0.39, 0.9), 5, 50}, Case{0.39, near(0.39, 1.1), never, never},
+        Case{0.09, 0, never, never}, Case{0.41, 0.9 * sure, 5, 50},
+        Case{0.41, 1.1 * sure, choice::steps_to_try_anyway, choice::steps_to_try_anyway + 90}}) {
+    MethodChoice choice(within(1e-8, 1), false);
+    choice.restart(0, 0, std::numeric_limits<double>::infinity(), true);
+    choice.set_radius(1e3, 0, 0);
+    double time = 0;
+    long evaluations = 0;
+    int steps = 0;
+    for (bool leaves = false; !leaves && steps < never; ++steps)
+      leaves = choice.after_step(c.share * stable, time += c.share * stable, evaluations += 12,
+                                 c.quickness);
+    CAPTURE(c.share, c.quickness, steps);
+    CHECK(steps >= c.first);
+    CHECK(steps <= c.last);
+  }
+}
+
 TEST_CASE("auto keeps its first method if nothing is stiff") {
   Scene scene = harmonic_panel();
   CHECK(methods_used(run(scene, 1e-8)) == "taylor");
