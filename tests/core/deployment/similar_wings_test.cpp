@@ -38,7 +38,8 @@ TEST_CASE("a wing in other units of mass and length deploys alike, bit for bit")
     const bool other_length = scene.base.motion != BaseMotion::free && !scene.base.table;
     const Outcome out = Deployment().run(scene, how, {});
     for (const double mass : {0x1p-20, 0x1p40}) {
-      const Units units{mass, other_length ? 0x1p3 : 1.0};
+      // shorter: a trial step in which the wing flies apart may overflow, and is then refused otherwise
+      const Units units{mass, other_length ? 0x1p-3 : 1.0};
       CAPTURE(seed, mass, out.reason);
       CHECK(oracle::bits_of(Deployment().run(oracle::in_units(scene, units), how, {})) ==
             oracle::bits_of(converted(out, units)));

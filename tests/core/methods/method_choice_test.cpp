@@ -281,6 +281,22 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("auto goes on implicitly where an elastic hold is stiff on a light panel") {
+  Scene scene = seed_scene();
+  scene.bodies.pop_back(), scene.hinges.pop_back();
+  for (Body& body : scene.bodies) body.mass = 0.2, body.inertia = 7e-4;
+  for (Hinge& hinge : scene.hinges) hinge.spring.scale = 1e-4;
+  scene.hinges[1].release = Release{.time = 5};
+  scene.hinges[1].hold = Hold{5e4, 60};
+  Integration how = within(1e-8, 1);
+  const Outcome out = Deployment().run(scene, how, {});
+  how.method = "dop853";
+  const Outcome plain = Deployment().run(scene, how, {});
+  CAPTURE(methods_used(out), out.work.rhs_evaluations, plain.work.rhs_evaluations);
+  CHECK(4 * out.work.rhs_evaluations < plain.work.rhs_evaluations);
+  CHECK(time_by("seulex", out) > 0.6 * out.t_end);
+}
+
 TEST_CASE("auto goes on with the implicit method after events") {
   // stiff dampers on light panels that stick and slide: each event once began the explicit method anew
   Scene scene = seed_scene();
