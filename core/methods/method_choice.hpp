@@ -69,6 +69,8 @@ inline constexpr int steps_before_leaving_series = 100;
 inline constexpr double promising_share = 0.08;
 /// Steps until `auto` checks the promise again, doubled from check to check between these limits.
 inline constexpr int first_recheck = 10, longest_recheck = 80;
+/// Times as many after a step that was not surely held back: in lanes each look stops all of them.
+inline constexpr int longer_recheck = 4;
 /// Held-back steps in a row after which a surely held-back one lets the implicit method be tried without a
 /// promise, for `quickness` may be wrong: of a wing that creeps it is. 200 steps of order 8 are 2,400 evaluations, a vain trial
 /// costs about a third of that, and waits double. With 1,600 steps in place of 200 a wing that seulex alone integrates
@@ -245,7 +247,7 @@ private:
     const bool anyway =
         surely && now.steps >= held_back_.last_free.steps + choice::steps_to_try_anyway;
     if (!promising && !anyway) {
-      held_back_.wait_until = now.steps + wait_after_check_;
+      held_back_.wait_until = now.steps + (surely ? 1 : choice::longer_recheck) * wait_after_check_;
       wait_after_check_ = std::min(2 * wait_after_check_, choice::longest_recheck);
       return false;
     }
