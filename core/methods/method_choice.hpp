@@ -38,18 +38,18 @@ inline constexpr double order_8_below_if_smoothed = 5e-4;
 /// 1e-3 in 236 µs and 1e-9 in 259, dop853 in 255 and 456 (ACCURACY.md).
 inline constexpr double series_below = 5e-5;
 
-/// A step counts as held back if it is longer than this share of the stable step, which is the limit
-/// on the real axis. Where fast modes have died out, the estimate of the error may hold steps at 0.12 to
-/// 0.4 of it: with an elastic hold of 5e4 N·m/rad on a panel of 0.2 kg 294,000 steps in 0.4 s. Steps that
-/// resolve a ringing mode are as long (0.2 at rtol 1e-8). Smaller: more looks at the promise.
+/// A step counts as held back if it is longer than this share of the stable step, which is the limit on the real
+/// axis. Where fast modes have died out, the estimate of the error may hold steps at 0.12 to 0.4 of it: with a stiff
+/// elastic hold on a light panel, for a whole run (method_choice_test.cpp). Steps that resolve a ringing mode are as
+/// long, 0.2 at rtol 1e-8. Smaller: more looks at the promise. Larger: such steps are never left.
 inline constexpr double held_back_share = 0.1;
-/// Beyond this share a step is surely held back. On the imaginary axis the limit is 0.30 of the real one for
-/// dopri5, 0.55 for taylor and 0.93 for dop853, and ρ is known to a fifth. Smaller: accurate steps count as
-/// surely held back. Larger: modes that ring hold steps back unnoticed.
+/// Beyond this share a step is surely held back. On the imaginary axis the limit is 0.30 of the real one for dopri5,
+/// 0.55 for taylor and 0.93 for dop853, and ρ is known to a fifth. Smaller: accurate steps count as surely held back.
+/// Larger: modes that ring hold steps back unnoticed.
 inline constexpr double surely_held_back_share = 0.4;
-/// A step that is not surely held back is left only if it is a smaller share than this of the time in which
-/// the motion changes. Larger: vain trials on wings that move freely, 0.01. Smaller: the
-/// elastic hold above, 0.002.
+/// A step that is not surely held back is left if it is a smaller share than this of the time in which the motion
+/// changes. Larger: vain trials on wings that move freely, which stand at 0.01. Smaller: steps behind an elastic hold,
+/// at 0.002, stay short.
 inline constexpr double clearly_promising_share = 0.004;
 /// Steps from a phase's start to the first measurement of ρ, where nothing bounds ρ. Most phases of
 /// ordinary wings are over by then and need none. Larger: stiff latches are noticed later.
@@ -61,19 +61,19 @@ inline constexpr int steps_between_radii = 128;
 /// accuracy limits long steps of high order, not stability.
 inline constexpr int steps_before_leaving_series = 100;
 
-/// For steps that are surely held back the implicit method is promising if the stable step is a smaller share than this of the time in
-/// which the motion changes (`quickness`), beyond which implicit steps cannot reach. An implicit step
-/// takes about 30 evaluations, which cost as much as 30·implicit_cost/12 = 6.5 steps of order 8, so it
-/// breaks even at a share of 0.15; half of that, for `quickness` is known to a factor of two. Larger:
-/// more vain trials. Smaller: wings at the border stay with many short explicit steps.
+/// Where steps are surely held back, the implicit method is promising if the stable step is a smaller share
+/// than this of the time in which the motion changes (`quickness`). Implicit steps cannot reach beyond that
+/// time. An implicit step takes about 30 evaluations, which cost as much as 30·implicit_cost/12 = 6.5 steps
+/// of order 8, so it breaks even at a share of 0.15; half of that, for `quickness` is known to a factor of
+/// two. Larger: more vain trials. Smaller: wings at the border stay with many short explicit steps.
 inline constexpr double promising_share = 0.08;
 /// Steps until `auto` checks the promise again, doubled from check to check between these limits.
 inline constexpr int first_recheck = 10, longest_recheck = 80;
 /// Times as many after a step that was not surely held back: in lanes each look stops all of them.
 inline constexpr int longer_recheck = 4;
-/// Held-back steps in a row after which a surely held-back one lets the implicit method be tried without a
-/// promise, for `quickness` may be wrong: of a wing that creeps it is. 200 steps of order 8 are 2,400 evaluations, a vain trial
-/// costs about a third of that, and waits double. With 1,600 steps in place of 200 a wing that seulex alone integrates
+/// Held-back steps in a row after which a surely held-back one is left without a promise, for `quickness` may be
+/// wrong: of a wing that creeps it is. 200 steps of order 8 are 2,400 evaluations, a vain trial costs about a
+/// third of that, and waits double. With 1,600 steps in place of 200 a wing that seulex alone integrates
 /// in 1,300 evaluations took 29,000.
 inline constexpr int steps_to_try_anyway = 200;
 
