@@ -9,8 +9,9 @@ by dopri5 at a tenth of the tolerance, and by seulex; and as a campaign of 12 dr
 
 It reports a run that fails (of auto and of the campaign), an event recorded twice within 1e-9 s, a latch that lets go
 unengaged, events that another method lacks or has at another time, and peaks that differ by more than 3e-4. Wings whose
-events have moved apart by more than 1e-6 s are chaotic: what follows is not compared. dopri5 may give up, for many of these wings
-are stiff. Rattling wings (backlash) move peaks: look at those with `simulate --check`. Exits 1 if it reports anything.
+events have moved apart by more than 1e-6 s are chaotic: what follows is not compared. A run of more than 60 s is left out
+("–" in place of its evaluations), and dopri5 may give up, for many of these wings are stiff. Rattling wings (backlash) move
+peaks: look at those with `simulate --check`. Exits 1 if it reports anything.
 """
 
 import argparse
