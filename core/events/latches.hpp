@@ -142,8 +142,8 @@ public:
     bool any = false;
     for (int i = 1; i <= at_.bodies; ++i) {
       if (!may_let_go(i) || (i != due && !lets_go_at_edge(i, step.x))) continue;
-      if (gap(step.x, i) > T(0)) // rounding
-        step.x[at_.angle(i)] = system_.wing().hinges[i].latched;
+      // the step to the event may have ended on the other side, within its tolerance
+      if (gap(step.x, i) > T(0)) step.x[at_.angle(i)] = system_.wing().hinges[i].latched;
       system_.disengage(i);
       ++left_;
       events.let_go.push_back(hinge_event(system_.wing(), at_, step.x, step.t, i));

@@ -219,8 +219,9 @@ public:
   [[nodiscard]] std::optional<T> kink_inside() const {
     if (run_.system.wing().real.empty() || needs_smooth_laws(method()) || !has_memory())
       return std::nullopt;
-    // a trial step in which the wing flies apart says nothing of kinks
-    constexpr double believable = 1; // rad; heuristic: steps of a run are shorter
+    // A trial step in which the wing flies apart says nothing of kinks: it may even overflow. Heuristic: with a larger
+    // limit such steps are cut to kinks that are not there.
+    constexpr double believable = 1; // rad
     using std::abs;
     for (int i = 1; i <= run_.at.bodies; ++i)
       if (!(abs(run_.step.x1[run_.at.angle(i)] - run_.step.x[run_.at.angle(i)]) < T(believable)))

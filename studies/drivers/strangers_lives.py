@@ -152,9 +152,11 @@ def look_at_campaign(given, folder, scene):
     for name, options in (("lanes", []), ("alone", ["--lanes", "1"])):
         command = [given.program, "run", folder / "campaign.json", "--out", folder / name, "--threads", "1", *options]
         try:
-            subprocess.run(command, capture_output=True, check=False, timeout=2 * PATIENCE)
+            done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=2 * PATIENCE)
         except subprocess.TimeoutExpired:
             continue
+        if done.returncode not in (0, 1, 3):
+            sys.exit(f"{folder / 'campaign.json'}: exit code {done.returncode}\n{done.stderr}")
         rows.append((folder / name / "runs.csv").read_bytes())
         failed = json.loads((folder / name / "summary.json").read_text())["status"]["failed"]["count"]
         found += [f"{failed} runs fail ({name})"] if failed else []

@@ -13,11 +13,11 @@ namespace wingspread {
 struct CheckedOutput {
   std::string name; ///< as in runs.csv
   double value = 0, reference = 0;
-  /// Decimal digits that agree. 16 if both are below what the tolerances resolve: atol for angles and rates, and rtol
-  /// times the run's largest output of the same unit.
+  /// Decimal digits that agree. 16 if both magnitudes are below what the tolerances resolve: atol for angles and rates,
+  /// and rtol times the run's largest output of the same unit.
   int digits = 0;
-  bool moved =
-      false; ///< by more than 1 % and more than that, or it happened in only one of the two
+  /// Whether it differs by more than 1 % and by more than the tolerances resolve, or happened in only one of the two.
+  bool moved = false;
 };
 
 struct RunCheck {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double implausible_rate =
     1; // rad/s; heuristic: deployment motors turn some degrees a second
-// Of the fastest command. Heuristic: far below what matters, and each step is then short or implicit.
+// Share of the fastest command. Heuristic: no drive keeps its rate so well, and such stiffness costs steps.
 constexpr double needless_precision = 1e-9;
 constexpr double much_deflection = 0.0175; // rad, 1°; heuristic: latches hold panels to far less
 
