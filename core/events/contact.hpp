@@ -55,7 +55,8 @@ template <class T, class AnySystem>
   for (int i = 1; i <= system.layout().bodies; ++i) {
     if (!system.sticks(i)) continue;
     const T friction = system.locking_moment(x, i);
-    const T most = fused(slack, system.static_limit(x, i), release_margin(system, i));
+    const T limit = system.static_limit(x, i);
+    const T most = fused(slack, limit, release_margin(system, x, i, limit));
     if (i == let_go || abs(friction) > most) moves.emplace_back(i, sliding(T(-friction)));
   }
   return moves;

@@ -16,13 +16,32 @@ namespace wingspread {
 /// mirrored wings differ by rounding, far below; a larger value releases hinges that hold.
 inline constexpr double release_tolerance = 1e-9;
 
+/// The part of release_margin that is due to loops, N·m. The load of a loop is the small difference of two large
+/// numbers. Heuristics: at most 1e-5 of the limit, for a loop does not hold a hinge whose partner is free; at least 1e-13
+/// of the loops' stiffness, some hundred times the rounding of an angle of a turn.
+template <class AnySystem, class T>
+[[nodiscard, gnu::noinline]] T loops_release_margin(const AnySystem& system, const State<T>& x,
+                                                    int i, const T& limit) {
+  T tied(0); // stiffness and damping of all loops at the hinge
+  for (const LoopTerms<T>& loop : system.wing().loops) {
+    if (!joins(loop, i)) continue;
+    const T on = on_hinge(loop, i, system.state_of(loop, x).gear);
+    tied = fused(on * on, T(loop.stiffness + loop.damping), tied);
+  }
+  return larger(smaller(T(system.work().least_motion * tied), T(T(1e-5) * limit)),
+                T(T(1e-13) * tied));
+}
+
 /// The excess of friction over its limit from which stuck hinge i is released, N·m. Up to this excess, a released hinge
 /// would creep by less than atol, or more slowly than atol. Without this margin rounding would decide, at every step,
-/// about a latched hinge that creeps to the angle at which its load equals the limit (τ_s = τ_c).
-template <class AnySystem> [[nodiscard]] auto release_margin(const AnySystem& system, int i) {
-  const auto& law = system.work().laws[i];
-  return decltype(law.stiffness +
-                  law.damping)(system.work().least_motion * (law.stiffness + law.damping));
+/// about a hinge that creeps to the angle at which its load equals the limit (τ_s = τ_c): held by its latch, or by a loop
+/// whose other hinge sticks.
+/// @param limit static limit of the hinge's friction, N·m
+template <class AnySystem, class T>
+[[nodiscard]] T release_margin(const AnySystem& system, const State<T>& x, int i, const T& limit) {
+  const LinearLaw<T>& law = system.work().laws[i];
+  const T own = system.work().least_motion * (law.stiffness + law.damping);
+  return system.wing().loops.empty() ? own : T(own + loops_release_margin(system, x, i, limit));
 }
 
 /// A release of a stuck hinge inside the step, or a graze: friction that rises so near to its limit, before it falls
@@ -96,9 +115,9 @@ public:
   template <class AnySystem>
   [[nodiscard]] static T excess(const AnySystem& system, const State<T>& x, int i) {
     using std::abs;
-    return (abs(system.locking_moment(x, i)) -
-            T(1 + 2 * release_tolerance) * system.static_limit(x, i)) -
-           release_margin(system, i);
+    const T limit = system.static_limit(x, i);
+    return (abs(system.locking_moment(x, i)) - T(1 + 2 * release_tolerance) * limit) -
+           release_margin(system, x, i, limit);
   }
 
 private:

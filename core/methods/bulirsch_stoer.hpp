@@ -40,6 +40,8 @@ public:
 
   void accepted(const StepVerdict& /*verdict*/, double /*h*/) {}
   void rejected() {}
+  /// odeint's stepper, whose choice of order and step each trial step changes.
+  [[nodiscard]] auto& control() { return stepper_; }
 
 private:
   [[nodiscard]] static bool all_finite(const State<T>& x) {

@@ -9,6 +9,7 @@
 ///                                   how long the step may be makes h shorter.
 ///     accepted(verdict, h)          the last trial step is accepted, possibly with another verdict
 ///     rejected()                    the last trial step is rejected
+///     control()                     optional: what trial steps change that decides about order and size of later ones
 ///
 /// An embedded formula offers only order, error_order and `estimate`, and `Adaptive` adds the rest. Events,
 /// peaks and ends of runs are common to all methods (core/run).

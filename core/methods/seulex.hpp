@@ -28,10 +28,11 @@ public:
 
   void restart(const Tolerance& tolerance) {
     tolerance_ = tolerance;
-    after_rejection_ = false;
-    crawled_ = 0, crawl_to_leap_ = shortest_crawl, leaps_ = false;
+    control_.after_rejection = false;
+    control_.crawled = 0, control_.crawl_to_leap = shortest_crawl, control_.leaps = false;
     // about the first guess of SEULEX [Hairer & Wanner II, IV.9], −0.6·log10(rtol) + 1.5 columns
-    target_ = std::clamp(static_cast<int>(2 - 0.6 * std::log10(tolerance.rtol)), 3, most - 2);
+    control_.target =
+        std::clamp(static_cast<int>(2 - 0.6 * std::log10(tolerance.rtol)), 3, most - 2);
   }
 
   template <class System>
@@ -42,16 +43,16 @@ public:
     at_.resize(from.x.size());
     StepVerdict verdict{2, 0.5};
     int j = 0;
-    for (; j < std::min(target_ + 2, most); ++j) {
+    for (; j < std::min(control_.target + 2, most); ++j) {
       substeps(system, from, h, j, dxdt1);
       extrapolate(j);
       if (j == 0) continue;
       verdict.error = column_error(from.x, j);
       if (!std::isfinite(verdict.error)) return {verdict.error, 0.1};
-      if (j + 1 >= target_ && verdict.error <= 1) break;
-      if (j + 1 >= target_ && hopeless(verdict.error, j)) break;
+      if (j + 1 >= control_.target && verdict.error <= 1) break;
+      if (j + 1 >= control_.target && hopeless(verdict.error, j)) break;
     }
-    j = std::min(j, std::min(target_ + 2, most) - 1);
+    j = std::min(j, std::min(control_.target + 2, most) - 1);
     for (std::size_t c = 0; c < x1.size(); ++c) x1[c] = from.x[c] + table_[0][c];
     evaluate_end(system, x1, dxdt1, T(from.t + h));
     if (!is_finite(StateAlgebra::norm_inf(x1)) || !is_finite(StateAlgebra::norm_inf(dxdt1)))
@@ -61,13 +62,15 @@ public:
   }
 
   void accepted(const StepVerdict& /*verdict*/, double /*h*/) {
-    target_ = next_target_;
-    after_rejection_ = false;
+    control_.target = control_.next_target;
+    control_.after_rejection = false;
   }
   void rejected() {
-    target_ = next_target_;
-    after_rejection_ = true;
+    control_.target = control_.next_target;
+    control_.after_rejection = true;
   }
+  /// What the trial steps so far mean for order and step of the next.
+  [[nodiscard]] auto& control() { return control_; }
 
 private:
   // The error of extrapolation has a hump where a step lasts 1 to 10 time constants of a fast mode that has died out.
@@ -78,6 +81,15 @@ private:
   // ends on the hump.
   static constexpr int shortest_crawl = 32, longest_crawl = 1024, target_of_leap = 7;
   static constexpr double leap = 30;
+
+  struct Control {
+    int target = 5, next_target = 5; ///< rows
+    bool after_rejection = false;
+    int crawled = 0;                    ///< steps of the lowest order in a row
+    int crawl_to_leap = shortest_crawl; ///< after how many a leap is tried
+    bool leaps = false;                 ///< the next trial step does
+  };
+
   static constexpr int most = 12;                                       ///< rows
   [[nodiscard]] static constexpr int count(int row) { return row + 2; } ///< n of a row
 
@@ -129,7 +141,7 @@ private:
   /// Whether the rows still allowed cannot bring the error down to the tolerance [Hairer & Wanner II, IV.9].
   [[nodiscard]] bool hopeless(double error, int j) const {
     double gain = 1;
-    for (int row = j + 1; row < std::min(target_ + 2, most); ++row)
+    for (int row = j + 1; row < std::min(control_.target + 2, most); ++row)
       gain *= static_cast<double>(count(row)) / count(0);
     return error > gain * gain;
   }
@@ -145,33 +157,33 @@ private:
   /// Chooses order and step of the next trial step by the work per unit of time. A higher order must save 5 %
   /// (heuristic: otherwise orders change to and fro).
   void choose(int j, StepVerdict& verdict) {
-    if (std::exchange(leaps_, false)) {
+    if (std::exchange(control_.leaps, false)) {
       if (!verdict.accepted()) {
-        crawl_to_leap_ = std::min(2 * crawl_to_leap_, longest_crawl);
-        next_target_ = 3, verdict.factor = 1 / leap;
+        control_.crawl_to_leap = std::min(2 * control_.crawl_to_leap, longest_crawl);
+        control_.next_target = 3, verdict.factor = 1 / leap;
         return;
       }
-      crawl_to_leap_ = shortest_crawl;
+      control_.crawl_to_leap = shortest_crawl;
     }
     int best = 1;
     for (int row = 2; row <= j; ++row)
       if (work(row) / factor_of(row) < 0.95 * work(best) / factor_of(best)) best = row;
     verdict.factor = factor_of(best);
-    next_target_ = best + 1;
-    if (verdict.accepted() && best == j && j + 1 < most - 1 && !after_rejection_) {
-      next_target_ = j + 2; // one row more may pay
+    control_.next_target = best + 1;
+    if (verdict.accepted() && best == j && j + 1 < most - 1 && !control_.after_rejection) {
+      control_.next_target = j + 2; // one row more may pay
       verdict.factor *= work(j + 1) / work(j);
     }
-    next_target_ = std::clamp(next_target_, 3, most - 1);
+    control_.next_target = std::clamp(control_.next_target, 3, most - 1);
     if (!verdict.accepted())
       verdict.factor = std::min(verdict.factor, 0.7);
-    else if (after_rejection_)
+    else if (control_.after_rejection)
       verdict.factor = std::min(verdict.factor, 1.0);
-    const bool crawls = verdict.accepted() && next_target_ == 3 && verdict.factor < 1.5;
-    crawled_ = crawls ? crawled_ + 1 : 0;
-    if (crawled_ < crawl_to_leap_) return;
-    leaps_ = true, crawled_ = 0;
-    next_target_ = target_of_leap, verdict.factor = leap;
+    const bool crawls = verdict.accepted() && control_.next_target == 3 && verdict.factor < 1.5;
+    control_.crawled = crawls ? control_.crawled + 1 : 0;
+    if (control_.crawled < control_.crawl_to_leap) return;
+    control_.leaps = true, control_.crawled = 0;
+    control_.next_target = target_of_leap, verdict.factor = leap;
   }
 
   LinearlyImplicit<T> linear_;
@@ -179,11 +191,7 @@ private:
   std::array<State<T>, most> table_; ///< ways from the step's start
   std::array<double, most> errors_{};
   State<T> error_, at_;
-  int target_ = 5, next_target_ = 5;
-  bool after_rejection_ = false;
-  int crawled_ = 0;                    ///< steps of the lowest order in a row
-  int crawl_to_leap_ = shortest_crawl; ///< after how many a leap is tried
-  bool leaps_ = false;                 ///< the next trial step does
+  Control control_;
 };
 
 } // namespace wingspread

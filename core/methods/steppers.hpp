@@ -72,6 +72,20 @@ public:
     return visit(dopri5_);
   }
 
+  /// Calls make(), which makes trial steps by the method. The method's control of order and step stays as it was.
+  template <class Make> auto keeping_control(Method method, Make&& make) {
+    return with(method, [&](auto& stepper) {
+      if constexpr (requires { stepper.control(); }) {
+        const auto kept = stepper.control();
+        const auto made = make();
+        stepper.control() = kept;
+        return made;
+      } else {
+        return make();
+      }
+    });
+  }
+
   [[nodiscard]] Adaptive<T, TaylorSeries<T>>& taylor() { return taylor_; }
 
 private:

@@ -108,8 +108,8 @@ public:
   /// Whether a moment's peak may lie inside the last step of a lane.
   [[nodiscard]] bool asks_for_moment(int lane) const { return asks_for_moments_.bits[lane] != 0; }
 
-  /// Keeps the raised peaks in these lanes. @return evaluations made in each by the search
-  [[nodiscard]] P accept(const Mask& these) {
+  /// Keeps the raised peaks in these lanes.
+  void accept(const Mask& these) {
     if (shape_.forces)
       for (std::size_t i = 1; i < before_.size(); ++i)
         before_[i] = select(these, samples_.of(static_cast<int>(i))[samples_.last], before_[i]);
@@ -119,10 +119,7 @@ public:
         assign_where(these, forces_[i], raised_forces_[i]);
         assign_where(these, holds_[i], raised_holds_[i]);
       }
-    if (!samples_made_) return P(0.0);
-    const P made = select(these, sampled_, P(0.0));
-    evaluations_ = evaluations_ + made;
-    return made;
+    if (samples_made_) evaluations_ = evaluations_ + select(these, sampled_, P(0.0));
   }
 
 private:

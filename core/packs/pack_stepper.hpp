@@ -111,8 +111,8 @@ public:
     get_lane(lane, step_.x1, result.x1), get_lane(lane, step_.dxdt1, result.dxdt1);
     peaks_.unload(lane, result, moved);
     holds_.unload(lane, result, moved);
-    result.evaluations =
-        (result.trial_steps + 1) * evaluations_of_trial() + peaks_.evaluations(lane);
+    result.searched = peaks_.evaluations(lane);
+    result.evaluations = (result.trial_steps + 1) * evaluations_of_trial() + result.searched;
     events_.unload(lane, result);
     result.none = {asks_after_[3].bits[lane] == 0, kinks_.bits[lane] == 0,
                    releases_.bits[lane] == 0};
@@ -253,7 +253,7 @@ private:
     for (int i = 1; shape_.motor_energy && i <= at_.bodies; ++i)
       motor_energy_[i] = select(accepted && events_.waits(i), P(motor_energy_[i] + motor_work_[i]),
                                 motor_energy_[i]);
-    evaluations_before_ = evaluations_before_ + peaks_.accept(accepted);
+    peaks_.accept(accepted);
     if (work_.stuck > 0) holds_.accept(accepted);
     step_.t = select(accepted, P(step_.t + step_.h), step_.t);
     update_history(accepted, these);

@@ -64,7 +64,9 @@ public:
 
   /// Makes the step that is asked for, judges it, and asks for the next one.
   void make_step() {
-    const StepVerdict verdict = stepping_.attempt(asked_.h, *asked_.x1, *asked_.dxdt1);
+    const StepVerdict verdict = asked_.stage == Stage::doubt
+                                    ? stepping_.attempt_inside(asked_.h, *asked_.x1, *asked_.dxdt1)
+                                    : stepping_.attempt(asked_.h, *asked_.x1, *asked_.dxdt1);
     if (asked_.stage == Stage::step) stepping_.fit(asked_.h);
     judge(asks_for_whole_step() ? stepping_.judged(verdict) : verdict);
   }
@@ -100,7 +102,7 @@ public:
             .most_steps = diary_.is_watched() // it takes samples inside every step
                               ? 0
                               : std::min(stepping_.steps_to_radius(), ending_.steps_to_attempt()),
-            .evaluations = run_.system.work().evaluations,
+            .evaluations = stepping_.evaluations(),
             .history = stepping_.history()};
   }
 
@@ -132,6 +134,7 @@ public:
   /// @param result empty_lane_result() of this run, filled by its lane
   void resume(const LaneResult& result) {
     run_.system.writable_workspace().evaluations += result.evaluations;
+    run_.searched += result.searched;
     run_.system.set_commands(T(run_.step.t + result.h)); // the lane's last evaluation
     if (result.trial_steps > 0) {
       const long steps = stepping_.resume(result);
@@ -191,7 +194,7 @@ private:
     AnySystem& system = run_.system;
     ended_ = false;
     may_happen_.assign(run_.at.bodies + 1, true);
-    run_.step.t = T(0);
+    run_.step.t = T(0), run_.searched = 0;
     system.reset();
     system.writable_workspace().least_motion = T(run_.how.atol);
     system.want_forces(run_.goal.peak_force);
@@ -289,7 +292,10 @@ private:
   }
 
   /// Looks for the peaks of an accepted step.
-  void accept() { confirm_peaks(peaks_.first_doubt(by_lane_)); }
+  void accept() {
+    before_search_ = run_.system.work().evaluations;
+    confirm_peaks(peaks_.first_doubt(by_lane_));
+  }
 
   /// Asks for a step to the peak in doubt. @param doubt its fraction of the step; none: all are known
   void confirm_peaks(const std::optional<T>& doubt) {
@@ -303,6 +309,7 @@ private:
   void finish_step() {
     if (landing_.carry_end_to_event()) peaks_.include_end();
     peaks_.close_step();
+    run_.searched += run_.system.work().evaluations - before_search_;
     diary_.notify_inside([this](const T& s) { return stepping_.evaluate_inside(s); });
     stepping_.advance(landing_.at_event());
     if (landing_.at_jump()) landing_.cross_jump();
@@ -375,6 +382,7 @@ private:
   Ending<T, AnySystem> ending_;
   TrialStep asked_;
   bool ended_ = false;
+  long before_search_ = 0; ///< evaluations of the run when the search for the step's peaks began
   std::optional<NoEvents>
       none_; ///< if a lane has made the step to be judged: what it has found in it
   std::vector<char>

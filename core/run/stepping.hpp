@@ -47,9 +47,8 @@ public:
     const bool stiffens = engaged != std::exchange(engaged_, engaged);
     const auto time = static_cast<double>(run_.step.t);
     const bool friction_only = by_friction && !stiffens;
-    if (!(friction_only && choice_.goes_on(time, run_.system.work().evaluations)))
-      choice_.restart(time, run_.system.work().evaluations, spectral_radius_bound<T>(run_.system),
-                      stiffens);
+    if (!(friction_only && choice_.goes_on(time, evaluations())))
+      choice_.restart(time, evaluations(), spectral_radius_bound<T>(run_.system), stiffens);
     begin_with_method();
     before_ = h_;
     if (!(friction_only && h_ > T(0) && has_lanes(method()))) h_ = T(-1);
@@ -60,6 +59,8 @@ public:
 
   [[nodiscard]] Method method() const { return choice_.active(); }
   [[nodiscard]] long steps() const { return steps_; } ///< accepted
+  /// Evaluations without those that looked for peaks, by which `auto` compares methods.
+  [[nodiscard]] long evaluations() const { return run_.system.work().evaluations - run_.searched; }
   [[nodiscard]] Work work() const { return {steps_, rejected_, run_.system.work().evaluations}; }
 
   /// The tolerance of a step. Before the first latch it is 32 times finer than asked: this phase takes
@@ -114,6 +115,11 @@ public:
     });
   }
 
+  /// The same inside an accepted step: order and size of the next step stay as that step has left them.
+  [[nodiscard]] StepVerdict attempt_inside(T& h, State<T>& x1, State<T>& dxdt1) {
+    return steppers_.keeping_control(method(), [&] { return attempt(h, x1, dxdt1); });
+  }
+
   /// Shortens the planned step to what the method has made.
   void fit(const T& h) {
     if (!(h < run_.step.h)) return;
@@ -126,22 +132,24 @@ public:
   /// @return whether the parts lead there. Adams' method cannot: its history belongs to the start
   [[nodiscard]] bool reach_in_parts(const T& h, State<T>& x1, State<T>& dxdt1) {
     if (method() == Method::adams_bashforth_moulton) return false;
-    between_.x = run_.step.x, between_.dxdt = run_.step.dxdt;
-    T rest = h, part = T(0.5) * h;
-    for (int tries = 0; tries < 64; ++tries) { // heuristic: beyond, dense output must do
-      const StepVerdict verdict = steppers_.with(method(), [&](auto& stepper) {
-        const T t = run_.step.t + (h - rest);
-        return stepper.attempt(run_.system, {t, between_.x, between_.dxdt}, part, x1, dxdt1);
-      });
-      if (verdict.accepted()) {
-        if (!(part < rest)) return true;
-        rest = rest - part;
-        std::swap(between_.x, x1), std::swap(between_.dxdt, dxdt1);
+    return steppers_.keeping_control(method(), [&] {
+      between_.x = run_.step.x, between_.dxdt = run_.step.dxdt;
+      T rest = h, part = T(0.5) * h;
+      for (int tries = 0; tries < 64; ++tries) { // heuristic: beyond, dense output must do
+        const StepVerdict verdict = steppers_.with(method(), [&](auto& stepper) {
+          const T t = run_.step.t + (h - rest);
+          return stepper.attempt(run_.system, {t, between_.x, between_.dxdt}, part, x1, dxdt1);
+        });
+        if (verdict.accepted()) {
+          if (!(part < rest)) return true;
+          rest = rest - part;
+          std::swap(between_.x, x1), std::swap(between_.dxdt, dxdt1);
+        }
+        part = part * T(verdict.accepted() ? verdict.factor : std::min(verdict.factor, 0.7));
+        if (part > T(0.5) * rest) part = part < rest ? T(0.5) * rest : rest;
       }
-      part = part * T(verdict.accepted() ? verdict.factor : std::min(verdict.factor, 0.7));
-      if (part > T(0.5) * rest) part = part < rest ? T(0.5) * rest : rest;
-    }
-    return false;
+      return false;
+    });
   }
 
   /// Adds to the method's verdict what else a step must satisfy: it does not leap over a layer of
@@ -267,15 +275,15 @@ public:
     const double h = static_cast<double>(run_.step.h);
     const double quick =
         choice_.may_leave(h) ? quickness(run_.system, run_.step, T(tolerance().atol)) : 0;
-    const bool changes = choice_.after_step(h, static_cast<double>(run_.step.t),
-                                            run_.system.work().evaluations, quick);
+    const bool changes =
+        choice_.after_step(h, static_cast<double>(run_.step.t), evaluations(), quick);
     if (changes) {
       begin_with_method();
       h_ = T(choice_.first_step(static_cast<double>(h_)));
     }
     if (choice_.wants_radius())
       choice_.set_radius(radius_.estimate(run_.system, run_.step.x, run_.step.t),
-                         static_cast<double>(run_.step.t), run_.system.work().evaluations);
+                         static_cast<double>(run_.step.t), evaluations());
     return changes;
   }
 

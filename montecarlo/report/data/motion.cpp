@@ -45,7 +45,7 @@ Observer MotionRecorder::observer() {
 }
 
 void MotionRecorder::record_sample(const Sample& sample) {
-  const bool again = !samples_.empty() && samples_.back().t == sample.t;
+  const bool again = pins_ && !samples_.empty() && samples_.back().t == sample.t;
   if (again) samples_.back().pinned = true;
   // The newest sample is always stored, so that the run's end is there. If only every n-th sample is kept, the next one
   // replaces it, unless it is an n-th or a pinned one.
@@ -62,6 +62,13 @@ void MotionRecorder::record_sample(const Sample& sample) {
 }
 
 void MotionRecorder::drop_every_second() {
+  // Engagements are few. Thousands of instants with two sides are a hinge that sticks and slips: from here on they are samples
+  // like others, because pinned ones would fill the room.
+  if (std::ranges::count_if(samples_, [](const MotionSample& sample) { return sample.pinned; }) >
+      std::ssize(samples_) / 2) {
+    pins_ = false;
+    for (MotionSample& sample : samples_) sample.pinned = false;
+  }
   std::size_t place = 0;
   std::erase_if(samples_, [&](const MotionSample& sample) {
     return place++ % 2 == 1 && !sample.pinned && &sample != &samples_.back();

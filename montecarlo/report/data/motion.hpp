@@ -26,7 +26,8 @@ struct MotionLayout {
   [[nodiscard]] std::size_t size() const { return 3 * hinges + 3; }
 };
 
-/// Records the samples of a run: all of a short run, every n-th step of a long one, and both sides of each engagement.
+/// Records the samples of a run: all of a short run, every n-th step of a long one, and both sides of each engagement (unless
+/// thousands of instants have two sides: hinges that stick and slip).
 class MotionRecorder {
 public:
   explicit MotionRecorder(std::size_t hinges) : layout_{hinges} {}
@@ -44,6 +45,7 @@ private:
   MotionLayout layout_;
   std::vector<MotionSample> samples_;
   long stride_ = 1, seen_ = 0;
+  bool pins_ = true; ///< an instant with two samples is pinned
 };
 
 /// Heuristic: a ring is over once its swing is below this share of the whole swing. A smaller share shows

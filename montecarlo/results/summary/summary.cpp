@@ -238,7 +238,9 @@ std::string why_no_bound(const Summary& summary, const OutputSummary& output) {
     return fmt::format("{} in {} replicates are too few, or agree too well, for every bound at a "
                        "confidence of {}",
                        values, summary.replicates, summary.confidence);
-  return fmt::format("{} are too few for every bound at a confidence of {}", values,
+  return fmt::format("{} too few for every bound at a confidence of {}",
+                     output.missing == 0 && output.moments.count == 1 ? values + " is"
+                                                                      : values + " are",
                      summary.confidence);
 }
 
@@ -253,7 +255,7 @@ std::string why_no_limit(const Summary& summary, const ToleranceLimitEstimate& e
     return fmt::format("{} of {} runs rank beyond every number; at most {} may", beyond,
                        summary.runs, order - 1);
   const auto least = runs_to_show(spec.probability, c, spec.side == Side::both ? 1 : 0);
-  return fmt::format("{} are too few: it takes {}", counted(summary.runs, "run", "runs"),
+  return fmt::format("{} too few: it takes {}", counted(summary.runs, "run is", "runs are"),
                      least ? std::to_string(*least) : fmt::format("more than {}", most_runs_sized));
 }
 

@@ -2,6 +2,7 @@
 #include "core/deployment.hpp"
 #include "core/methods/method_choice.hpp"
 #include "tests/support/closed_forms.hpp"
+#include "tests/support/random_cases.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -295,6 +296,37 @@ TEST_CASE("auto goes on implicitly where an elastic hold is stiff on a light pan
   CAPTURE(methods_used(out), out.work.rhs_evaluations, plain.work.rhs_evaluations);
   CHECK(4 * out.work.rhs_evaluations < plain.work.rhs_evaluations);
   CHECK(time_by("seulex", out) > 0.6 * out.t_end);
+}
+
+TEST_CASE("what a run records changes neither its methods nor its motion") {
+  const int wings = random_cases(600, 40),
+            first = 100; // two of the 40 leave the implicit method by its cost
+  int implicit = 0;
+  for (int seed = first; seed < first + wings; ++seed) {
+    Draws draws(static_cast<std::uint64_t>(seed));
+    Scene scene = with_latches({draws.log_uniform(1e3, 1e6), draws.log_uniform(1, 300)});
+    for (Body& body : scene.bodies) body.mass *= draws.log_uniform(0.05, 1), body.inertia = 0.02;
+    if (draws.chance(0.5)) {
+      scene.hinges[1].release = Release{.time = draws.uniform(0.1, 3)};
+      scene.hinges[1].hold = Hold{draws.log_uniform(1e3, 1e5), draws.log_uniform(1, 100)};
+    }
+    const Integration how = within(1e-8, 6);
+    const Outcome all = Deployment().run(scene, how, {.to_t_end = true});
+    implicit += time_by("seulex", all) > 0;
+    for (const Goal& goal : {Goal{.peak_moment = false, .peak_force = false, .to_t_end = true},
+                             Goal{.peak_moment = false, .to_t_end = true},
+                             Goal{.peak_force = false, .hold_moment = false, .to_t_end = true}}) {
+      const Outcome out = Deployment().run(scene, how, goal);
+      CAPTURE(seed, methods_used(all), methods_used(out), goal.peak_moment, goal.peak_force);
+      CHECK(out.work.steps == all.work.steps);
+      REQUIRE(out.latches.size() == all.latches.size());
+      for (std::size_t i = 0; i < all.latches.size(); ++i) {
+        CHECK(out.latches[i].time == all.latches[i].time);
+        CHECK(out.latches[i].rates == all.latches[i].rates);
+      }
+    }
+  }
+  CHECK(implicit > 10);
 }
 
 TEST_CASE("auto goes on with the implicit method after events") {

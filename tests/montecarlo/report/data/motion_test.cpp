@@ -88,6 +88,26 @@ TEST_CASE("a run of many steps is thinned, and keeps its ends", "[page]") {
   CHECK(widest < 4 * 2.0 / (1 << 12)); // evenly
 }
 
+TEST_CASE("a run whose hinges stick and slip a hundred thousand times is thinned as well",
+          "[page]") {
+  MotionRecorder recorder(1);
+  const Observer observer = recorder.observer();
+  constexpr int steps = 300'000;
+  for (int k = 0; k <= steps; ++k) {
+    observer(sample_at(2. * k / steps));
+    if (k > 30 && k < steps) observer(sample_at(2. * k / steps)); // the other side of an instant
+  }
+  const auto& samples = recorder.samples();
+  CHECK(samples.size() <= (1 << 14) + 1);
+  CHECK(samples.size() > 1 << 12);
+  CHECK(samples.front().t == 0);
+  CHECK(samples.back().t == 2);
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    REQUIRE(samples[k].t >= samples[k - 1].t);
+    REQUIRE(samples[k].t - samples[k - 1].t < 4 * 2.0 / (1 << 12)); // evenly
+  }
+}
+
 TEST_CASE("the page's samples stand where something happens, both sides of a latch among them",
           "[page]") {
   MotionRecorder recorder(1);
