@@ -1,5 +1,7 @@
 """The first screen's sentences on requirements, the comparison of verdicts, influences, studies and inputs, for data of every kind."""
 
+import random
+
 import pages
 from number_checks import DEGREES
 
@@ -35,6 +37,20 @@ class JudgementChecks:
                             ((["passed", "failed"], ["failed", "passed"], []), "✕ fail Each of 2 requirements fails in at least one case cold and ambient: 1 fails, 1 passes; hot: no requirements"),
                             ((["open", "passed"], ["passed"] * 2, ["open", "passed"]), "? undecided 1 of 2 requirements is undecided, for too few runs: A cold and hot: 1 undecided, 1 passes; ambient: 2 pass")):
             self.assertEqual(head(*given), text)
+
+    def test_of_one_verdict_the_requirement_that_uses_up_most_of_what_may_break_comes_first(self):
+        """Broken runs over those that may break it; where the runs are too few for a pass, over N (1 - p) of the set's own runs."""
+        self.open(pages.made_up("cases"))
+        chance = random.Random(3)
+        for verdict in ("open", "failed"):
+            for _ in range(20):
+                given = [[stated(f"{at}{k}", verdict, **SHARE, probability=chance.choice([0.5, 0.9, 0.99, 0.999]), allowed=chance.choice([None, 3, 20]) if verdict == "failed" else None, broken=chance.randint(0, 40)) for k in range(4)] for at in range(3)]
+                runs = [chance.choice([20, 300, 4000]) for _ in range(3)]
+                order = self.run_script("W.sets.forEach((set, at) => Object.assign(set, { runs: arguments[1][at], requirements: arguments[0][at] })); return W.verdicts.judged().map(row => row.requirement.text)", given, runs)
+                used = {one["text"]: one["broken"] / (runs[at] * (1 - one["probability"]) if one["allowed"] is None else one["allowed"]) for at, listed in enumerate(given) for one in listed}
+                shares = [used[text] for text in order]
+                self.assertEqual(len(shares), 12)
+                self.assertTrue(all(a >= b * (1 - 1e-12) for a, b in zip(shares, shares[1:])), f"{shares} of {given}, {runs}")
 
     def test_a_campaign_that_lacks_runs_has_no_final_verdict(self):
         self.open(pages.made_up("cases"))

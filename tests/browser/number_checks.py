@@ -120,12 +120,16 @@ class Numbers:
     def limits(self, one_set, output, figure, factor, about):
         """Each limit is a line where it belongs, with its number; or the histogram's note has it."""
         value, near = self.axis(figure, "x")
-        wanted = set()
+        wanted = {}  # the signs of each limit; |output| ≤ x is −x ≤ output ≤ x
         for requirement in (one_set["requirements"][at] for at in output["limits"]):
-            wanted |= {requirement["limit"] * factor} | ({-requirement["limit"] * factor} if requirement.get("abs") else set())
+            both, limit = requirement.get("abs"), requirement["limit"] * factor
+            wanted.setdefault(limit, set()).add("≤" if both or requirement["upper"] else "≥")
+            if both:
+                wanted.setdefault(-limit, set()).add("≥")
         box = self.run_script("return document.querySelector(`figure.${arguments[0]} .axis.x .domain`).getBBox()", figure)
         drawn = [value(x) for x, in self.attributes(f"figure.{figure} line.limit", "x1")]
-        note = [number for number, _ in parsed(self.run_script("return document.querySelector('figure.histogram > .note')?.textContent ?? ''"))]
+        sentence = self.run_script("return document.querySelector('figure.histogram > .note')?.textContent ?? ''")
+        note = [number for number, _ in parsed(sentence)]
         for limit in wanted:
             shown, noted = any(abs(one - limit) < 2 * near for one in drawn), any(math.isclose(one, limit, rel_tol=1e-5) for one in note)
             self.assertNotEqual(shown, noted, f"{about}: the limit {limit} is {'both' if shown else 'neither'} in the picture {drawn} and in the note {note}")
@@ -134,8 +138,10 @@ class Numbers:
                 self.assertTrue(shown, f"{about}: the limit {limit} is near the values, and not drawn")
         self.assertLessEqual(len(drawn), len(wanted), about)
         self.assertTrue(all(value(box["x"]) - 2 * near <= one <= value(box["x"] + box["width"]) + 2 * near for one in drawn), about)
-        texts = [parsed(text.text)[0][0] for text in self.all(f"figure.{figure} text.limit-text")]
-        self.assertTrue(all(any(math.isclose(text, limit, rel_tol=1e-5) for limit in wanted) for text in texts), about)
+        texts = [text.text for text in self.all(f"figure.{figure} text.limit-text")]
+        for text in texts + re.findall("[≤≥][^≤≥]*", sentence):
+            number = parsed(text)[0][0]
+            self.assertTrue(any(math.isclose(number, limit, rel_tol=1e-5) and text[0] in signs for limit, signs in wanted.items()), f"{about}: {text} for {wanted}")
 
     def margin(self, one):
         """The guaranteed value's distance to the limit; of too few runs the observed value's."""

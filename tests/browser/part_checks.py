@@ -166,6 +166,22 @@ class PartChecks:
         self.assertEqual(command.find_element("tag name", "button").text, "Copied")
         self.wait(lambda: command.find_element("tag name", "button").text == "Copy")
 
+    def test_a_chosen_point_is_told_with_its_own_draw_and_value(self):
+        """In the words at the foot of the page, each after its own name, in the displayed unit."""
+        self.open(pages.made_up("plain"))
+        drawn = self.run_script("return [...document.querySelectorAll('figure.scatter')].filter(one => one.querySelector('.point')).length")  # others wait until they are in view
+        self.assertGreater(drawn, 1)
+        for place, pair in enumerate(self.run_script("return W.set().scatters")[:drawn]):
+            points, name = pair["points"], self.run_script("return W.format.nameOf(arguments[0])", pair["output"])
+            factor = self.run_script("return W.format.shown(W.format.unitOf(arguments[0])).factor", pair["output"])
+            for run in (points["run"][0], points["run"][len(points["run"]) // 2], points["run"][-1]):
+                self.run_script("const mark = [...document.querySelectorAll('figure.scatter')[arguments[0]].querySelectorAll('.point')].find(one => one.getAttribute('aria-label').startsWith(`run ${arguments[1]}:`)); mark.dispatchEvent(new MouseEvent('click', { bubbles: true }))", place, run)
+                at, text = points["run"].index(run), self.one("#selection p").text
+                for told, value in ((pair["draw"], points["x"][at]), (name, points["y"][at] * factor)):
+                    self.assertIn(f" · {told} ", text)
+                    number, near = parsed(text.split(f" · {told} ")[1])[0]
+                    self.assertLessEqual(abs(number - value), near, f"{told} in {text}")
+
     def test_a_chosen_run_is_shown_and_closed(self):
         self.open(pages.made_up("loads"))
         self.click(self.one("#verdicts .findings button.run"))

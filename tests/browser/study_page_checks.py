@@ -122,3 +122,11 @@ class StudyPageChecks:
         self.assertIn("No run of this set can be replayed", self.one("#wing").text)
         self.run_script("W.set().wing.bodies = []; W.wing()")
         self.assertIn("The folder contains no scene to draw.", self.one("#wing").text)
+
+    def test_the_most_likely_run_has_its_largest_deviations_first_of_either_sign(self):
+        self.open(pages.made_up("plain"))
+        names = self.run_script("""const set = [...W.sets, ...W.studySets].find(one => one.rare && one.rare.likeliest), host = document.createElement("div");
+            set.rare.likeliest.draws = arguments[0].map((z, at) => ({ name: `x${at}`, value: at, z }));
+            W.fill(host, W.studies([set]));
+            return [...[...host.querySelectorAll("table")].find(one => one.querySelector("caption")?.textContent.startsWith("Most likely run")).querySelectorAll("tbody th")].map(one => one.textContent)""", [0.5, -3.25, 2, -0.1, 1.5])
+        self.assertEqual(names, ["x1", "x2", "x4", "x0", "x3"])

@@ -354,3 +354,34 @@ TEST_CASE("on a terminal one line tells of all cases, and does not run backwards
   CHECK(lines >= 3); // a beginning and two cases at least
   CHECK(read_text(typed).value().find("/2000 runs") == std::string::npos);
 }
+
+TEST_CASE("the commands for missing shards of some cases make what merges with the others",
+          "[cases]") {
+  const Cases cases(30);
+  const auto run = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"run",    cases.file, "--out",  out,
+                                   "--case", "cold",     "--case", "heavy"};
+    words.insert(words.end(), more.begin(), more.end());
+    return cases.program(words).code;
+  };
+  const auto part = [&](int i) { return cases.folder.path() / ("part" + std::to_string(i)); };
+  const std::string whole = cases.folder.path() / "whole", merged = cases.folder.path() / "merged";
+  CHECK(run(whole, {}) == 1);
+  for (const int i : {1, 3}) CHECK(run(part(i), {"--shard", std::to_string(i) + "/3"}) == 0);
+  const Finished missing = cases.program({"merge", part(1), part(3), "--out", merged});
+  CHECK(missing.code == 2);
+  int made = 0;
+  for (const std::string& line : lines_of(missing.error)) {
+    if (!line.starts_with("  wingspread ")) continue;
+    std::vector<std::string> words;
+    std::istringstream in(line);
+    for (std::string word; in >> word;) words.push_back(word);
+    words.erase(words.begin());
+    CHECK(cases.program(words).code == 0);
+    ++made;
+  }
+  CHECK(made == 1);
+  CHECK(!std::filesystem::exists(part(2) / "ambient"));
+  CHECK(cases.program({"merge", part(1), part(2), part(3), "--out", merged}).code == 1);
+  CHECK(all_contents(merged) == all_contents(whole));
+}

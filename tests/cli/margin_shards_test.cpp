@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <csignal>
+#include <sstream>
 #include <thread>
 
 using namespace wingspread;
@@ -149,4 +150,38 @@ TEST_CASE("a study from shards goes on after a kill with the same shards", "[par
   from.push_back("--resume");
   CHECK(shards.margin("cut", from).out == whole.out);
   CHECK(contents(shards.at("cut")) == contents(shards.at("whole")));
+}
+
+TEST_CASE("the commands for missing shards have all options of the study, and their shards fit") {
+  const Shards shards;
+  const std::vector<std::string> options{
+      "--seed", "77", "--runs", "80", "--range", "0.7", "1.4", "--scale", "hinges.*.spring.scale"};
+  CHECK(shards.shard(1, 3, options).code == 0);
+  const auto continued = [&] {
+    std::vector<std::string> words = options;
+    words.emplace_back("--from");
+    for (const int i : {1, 2, 3})
+      if (std::filesystem::exists(shards.at("part" + std::to_string(i))))
+        words.push_back(shards.at("part" + std::to_string(i)));
+    return shards.margin("out", words);
+  };
+  const Finished missing = continued();
+  CHECK(missing.code == 2);
+  int made = 0;
+  for (const std::string& line : lines_of(missing.error)) {
+    if (!line.starts_with("  wingspread ")) continue;
+    std::vector<std::string> words;
+    std::istringstream in(line);
+    for (std::string word; in >> word;) {
+      std::erase(word, '\''); // of a path with a star
+      words.push_back(word);
+    }
+    words.erase(words.begin());
+    CHECK(run_program(shards.folder, words).code == 0);
+    ++made;
+  }
+  CHECK(made == 2);
+  const Finished merged = continued(), whole = shards.margin("whole", options);
+  CHECK(merged.code == whole.code);
+  CHECK(merged.out == whole.out);
 }

@@ -66,6 +66,27 @@ TEST_CASE("size answers the table's questions") {
              HasFacts({"1000 runs cannot show", "0.99865", "confidence 0.9", "1705\n"}));
 }
 
+// Two-sided limits of order r leave out 2r − 1 runs, one-sided ones r − 1.
+TEST_CASE("size gives back the order that it is asked for, on one side or on both") {
+  const RequirementsPlace program;
+  for (const bool both : {false, true})
+    for (const long order : {1L, 2L, 5L}) {
+      std::vector<std::string> words{"size",    "--probability",      "0.95", "--confidence", "0.9",
+                                     "--order", std::to_string(order)};
+      if (both) words.emplace_back("--two-sided");
+      CAPTURE(both, order);
+      const std::string text = program(words).out;
+      words.emplace_back("--json");
+      const Json json = parse_json(program(words).out);
+      CHECK(json["order"] == order);
+      CHECK(json["two_sided"] == both);
+      CHECK(json["failures"] == (both ? 2 * order : order) - 1);
+      CHECK_THAT(text,
+                 HasFacts({std::to_string(json["runs"].get<long>()) + " runs",
+                           both ? "two-sided" : "one-sided", "order " + std::to_string(order)}));
+    }
+}
+
 TEST_CASE("size refuses what it cannot answer") {
   struct Case {
     std::vector<std::string> options;

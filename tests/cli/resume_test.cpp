@@ -177,3 +177,21 @@ TEST_CASE("rare without a folder keeps nothing, and has nothing to go on with") 
   CHECK(refused.code == 2);
   CHECK_THAT(refused.error, HasFacts({"error: --resume: found --resume without --out"}));
 }
+
+TEST_CASE("a finished study with failed runs has the same exit code when it is shown again",
+          "[parallel]") {
+  const ResumedPlace place;
+  for (Resumable study : {margin_of(place.folder), rare_of(place.folder)}) {
+    CAPTURE(study.command.front());
+    Json json = parse_json_file(study.command[1]);
+    json["integration"]["max_steps"] = 10; // all runs fail
+    json["sampling"]["runs"] = 100;
+    study.command[1] = place.folder.write("failing.json", json.dump());
+    const Finished first = place.run(study, "failing_" + study.command.front());
+    const Finished again = place.run(study, "failing_" + study.command.front(), {"--resume"});
+    CHECK(first.code == 3);
+    CHECK(again.code == 3);
+    CHECK_THAT(again.error, HasFacts({"runs failed numerically"}));
+    CHECK_THAT(again.error, Catch::Contains("finished already"));
+  }
+}

@@ -47,6 +47,18 @@ class Fitting(unittest.TestCase):
         self.assertAlmostEqual(spring["std"], 2 * scale * self.std / self.seen, delta=0.002)
         self.assertAlmostEqual(float(np.mean(posterior["spring"])), spring["mean"], delta=0.003)
 
+    def test_a_fit_that_is_cut_off_says_so_whatever_else_it_finds(self):
+        """Two measurements that contradict each other are found first; the Notice is of the chains that are too short."""
+        tests = self.ground()
+        tests["tests"].append({"name": "again", "values": [{"output": "root.latch_time", "value": 1.4 * self.seen, "std": self.std}]})
+        tests["fit"]["samples"] = 100000
+        with self.assertWarns(wingspread.Notice) as caught:
+            result, _ = wingspread.fit(self.campaign(), tests, runs=3000)
+        self.assertFalse(result["finished"])
+        self.assertGreater(len(set(result["findings"])), 1)
+        self.assertIn(str(caught.warning), result["findings"])
+        self.assertIn(f"not finished: effective sample size {result['sampler']['ess']:.0f} of 100000", str(caught.warning))
+
     def test_faults_of_tests_have_their_place(self):
         tests = self.ground()
         tests["fit"]["parameters"] = ["sprung"]

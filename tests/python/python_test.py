@@ -149,6 +149,24 @@ class Deployments(InFolder):
         for name, values in trajectory.items():
             self.same(values, [float(row[name]) for row in rows])
 
+    def test_every_setting_by_itself_is_that_of_simulate(self):
+        settings = [{"rtol": 1e-5}, {"atol": 1e-4}, {"rtol": 1e-6, "atol": 1e-8}, {"t_end": 6.5}, {"method": "dop853"}, {"latch": "smoothed:1e-3"},
+                    {"method": "runge_kutta4", "step": 0.0078125}, {"set": {"hinges.root.spring.scale": 0.9123456789012345}}]
+        default = wingspread.simulate(SCENE).outcome
+        for setting in settings:
+            options = [word for name, value in setting.items() for word in
+                       (["--set", *(f"{path}={number!r}" for path, number in value.items())] if name == "set" else ["--" + name.replace("_", "-"), str(value)])]
+            with self.subTest(str(setting)):
+                outcome = wingspread.simulate(SCENE, **setting).outcome
+                self.assertEqual(outcome, json.loads(program("simulate", SCENE, "--json", *options).stdout))
+                self.assertNotEqual(outcome, default)
+
+    def test_a_scene_may_be_a_path_or_text_or_a_dictionary(self):
+        text = pathlib.Path(SCENE).read_text(encoding="utf-8")
+        expected = wingspread.simulate(SCENE, t_end=2).outcome
+        for source in (str(SCENE), pathlib.Path(SCENE), text, "\n \t" + text, json.loads(text)):
+            self.assertEqual(wingspread.simulate(source, t_end=2).outcome, expected)
+
     def test_a_check_is_that_of_simulate(self):
         said = json.loads(program("simulate", SCENE, "--json", "--t-end", "9", "--check").stdout)
         outcome, _ = wingspread.simulate(SCENE, t_end=9, check=True)

@@ -162,7 +162,8 @@ def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", se
                                   _whole("threads", threads, 0, _MOST_THREADS))
     result = json.loads(text)
     if not result["finished"]:
-        warnings.warn(result["findings"][0], Notice, stacklevel=2)
+        why = next(finding for finding in result["findings"] if finding.startswith("not finished"))
+        warnings.warn(why, Notice, stacklevel=2)
     return Fit(result, posterior)
 
 

@@ -111,6 +111,12 @@ TEST_CASE("the text of a margin has the numbers of its window", "[margin]") {
   CHECK(found[1].kind == "both");
   CHECK(found[1].out_of_order->lower == 3);
   CHECK(found[1].out_of_order->upper == 4 + 5); // and those of scale 1, which keep to it at 1.75
+  const Json json = margin_json(report, Json::object())["searches"][0]["requirements"];
+  REQUIRE(json.size() == 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    CHECK(json[k]["out_of_order"]["below"] == found[k].out_of_order->lower);
+    CHECK(json[k]["out_of_order"]["above"] == found[k].out_of_order->upper);
+  }
   // the scales, with the share that deployed and what is not met
   for (const auto& [scale, share] : {std::pair("0.5", "80"), {"0.75", "95"}, {"1.5", "100"}}) {
     const auto words = words_after(text, std::string("  ") + scale + " ");

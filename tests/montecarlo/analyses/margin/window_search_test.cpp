@@ -191,3 +191,13 @@ TEST_CASE("the bound leaves out what lies beyond an end that is an edge's side, 
   CHECK(most_scales(holds_further_in, range) ==
         most_scales({{0.5, {0}}}, range) - cells * (one_cell + 1));
 }
+
+TEST_CASE("the widest window is that of the largest ratio of its ends", "[window]") {
+  const auto window = [](double lower, double upper) {
+    return Window{lower, upper, std::nullopt, std::nullopt};
+  };
+  const std::vector<Window> windows{window(0.3, 0.32), window(0.5, 1.0), window(2, 3.4),
+                                    window(8, 10)};
+  CHECK(widest(windows) == &windows[1]); // the differences grow: 0.02, 0.5, 1.4, 2
+  CHECK(widest({}) == nullptr);
+}

@@ -219,3 +219,19 @@ TEST_CASE("the number of runs that are kept is told in words") {
   CHECK(describe(RunsKept{.of_case = "hot", .kept = 0, .total = 1}) ==
         "0 of 1 run of case hot is kept");
 }
+
+TEST_CASE("timing.json counts a session's own runs, and those of earlier sessions beside",
+          "[parallel]") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(200));
+  const auto path = folder.path() / "r";
+  const long before = run_into(path, campaign, {.stop_after = 20});
+  REQUIRE(before < 200);
+  Caller caller;
+  (void)caller.run({.campaign = campaign, .out = path, .pool = {.threads = 2}, .resume = true});
+  const Json timing = parse_json_file(path / timing_file);
+  CHECK(timing["runs_before"] == before);
+  CHECK(timing["runs"] == 200 - before);
+  const double seconds = timing["seconds"], per_second = timing["runs_per_second"];
+  CHECK(per_second * seconds == Approx(200 - before));
+}

@@ -144,3 +144,47 @@ TEST_CASE("a shift is small or large against half of the range drawn, where the 
     }
   CHECK(telling > 0);
 }
+
+// A factor of an angle depends on where 0 lies; a factor of a scale, or of a mass that is drawn, does not.
+TEST_CASE("factors and masses are scaled, angles and what is added are shifted", "[needed]") {
+  struct Target {
+    const char *path, *apply;
+    double middle;
+    bool scaled;
+  };
+  for (const Target& target : {Target{"hinges.root.spring.scale", "scale", 1, true},
+                               Target{"bodies.panel_2.mass", "set", 10, true},
+                               Target{"hinges.root.latch.stiffness", "set", 1e4, true},
+                               Target{"hinges.root.angle.stowed", "set", 1.5, false},
+                               Target{"hinges.root.angle.stowed", "scale", 1, true},
+                               Target{"hinges.root.spring.offset", "add", 5, false},
+                               Target{"hinges.root.initial_rate", "set", 0.1, false}}) {
+    CAPTURE(target.path, target.apply);
+    Json json = quick_campaign(1000);
+    json["dispersions"] = {
+        {{"name", "x"},
+         {"distribution",
+          {{"type", "uniform"}, {"lower", 0.9 * target.middle}, {"upper", 1.1 * target.middle}}},
+         {"apply", target.apply},
+         {"to", {target.path}}}};
+    json["requirements"] = parse_json(
+        R"([ { "output": "deployment_time", "max": 9, "probability": 0.9, "confidence": 0.9 } ])");
+    const Campaign campaign = campaign_of(json);
+    const ResultNames names = RunPlan(campaign).names();
+    const auto column = std::ranges::find(names.outputs, "deployment_time") - names.outputs.begin();
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> draw(0.9 * target.middle, 1.1 * target.middle);
+    Results results(names);
+    for (long run = 0; run < 1000; ++run) {
+      const double x = draw(random);
+      std::vector<double> outputs(names.outputs.size(), 1.0);
+      outputs[static_cast<std::size_t>(column)] =
+          8.6 + 5 * (x / target.middle - 1); // 20 % are late
+      results.append({run, Status::deployed, {x}, outputs, "", ""});
+    }
+    const LeverChanges all = levers_found(campaign, results);
+    REQUIRE(all.levers.size() == 1);
+    CHECK(all.levers[0].lever.moved.scaled == target.scaled);
+    CHECK(all.levers[0].lever.paths.empty() != target.scaled); // `margin` scales paths
+  }
+}

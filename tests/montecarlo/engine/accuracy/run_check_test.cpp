@@ -102,3 +102,23 @@ TEST_CASE("a base that only rounding turns has not moved", "[accuracy]") {
   CHECK_FALSE(turn.moved);
   CHECK(turn.digits == 16);
 }
+
+TEST_CASE("a reference that latches in another order, or ends otherwise, does not agree",
+          "[accuracy]") {
+  const Scene scene = campaign_of(quick_campaign(1)).scene;
+  Integration integration;
+  integration.t_end = 12;
+  Goal goal;
+  goal.to_t_end = true;
+  const Outcome own = Deployment().run(scene, integration, goal, Observer{});
+  REQUIRE(own.latches.size() > 1);
+  Outcome reversed = own, late = own;
+  std::ranges::reverse(reversed.latches);
+  late.status = Status::timed_out;
+  const auto agrees = [&](const Outcome& outcome) {
+    return check_run(scene, integration, goal, outcome)->agrees;
+  };
+  CHECK(agrees(own));
+  CHECK_FALSE(agrees(reversed));
+  CHECK_FALSE(agrees(late));
+}

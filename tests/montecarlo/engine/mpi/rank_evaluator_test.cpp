@@ -189,3 +189,20 @@ TEST_CASE("what goes wrong on another rank reaches rank 0, with its rank", "[par
     CHECK_THAT(error.what(), Catch::Contains("hinges"));
   }
 }
+
+// A run's trial steps do not depend on where it is made.
+TEST_CASE("the occupancy counts the trial steps of all ranks", "[parallel]") {
+  const Campaign campaign = campaign_of(quick_campaign(300));
+  const RunPlan plan(campaign);
+  const auto steps = [](const Evaluator& evaluator) {
+    return evaluator.occupancy().busy + evaluator.occupancy().scalar;
+  };
+  ThreadEvaluator alone({.threads = 1}, never);
+  (void)lines(alone, plan, {0, 300});
+  for (const int ranks : {2, 4}) {
+    Job job(ranks);
+    RankEvaluator evaluator = job.evaluator(1);
+    (void)lines(evaluator, plan, {0, 300});
+    CHECK(steps(evaluator) == steps(alone));
+  }
+}

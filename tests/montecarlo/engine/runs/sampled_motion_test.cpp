@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <set>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -60,4 +62,28 @@ TEST_CASE("the grid is as coarse as the recording allows") {
   CHECK(grid_interval(every(0.015, 1001)) == Approx(0.015));
   CHECK(grid_interval(every(0.1, 601)) == 0.02);
   CHECK(grid_interval(every(0.01, 51)) == Approx(0.005)); // a short one: 100 intervals
+}
+
+TEST_CASE("each column sampled alone has the values that it has beside all others") {
+  const Campaign campaign = campaign_of(panel_campaign());
+  const std::vector<std::string> names = trajectory_columns(campaign.scene);
+  std::vector<std::size_t> all;
+  for (std::size_t column = 1; column < names.size(); ++column) all.push_back(column);
+  REQUIRE(all.size() >= 6); // angle, rate, moment, three energies
+  const auto samples_of = [&](std::vector<std::size_t> columns) {
+    const RunPlan plan(campaign, {}, SampledColumns{std::move(columns), 0.1, 3});
+    return Runner(plan).run(0).outputs;
+  };
+  const std::vector<double> together = samples_of(all);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    CAPTURE(names[all[k]]);
+    const std::vector<double> alone = samples_of({all[k]});
+    REQUIRE(alone.size() * all.size() == together.size());
+    std::set<double> different;
+    for (std::size_t sample = 0; 2 * sample < alone.size(); ++sample) {
+      CHECK(alone[2 * sample] == together[2 * (sample * all.size() + k)]);
+      different.insert(alone[2 * sample]);
+    }
+    CHECK(different.size() > 5); // it moves
+  }
 }

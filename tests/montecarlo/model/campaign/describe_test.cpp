@@ -1,8 +1,13 @@
+#include "montecarlo/engine/runs/run_plan.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/describe.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <cmath>
+#include <set>
 
 using namespace wingspread;
 
@@ -151,4 +156,51 @@ TEST_CASE("The description says that final angles take every run to t_end", "[de
       describe(read_campaign(document.dump(), "")),
       Catch::Contains("outputs: latch_time, overtravel, final_angle; for final_angle every run "
                       "goes to t_end"));
+}
+
+// A design of n runs stratifies a dispersion if each of n equal parts of its law has one draw.
+TEST_CASE("A campaign names the correlated dispersions that its design does not stratify",
+          "[describe]") {
+  std::mt19937_64 random(8);
+  const std::vector<std::string> names{"delta", "alpha", "echo", "bravo", "charlie"};
+  constexpr long n = 64;
+  for (int k = 0; k < 20; ++k) {
+    Json document = test::small_campaign();
+    document["dispersions"] = Json::array();
+    for (const std::string& name : names)
+      document["dispersions"].push_back(
+          {{"name", name},
+           {"distribution", {{"type", "uniform"}, {"lower", 0}, {"upper", 1}}},
+           {"apply", "set"},
+           {"to", {"hinges.root.spring.offset"}}});
+    for (std::size_t i = 1; i < names.size(); ++i) // offset is set by the first, then added to
+      document["dispersions"][i]["apply"] = "add";
+    document["correlations"] = Json::array();
+    for (std::size_t i = 0; i < names.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (test::uniform(random) < 0.25)
+          document["correlations"].push_back(
+              {{"between", {names[i], names[j]}}, {"spearman", 0.3}});
+    document["sampling"] = {{"design", "latin_hypercube"}, {"runs", n}, {"seed", k}};
+    const Campaign campaign = read_campaign(document.dump(), "");
+    const RunPlan plan(campaign);
+    std::vector<std::set<long>> parts(names.size());
+    std::vector<double> draws(names.size());
+    for (long run = 0; run < n; ++run) {
+      plan.draw(run, draws);
+      for (std::size_t i = 0; i < names.size(); ++i)
+        parts[i].insert(static_cast<long>(std::floor(draws[i] * n)));
+    }
+    std::set<std::string> lost, named;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (std::ssize(parts[i]) < n) lost.insert(names[i]);
+    const std::string text = describe(campaign);
+    const std::size_t at = text.find(" not stratified");
+    const std::string line =
+        at == std::string::npos ? "" : text.substr(text.rfind('\n', at), at - text.rfind('\n', at));
+    for (const std::string& name : names)
+      if (line.find(name) != std::string::npos) named.insert(name);
+    CAPTURE(document["correlations"].dump(), line);
+    CHECK(named == lost);
+  }
 }

@@ -92,6 +92,8 @@ const std::vector<Mistake> mistakes{
      "/hinges/0/harness/table/angle", "90 rad"},
     {"a damper's window in degrees", yoke, R"({"/hinges/0/damper/window": [60, 0]})",
      "/hinges/0/damper/window/0", "60 rad"},
+    {"a damper's window that ends in degrees", yoke, R"({"/hinges/0/damper/window": [1, 60]})",
+     "/hinges/0/damper/window/1", "60 rad"},
     {"a stop's gap in degrees", yoke, R"({"/hinges/0/stop/gap": 0.5})", "/hinges/0/stop/gap",
      "0.5 rad|1.571 rad"},
     {"a far stop's gap in degrees", yoke,

@@ -37,3 +37,22 @@ TEST_CASE("check says what an elastic hold that starts unstrained does to its mo
   for (Hinge& hinge : scene.hinges) hinge.spring = hinge.harness = {};
   CHECK(told().find("/hold") == std::string::npos); // nothing to bear
 }
+
+TEST_CASE("a release is warned of if its time and delay together reach t_end", "[warnings]") {
+  Scene scene = read_scene_file(test::three_panel_file());
+  Integration integration;
+  integration.t_end = 10;
+  for (const auto& [time, delay, late] : {std::tuple{9.5, 0.0, false},
+                                          {9.5, 0.4, false},
+                                          {9.5, 0.5, true},
+                                          {2.0, 8.5, true},
+                                          {10.0, 0.0, true}}) {
+    CAPTURE(time, delay);
+    Release& release = scene.hinges[1].release.emplace();
+    release.time = time, release.delay = delay;
+    InputWarnings warnings(ScenePlace{"scene.json"});
+    check_life(scene, integration, Outcome(), warnings);
+    REQUIRE(std::ssize(warnings.list()) == (late ? 1 : 0));
+    if (late) CHECK(warnings.list().front().pointer == "/hinges/1/release/time");
+  }
+}

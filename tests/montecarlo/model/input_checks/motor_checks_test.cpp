@@ -1,10 +1,13 @@
 #include "montecarlo/model/input_checks/motor_checks.hpp"
 #include "montecarlo/model/scene_file/scene_json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <memory>
+#include <random>
 
 using namespace wingspread;
 
@@ -48,4 +51,41 @@ TEST_CASE("a motor that bends its latch is warned of by what is commanded while 
   CHECK(told({0, 15, 18}, {0.1, 0.1, 0}).empty()); // as the warning advises
   nominal.latches.clear();                         // does not latch: the last command counts
   CHECK(told({0, 50, 55}, {0.1, 0.1, 0}).empty());
+}
+
+TEST_CASE("a motor's table and its scale are warned of as the scaled table is", "[warnings]") {
+  std::mt19937_64 random(4);
+  const Scene plain = read_scene_file(test::three_panel_file());
+  Outcome nominal;
+  nominal.latches = {{0, 5, {0.1, 0, 0}}};
+  std::size_t warned = 0;
+  for (int k = 0; k < 200; ++k) {
+    const double scale = std::exp2(std::floor(8 * test::uniform(random)) - 4); // rounds nothing
+    const std::vector<double> time{0, 4, 8, 12};
+    std::vector<double> rates, scaled;
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      rates.push_back(2 * test::uniform(random) - 0.5);
+      scaled.push_back(scale * rates.back());
+    }
+    const double gain = std::pow(10, 12 * test::uniform(random));
+    const auto told = [&](const std::vector<double>& values, double factor) {
+      Scene scene = plain;
+      for (Hinge& hinge : scene.hinges) {
+        hinge.spring = {};
+        Motor& motor = hinge.motor.emplace();
+        motor.gain = gain, motor.torque_limit = 5, motor.scale = factor;
+        motor.time = time, motor.rates = values;
+        motor.table = std::make_shared<Curve>(time, values, Interpolation::linear);
+      }
+      InputWarnings warnings(ScenePlace{"scene.json"});
+      check_motors(scene, Integration(), nominal, warnings);
+      std::vector<std::string> lines;
+      for (const InputWarning& each : warnings.list())
+        lines.push_back(each.pointer + ": " + each.found + each.usual);
+      return lines;
+    };
+    CHECK(told(rates, scale) == told(scaled, 1));
+    warned += told(scaled, 1).size();
+  }
+  CHECK(warned > 100);
 }

@@ -110,3 +110,13 @@ TEST_CASE("A mirror that makes no second wing is refused", "[mirror]") {
   CHECK_THAT(said, Catch::Contains("mirror") || Catch::Contains("between"));
   if (*message != '\0') CHECK(test::facts_of(said) == test::facts_of(message));
 }
+
+TEST_CASE("A mirrored hold waits for the hinge of its own wing", "[mirror]") {
+  Json json = two_wings();
+  json["hinges"][1]["release"] = parse_json(R"({ "after": "R_root", "event": "latched" })");
+  const Scene scene = read_scene(json);
+  REQUIRE(scene.hinges.size() == 4);
+  CHECK(scene.hinges[1].release->after == 0);
+  REQUIRE(scene.hinges[3].name == "L_mid");
+  CHECK(scene.hinges[3].release->after == 2);
+}

@@ -147,3 +147,53 @@ TEST_CASE("a sequence has the events of every hinge, and only a wing with holds 
   campaign["scene"]["hinges"][2]["release"]["fails"] = 1;
   CHECK(envelopes_json(*made(campaign), {}, 2)["sequence"][2]["release"]["fails"] == 1);
 }
+
+// A latch that lets go once a run or more often, in some runs.
+TEST_CASE("runs in which an event happens, and how often it does, are those of the runs made again",
+          "[page]") {
+  Json json = quick_campaign(24);
+  json["scene"]["hinges"][0]["latch"]["holding_moment"] = 60;
+  json["scene"]["hinges"][2]["latch"]["capture_rate"] = 0.9;
+  for (Json& hinge : json["scene"]["hinges"])
+    hinge["stop"] = parse_json(R"([ { "side": "stowed", "stiffness": 500, "dissipation": 0.2 },
+                                    { "side": "latched", "stiffness": 500, "dissipation": 0.2 } ])");
+  const auto source = made(json);
+  PageDetail detail;
+  const Json sequence = envelopes_json(*source, detail, 2)["sequence"];
+  const RunPlan plan(source->stored.campaign);
+  const std::size_t hinges = source->stored.campaign.scene.hinges.size();
+  struct Count {
+    std::size_t runs = 0, events = 0;
+  };
+  std::map<std::string, std::vector<Count>> expected;
+  const double end = 1.08 * std::ranges::max(sorted_present(source->results.outputs.back().values));
+  Goal goal;
+  goal.to_t_end = true;
+  for (long run = 0; run < 24; ++run) {
+    const bool deployed = source->results.status[static_cast<std::size_t>(run)] == Status::deployed;
+    Runner runner(plan);
+    const Outcome outcome =
+        deployed ? runner.watch(run, goal, std::min(end, plan.integration().t_end), {})
+                 : runner.replay(run, {}).outcome;
+    const auto add = [&](const char* kind, const auto& events) {
+      auto& counts = expected[kind];
+      counts.resize(hinges);
+      for (std::size_t h = 0; h < hinges; ++h) {
+        const auto own = static_cast<std::size_t>(std::ranges::count_if(
+            events, [&](const auto& event) { return event.hinge == static_cast<int>(h); }));
+        counts[h].runs += own > 0 ? 1 : 0;
+        counts[h].events += own;
+      }
+    };
+    add("latched", outcome.latches), add("missed", outcome.missed), add("let_go", outcome.let_go);
+  }
+  bool some = false; // more than once in a run
+  for (const auto& [kind, counts] : expected)
+    for (std::size_t h = 0; h < hinges; ++h) {
+      CAPTURE(kind, h);
+      CHECK(sequence[h][kind]["runs"] == counts[h].runs);
+      CHECK(sequence[h][kind]["count"] == counts[h].events);
+      some = some || counts[h].events > counts[h].runs;
+    }
+  CHECK(some);
+}

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -122,4 +123,38 @@ TEST_CASE("each spring's arc begins beside the child that the spring turns, in e
     ++arc;
   }
   CHECK(arc == 3 * h);
+}
+
+// A path's sweep flag is 1 for the clockwise arc on the page. Both flags give arcs of one radius between the same two
+// ends; only the right one is centred on the hinge.
+TEST_CASE("each spring's arc is centred on its hinge, whichever way the spring turns") {
+  WingDesign design;
+  design.panels = 3, design.wings = 2, design.damper = 0; // mirrored wings turn in opposite senses
+  const std::string svg = draw_wing(scene_of(design));
+  const auto hinges = drawn_at(svg, "class=\"hinge\"", "cx", "cy");
+  std::size_t arc = 0;
+  std::array<int, 2> flags{};
+  std::istringstream in(svg);
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("class=\"spring\"") == line.npos) continue;
+    std::istringstream path(line.substr(line.find(" d=\"M ") + 6));
+    Eigen::Vector2d from, to;
+    double rx = 0, ry = 0;
+    int rotation = 0, large = 0, clockwise = 0;
+    char letter = 0;
+    path >> from.x() >> from.y() >> letter >> rx >> ry >> rotation >> large >> clockwise >>
+        to.x() >> to.y();
+    REQUIRE((letter == 'A' && rx == ry && large == 0));
+    const Eigen::Vector2d chord = to - from, across{-chord.y(), chord.x()};
+    const double half = chord.norm() / 2;
+    const Eigen::Vector2d centre = (from + to) / 2 + (clockwise != 0 ? 1 : -1) *
+                                                         std::sqrt(rx * rx - half * half) *
+                                                         across.normalized();
+    CAPTURE(line);
+    CHECK((centre - hinges.at(arc)).norm() < 0.5); // px; ends are rounded to 0.1
+    ++flags.at(static_cast<std::size_t>(clockwise));
+    ++arc;
+  }
+  CHECK(arc == hinges.size());
+  CHECK((flags[0] > 0 && flags[1] > 0));
 }

@@ -148,3 +148,31 @@ TEST_CASE("the kernel's effects change the scene as a run's draws do", "[page]")
     CHECK(write_scene(named_like(read.scene, scene)) == write_scene(scene));
   }
 }
+
+TEST_CASE("each slider's place is the number that it says, of its own hinge", "[page]") {
+  for (Json scene : {real_scene(), small_scene(), parse_json_file(three_panel_file())}) {
+    Json json = quick_campaign(3);
+    json["scene"] = scene;
+    json["dispersions"] = Json::array();
+    const Campaign campaign = campaign_of(json);
+    const Json kernel = kernel_json(campaign);
+    NumbersIn reading(kernel["numbers"]);
+    NumberedCampaign read;
+    CampaignNumbers<NumbersIn> visit(reading);
+    visit.scene(read.scene);
+    REQUIRE(kernel["hinges"].size() == read.scene.hinges.size());
+    for (std::size_t h = 0; h < read.scene.hinges.size(); ++h) {
+      Hinge& hinge = read.scene.hinges[h];
+      const auto is_at = [&](const char* slider, const double* number) {
+        const Json& place = kernel["hinges"][h][slider];
+        CAPTURE(h, slider);
+        REQUIRE(place.is_null() == (number == nullptr));
+        if (number) CHECK(reading.places.at(place.get<std::size_t>()) == number);
+      };
+      is_at("spring", &hinge.spring.scale);
+      is_at("friction", &hinge.friction.scale);
+      is_at("damper", hinge.damper ? &hinge.damper->scale : nullptr);
+      is_at("latch", hinge.latch ? &hinge.latch->stiffness : nullptr);
+    }
+  }
+}

@@ -104,6 +104,45 @@ TEST_CASE("the energy's change before the first latch has its cause") {
   told("dissipated or exchanged with the motors");
 }
 
+TEST_CASE("each part that dissipates alone makes the energy's change a dissipation") {
+  const Scene plain = read_scene_file(three_panel_file());
+  const Outcome outcome = simulate(plain, 1);
+  const std::vector<std::pair<const char*, void (*)(Scene&)>> parts{
+      {"coulomb", [](Scene& scene) { scene.hinges[1].friction.coulomb = 0.1; }},
+      {"viscous", [](Scene& scene) { scene.hinges[1].friction.viscous = 0.1; }},
+      {"damper", [](Scene& scene) { scene.hinges[1].damper.emplace(); }},
+      {"stop",
+       [](Scene& scene) {
+         scene.hinges[1].stop = Stop{100, 0.1, 0};
+       }},
+      {"far stop",
+       [](Scene& scene) {
+         scene.hinges[1].far_stop = Stop{100, 0.1, 0};
+       }},
+      {"hold",
+       [](Scene& scene) {
+         scene.hinges[1].hold = Hold{100, 1};
+       }},
+      {"joint",
+       [](Scene& scene) {
+         scene.hinges[1].joint = Joint{100, 1};
+       }},
+      {"loop", [](Scene& scene) { scene.synchronisations.emplace_back().damping = 1; }},
+      {"air", [](Scene& scene) {
+         scene.bodies[1].plate.emplace();
+         scene.environment.air_density = 1.2;
+       }}};
+  for (const auto& [name, add] : parts) {
+    CAPTURE(name);
+    Scene scene = plain;
+    add(scene);
+    CHECK_THAT(outcome_text(scene, outcome), Catch::Contains(" J dissipated before"));
+  }
+  Scene elastic = plain; // stores energy only
+  elastic.hinges[1].far_stop = Stop{100, 0, 0};
+  CHECK_THAT(outcome_text(elastic, outcome), !Catch::Contains(" J dissipated before"));
+}
+
 TEST_CASE("overtravel stands by hinge, and in the table, and is warned of without a stop") {
   Scene scene = read_scene_file(three_panel_file());
   Outcome outcome = simulate(scene, 1);

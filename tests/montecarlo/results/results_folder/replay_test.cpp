@@ -89,3 +89,31 @@ TEST_CASE("every difference is named with its column") {
             "run 4, column latch_order: recorded as \"root\", computed as \"\"",
             "run 4, column reason: recorded as \"\", computed as \"why\""});
 }
+
+TEST_CASE("a difference in any one column of a row is found, and named with the column alone") {
+  const Campaign campaign = campaign_of(full_campaign(4));
+  const RunPlan plan(campaign);
+  const ResultNames& names = plan.names();
+  REQUIRE(names.peaks_final);
+  const ResultRow row = Runner(plan).run(0);
+  std::vector<ResultRow> others;
+  std::vector<std::string> columns;
+  const auto other = [&](const std::string& column) -> ResultRow& {
+    columns.push_back(column);
+    return others.emplace_back(row);
+  };
+  other("status").status = row.status == Status::failed ? Status::invalid : Status::failed;
+  for (std::size_t i = 0; i < names.draws.size(); ++i) other(names.draws[i]).draws[i] = 1e300;
+  for (std::size_t i = 0; i < names.outputs.size(); ++i) other(names.outputs[i]).outputs[i] = 1e300;
+  other("peaks_final").peaks_final =
+      row.peaks_final == PeaksFinal::yes ? PeaksFinal::no : PeaksFinal::yes;
+  other("latch_order").latch_order += ">x";
+  other("reason").reason += "x";
+  CHECK(columns.size() + 1 == header_cells(names).size()); // `run` tells which row it is
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    const std::vector<std::string> found = differences(names, others[k], row);
+    CAPTURE(columns[k]);
+    REQUIRE(found.size() == 1);
+    CHECK_THAT(found.front(), Catch::Contains(", column " + columns[k] + ": "));
+  }
+}

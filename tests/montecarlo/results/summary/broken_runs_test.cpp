@@ -3,7 +3,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <limits>
+#include <random>
+#include <utility>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -81,4 +84,43 @@ TEST_CASE("a run breaks `deployed` only by not deploying") {
   CHECK(broken.not_deployed == 3);
   CHECK(broken.beyond == 0);
   CHECK_FALSE(broken.worst);
+}
+
+TEST_CASE(
+    "a limit of the magnitude has the broken runs of the magnitudes, and a minimum those of the "
+    "mirror image's maximum") {
+  std::mt19937_64 random(6);
+  for (int k = 0; k < 50; ++k) {
+    const ResultNames names{{}, {"root.latch_rate"}};
+    Results plain(names), sizes(names), mirrored(names);
+    for (long run = 0; run < 40; ++run) {
+      const auto status = uniform(random) < 0.9 ? Status::deployed : Status::stalled;
+      const double value = uniform(random) < 0.9 ? 2 * uniform(random) - 1 : nothing;
+      plain.append({run, status, {}, {value}, "a", ""});
+      sizes.append({run, status, {}, {std::abs(value)}, "a", ""});
+      mirrored.append({run, status, {}, {-value}, "a", ""});
+    }
+    const double limit = 0.2 + 0.6 * uniform(random);
+    const auto of = [](Requirement requirement, const Results& results, double sign = 1) {
+      const Verdict verdict = judge(requirement, results);
+      const BrokenRuns found = broken_runs(verdict, results, 100);
+      CHECK(found.not_deployed + found.without_value + found.beyond == verdict.failures());
+      std::vector<std::pair<long, double>> listed{{found.worst->run, sign * found.worst->value}};
+      for (const JudgedRun& each : found.beyond_runs)
+        listed.emplace_back(each.run, sign * each.value);
+      CHECK(std::ssize(listed) == found.beyond + 1);
+      return listed;
+    };
+    for (const bool upper : {true, false}) {
+      Requirement requirement{"", "root.latch_rate", {}, {}, .5, .5};
+      (upper ? requirement.max : requirement.min) = limit;
+      const auto expected = of(requirement, sizes);
+      requirement.absolute = true;
+      CHECK(of(requirement, plain) == expected);
+      CHECK(of(requirement, mirrored) == expected);
+    }
+    const Requirement least{"", "root.latch_rate", {}, -limit, .5, .5},
+        most{"", "root.latch_rate", limit, {}, .5, .5};
+    CHECK(of(least, plain) == of(most, mirrored, -1));
+  }
 }

@@ -2,10 +2,16 @@
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "montecarlo/results/summary/table.hpp"
 #include "montecarlo/results/summary/warnings.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <random>
 
 using namespace wingspread;
+using namespace wingspread::test;
 
 namespace {
 
@@ -111,6 +117,25 @@ TEST_CASE("a warning of several cases has the number of each") {
   const std::vector<CaseSummary> alike{of_case("cold", 4), of_case("hot", 4)};
   CHECK_THAT(warnings(alike).at(0), Catch::StartsWith("in 4 of 4 runs t_end cut the peaks: ") &&
                                         Catch::EndsWith(" (every case)"));
+}
+
+TEST_CASE("a warning of several cases has the least and the largest number, of any length") {
+  std::mt19937_64 random(2);
+  for (int k = 0; k < 50; ++k) {
+    std::vector<CaseSummary> cases;
+    long least = 4000, largest = 0;
+    for (const char* name : {"cold", "ambient", "hot"}) {
+      const long cut = 1 + static_cast<long>(std::pow(4000, uniform(random))); // 1 to 4 digits
+      least = std::min(least, cut), largest = std::max(largest, cut);
+      cases.push_back({name, summarize(four_runs(), {})});
+      cases.back().summary.runs = 4001;
+      cases.back().summary.peaks.emplace().add(PeaksFinal::no, cut);
+    }
+    const std::string range =
+        least == largest ? fmt::format("{}", least) : fmt::format("{} to {}", least, largest);
+    CHECK_THAT(warnings(cases).at(0),
+               Catch::StartsWith("in " + range + " of 4001 runs t_end cut the peaks: "));
+  }
 }
 
 TEST_CASE("peaks of one kind that t_end cut are named, and latches that may let go after it") {

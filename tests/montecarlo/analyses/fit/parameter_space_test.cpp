@@ -1,0 +1,60 @@
+#include "montecarlo/analyses/fit/parameter_space.hpp"
+#include "tests/montecarlo/analyses/fit/fit_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+// Of three tests, the second has no clock of its own and the first and third have an own friction.
+TEST_CASE("offsets and own parameters are each test's own, whichever test has them", "[fit]") {
+  const Campaign campaign = campaign_of(panel_campaign());
+  FitSpec spec;
+  spec.parameters = {0, 1};
+  spec.tests.resize(3);
+  for (std::size_t t = 0; t < 3; ++t) {
+    FitTest& test = spec.tests[t];
+    test.name = "test " + std::to_string(t);
+    test.columns.resize(2);
+    for (std::size_t c = 0; c < 2; ++c) {
+      test.columns[c].name = "column " + std::to_string(c);
+      test.columns[c].offset_std = 0.1 * static_cast<double>(10 * t + c + 1);
+    }
+    if (t == 1) continue;
+    test.time_offset_std = 0.01 * static_cast<double>(t + 1);
+    test.own = {1};
+  }
+  spec.tests[2].columns[0].std = 1; // known noise: its offset is integrated out
+  const ParameterSpace space(campaign, spec);
+  // spring and friction in common; friction of tests 0 and 2; two clocks; offsets of all columns but one
+  REQUIRE(space.size() == 2 + 2 + 2 + 5);
+  CHECK(space.common() == 2);
+  FitPoint at(static_cast<Eigen::Index>(space.size()));
+  for (Eigen::Index k = 0; k < at.size(); ++k) at[k] = 1 + 0.1 * static_cast<double>(k);
+  const auto named = [&](const std::string& name) {
+    for (std::size_t k = 0; k < space.size(); ++k)
+      if (space.list()[k].name == name) return at[static_cast<Eigen::Index>(k)];
+    FAIL("no parameter " + name);
+    return 0.0;
+  };
+  for (std::size_t t = 0; t < 3; ++t) {
+    const FitTest& test = spec.tests[t];
+    CAPTURE(t);
+    CHECK(space.time_offset(t, at) ==
+          (t == 1 ? 0 : test.time_offset_std * named("time offset of " + test.name)));
+    for (std::size_t c = 0; c < 2; ++c)
+      CHECK(space.column_offset(t, c, at) ==
+            (test.columns[c].std
+                 ? 0
+                 : test.columns[c].offset_std *
+                       named("offset of " + test.columns[c].name + " of " + test.name)));
+    std::vector<Tails> u(2);
+    space.place(t, at, u);
+    const auto lies_at = [](const Tails& tails, double z) {
+      const Tails expected = unit_point(z);
+      return tails.below == expected.below && tails.above == expected.above;
+    };
+    CHECK(lies_at(u[0], named("spring")));
+    CHECK(lies_at(u[1], named(t == 1 ? "friction" : "friction of " + test.name)));
+  }
+}
