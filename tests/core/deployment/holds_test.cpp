@@ -197,6 +197,19 @@ TEST_CASE("a wing that is released late turns the free base; the angular momentu
   }
 }
 
+TEST_CASE("the energy of an elastic hold counts beside laws of real hinges too") {
+  Scene scene = latching_panel();
+  scene.hinges[0].release = at_time(50), scene.hinges[0].hold = Hold{100, 0};
+  Scene real = scene;
+  real.hinges[0].stop = Stop{1e3, 0, 1}; // never touched
+  for (const Scene& one : {scene, real}) {
+    const Outcome out = run(one, 1e-10, 3.1);
+    CHECK(out.hold_moment[0].value == Approx(4)); // it swings about its load
+    CHECK(out.energy.final == Approx(out.energy.initial).margin(1e-7));
+    CHECK(out.energy.drift_before_first_latch < 1e-7);
+  }
+}
+
 TEST_CASE("a hold that fails stalls the run, which names its hinge") {
   Scene scene = two_panels();
   scene.hinges[1].release = at_time(1);
