@@ -26,6 +26,5 @@ TEST_CASE(
     scene.base.angular_acceleration = draws.uniform(0.05, 0.2);
     scenes.push_back(scene);
   }
-  for (const double rtol : {1e-3, 1e-6})
-    require_equal_bits(scenes, within(rtol, 20), every_peak);
+  for (const double rtol : {1e-3, 1e-6}) require_equal_bits(scenes, within(rtol, 20), every_peak);
 }
