@@ -117,7 +117,10 @@ private:
     samples_.raise_to_ends(i, step, peaks[i]);
     T highest = peaks[i].value;
     for (int k = 0; k <= samples_.last; ++k) {
-      if (!samples_.wants_search(i, k, peaks[i])) continue;
+      const bool wanted = system.wing().plates.empty()
+                              ? samples_.wants_search(i, k, peaks[i])
+                              : samples_.wants_search_in_air(i, k, peaks[i]);
+      if (!wanted) continue;
       const auto [found, vertex] = maximum_near(samples_.of(i), k, [&](const T& s) {
         evaluate(system, step, s, x, dxdt);
         return magnitude(system, i);

@@ -65,11 +65,15 @@ public:
   /// Whether a maximum above the peak may lie beside sample k.
   [[nodiscard]] auto wants_search(int i, int k, const PeakOf<T>& peak) const {
     const std::array<T, 5>& f = samples_[i];
-    auto crest = T(0) <= T(0);
-    if (k > 0) crest = crest && f[k] >= f[k - 1];
-    if (k < last) crest = crest && f[k] >= f[k + 1];
-    crest = crest && may_rise(i, f[k], f[k], T(1) / T(16), peak);
-    return k == 0 || k == last ? crest && !at_an_end_for_sure(f, k) : crest;
+    return crests(i, k) && may_rise(i, f[k], f[k], T(1) / T(16), peak);
+  }
+  /// The same in air, of which the bound has no term: by the samples alone. Where they resolve a crest it exceeds them by
+  /// up to an eighth of their second difference. Heuristic: four times as much is allowed; with less a crest between
+  /// samples is lost where the peak lies between the samples and the crest.
+  [[nodiscard]] auto wants_search_in_air(int i, int k, const PeakOf<T>& peak) const {
+    using std::abs;
+    const T excess = abs(bend(i, k)) / T(32);
+    return crests(i, k) && samples_[i][k] + excess > peak.value;
   }
 
   /// d²/ds² by the samples about the k-th, N.
@@ -80,6 +84,15 @@ public:
   }
 
 private:
+  /// Whether sample k is no less than its neighbours, and a maximum may lie beside it.
+  [[nodiscard]] auto crests(int i, int k) const {
+    const std::array<T, 5>& f = samples_[i];
+    auto crest = T(0) <= T(0);
+    if (k > 0) crest = crest && f[k] >= f[k - 1];
+    if (k < last) crest = crest && f[k] >= f[k + 1];
+    return k == 0 || k == last ? crest && !at_an_end_for_sure(f, k) : crest;
+  }
+
   /// @param part of the rise over the whole step
   [[nodiscard]] auto may_rise(int i, const T& a, const T& b, const T& part,
                               const PeakOf<T>& peak) const {

@@ -1,4 +1,5 @@
 #include "core/dense/curved_search.hpp"
+#include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -105,4 +106,21 @@ TEST_CASE("a search ends, whatever its bound says") {
           Approx(-1).epsilon(1e-9));
     CHECK(calls < 2 << detail::most_halvings);
   }
+}
+
+TEST_CASE("a sample above the floor and both ends is a crest, however close the bound is") {
+  oracle::Draws draws(31);
+  int crests = 0;
+  for (int k = 0; k < 200; ++k) {
+    std::array<Sampled<double>, 5> samples{};
+    for (int n = 0; n < 5; ++n) samples[n] = {0.25 * n, draws.uniform(0, 1)};
+    const double floor = draws.uniform(0, 1.2);
+    const double least = std::max({samples.front().value, samples.back().value, floor});
+    const bool crest = std::ranges::any_of(
+        samples, [&](const Sampled<double>& sample) { return sample.value > least; });
+    crests += crest;
+    CHECK(may_crest_between(samples, Bulge<double>{0}, floor, 0.0) == crest);
+    CHECK(may_crest_between(samples, Bulge<double>{1e-3}, floor, 1e-2) == crest);
+  }
+  CHECK(crests >= 30);
 }

@@ -196,3 +196,20 @@ TEST_CASE("random wings with joints and flexible bodies agree with the reference
   CHECK(latches > 0);
   CHECK(bent >= cases / 2);
 }
+
+TEST_CASE("every output of a flexible wing has one entry for each of its hinges or bodies, none "
+          "for joints") {
+  Scene scene = bending_rod(3, 100, 0.5);
+  scene.hinges[0].motor = Motor{.rate = 0.2, .gain = 5, .torque_limit = 3};
+  scene.hinges[0].release = Release{.time = 0.1}, scene.hinges[0].initial_rate = 0;
+  REQUIRE(with_segments(scene).scene.hinges.size() == 4);
+  const Outcome out = run(scene, 1e-8, 1);
+  REQUIRE(out.status != Status::failed);
+  for (const auto* values :
+       {&out.final_angle, &out.motor_energy, &out.overtravel, &out.final.angles, &out.final.rates})
+    CHECK(values->size() == 1);
+  for (const auto* peaks :
+       {&out.peak_moment, &out.peak_force, &out.hold_moment, &out.bending_moment})
+    CHECK(peaks->size() == 1);
+  for (const LatchEvent& latch : out.latches) CHECK(latch.rates.size() == 1);
+}

@@ -130,6 +130,7 @@ TEST_CASE("a hinge is released after another one latches, is released, or passes
                          std::pair{after(0, Release::Event::passed, 0, pi / 8), 1 + quarter}};
   for (const auto& [release, time] : cases) {
     Scene scene = two_panels();
+    scene.hinges[0].stowed += 0.4, scene.hinges[0].latched += 0.4; // angles count from its own
     scene.hinges[0].release = at_time(1);
     scene.hinges[1].release = release;
     CAPTURE(static_cast<int>(release.event), release.delay);
@@ -196,6 +197,19 @@ TEST_CASE("a wing that is released late turns the free base; the angular momentu
   }
 }
 
+TEST_CASE("the energy of an elastic hold counts beside laws of real hinges too") {
+  Scene scene = latching_panel();
+  scene.hinges[0].release = at_time(50), scene.hinges[0].hold = Hold{100, 0};
+  Scene real = scene;
+  real.hinges[0].stop = Stop{1e3, 0, 1}; // never touched
+  for (const Scene& one : {scene, real}) {
+    const Outcome out = run(one, 1e-10, 3.1);
+    CHECK(out.hold_moment[0].value == Approx(4)); // it swings about its load
+    CHECK(out.energy.final == Approx(out.energy.initial).margin(1e-7));
+    CHECK(out.energy.drift_before_first_latch < 1e-7);
+  }
+}
+
 TEST_CASE("a hold that fails stalls the run, which names its hinge") {
   Scene scene = two_panels();
   scene.hinges[1].release = at_time(1);
@@ -223,6 +237,18 @@ TEST_CASE("a hold that waits for what never comes stalls the run; the first caus
   scene.hinges[0].release.reset();
   rub(scene.hinges[0], 3); // sticks
   CHECK(run_stalled(scene, 60).reason == "other was never released");
+}
+
+TEST_CASE("a hold that waits for a hinge without a latch, which sticks for good, never lets go") {
+  Scene scene = two_panels();
+  for (Hinge& hinge : scene.hinges) hinge.latch.reset();
+  scene.hinges[1].release = after(0, Release::Event::passed, 0, 0.5);
+  rub(scene.hinges[0], 3); // sticks
+  const Outcome out = run_stalled(scene, 60);
+  CHECK(out.may_release_later.empty());
+  CHECK(out.never_released == std::vector<int>{1});
+  scene.hinges[0].friction = {}; // it moves, but not as far before the end
+  CHECK(run_stalled(scene, 0.1).may_release_later == std::vector<int>{1});
 }
 
 TEST_CASE("a hold whose time is after t_end has stalled the run at t_end") {

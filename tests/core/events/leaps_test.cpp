@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 using namespace wingspread;
@@ -97,4 +98,36 @@ TEST_CASE("the first tests for kinks exclude steps that are short") {
   });
   CHECK(leaps == 0);
   CHECK(kinks <= 3);
+}
+
+// A way visits the pieces of a table in which its samples lie. A step that visits a piece beside those of its ends may
+// have leapt over it, and so may one whose ends lie more than one knot apart.
+TEST_CASE("a way that turns beyond a knot, or passes two, passes knots twice, and no other does") {
+  int turned = 0, passed = 0, plain = 0;
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    Draws draws(seed);
+    std::vector<double> x{0}, y{0};
+    for (int k = 0; k < 4; ++k)
+      x.push_back(x.back() + draws.log_uniform(0.02, 1)), y.push_back(draws.uniform(-1, 1));
+    const Curve curve(x, y, Interpolation::linear);
+    const double from = draws.uniform(-0.2, 2), chord = draws.uniform(-0.5, 0.5),
+                 bulge = draws.uniform(-1, 1);
+    const auto way = [&](double s) { return from + chord * s + bulge * s * (1 - s); };
+    const auto piece = [&](double at) {
+      return std::ranges::count_if(x, [&](double knot) { return knot <= at; });
+    };
+    const auto first = piece(way(0)), last = piece(way(1));
+    double low = way(0), high = way(0);
+    bool leaves = false; // the pieces of its ends
+    for (int k = 0; k <= 5000; ++k) {
+      const double at = way(k / 5000.0);
+      low = std::min(low, at), high = std::max(high, at);
+      leaves = leaves || (piece(at) != first && piece(at) != last);
+    }
+    const bool twice = leaves || std::abs(first - last) > 1;
+    (!twice ? plain : std::abs(first - last) > 1 ? passed : turned) += 1;
+    CAPTURE(seed, from, chord, bulge);
+    CHECK(detail::passes_knots_twice(curve, way(0), way(1), low, high) == twice);
+  }
+  CHECK(std::min({turned, passed, plain}) >= 100);
 }

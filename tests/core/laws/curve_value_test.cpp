@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 using namespace wingspread;
@@ -47,6 +49,28 @@ TEST_CASE("a slope's range over an interval holds its values there, and no more"
     CHECK(least >= range.low - 1e-12);
     CHECK(most <= range.high + 1e-12);
     CHECK(range.high - range.low <= (most - least) * 1.02 + 1e-2); // knots are not sampled
+  }
+}
+
+TEST_CASE("no slope of a curve is further from a given one than the most change of it, and one is "
+          "as far") {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Draws draws(seed);
+    std::vector<double> x{0}, y;
+    for (int k = 0; k < 5; ++k) x.push_back(x.back() + draws.log_uniform(0.05, 1));
+    for (std::size_t k = 0; k < x.size(); ++k)
+      y.push_back(seed % 4 == 0 && k > 0 ? y.back() + draws.uniform(-1, 0) : draws.uniform(-1, 1));
+    const Curve curve(x, y, seed % 3 == 0 ? Interpolation::linear : Interpolation::monotone,
+                      seed % 2 == 0 ? Beyond::constant : Beyond::straight);
+    for (const double here : {0.0, slope(curve, draws.uniform(0, x.back())), -20.0, 20.0}) {
+      double most = 0;
+      for (int k = -10; k <= 4010; ++k)
+        most = std::max(most, std::abs(slope(curve, x.back() * k / 4000) - here));
+      const double allowed = most_change_of_slope(curve, here);
+      CAPTURE(seed, here, most, allowed);
+      CHECK(most <= allowed * (1 + 1e-12));
+      CHECK(allowed <= most * 1.02 + 1e-2); // knots are not sampled
+    }
   }
 }
 

@@ -177,11 +177,13 @@ struct CrestInStep {
     system(q, found, t);
   }
   /// The places at which the force is evaluated for a gain that is worth a step: the doubt, and its corrections.
-  std::vector<double> places(double worth) {
+  /// @param before the largest force before the step, N
+  std::vector<double> places(double worth, double before = 0) {
     State<double> x(2), dxdt(2);
     forces.start(system, worth);
     evaluate(0, step.x, step.dxdt);
     forces.sample(system, step.t);
+    forces.peaks[1].raise(before, 0);
     evaluate(1, step.x1, step.dxdt1);
     forces.over_step(system, step, x, dxdt);
     std::vector<double> all;
@@ -251,6 +253,25 @@ TEST_CASE("a crest of the air's force inside a step is found, wherever it lies")
     run.evaluate(part, x, rates);
     CHECK(crest == Approx(std::hypot(run.work.forces[1].x, run.work.forces[1].y)).epsilon(1e-3));
     CHECK(run.forces.peaks[1].time == Approx(0.5 * std::numbers::pi).margin(0.02));
+    REQUIRE(found.size() == 1);
+    CHECK(found[0] == Approx(part).margin(0.02));
+  }
+}
+
+// The peak so far lies just below the crest, and above the force at the step's middle and ends.
+TEST_CASE("a crest of the air's force beside the middle of a step is found above a peak nearly as "
+          "large") {
+  Scene scene = unit_oscillator(2);
+  scene.bodies[0].mass = 1e-9, scene.bodies[0].inertia = 1e6;
+  scene.bodies[0].plate = Plate{{0, -0.3}, {0, 0.7}, 1, 2};
+  scene.environment.air_density = 1;
+  for (const double part : {0.2, 0.25, 0.75, 0.8}) {
+    CrestInStep run(0.5 * std::numbers::pi - part * 0.8, 0.8, scene);
+    State<double> x(2), rates(2);
+    run.evaluate(part, x, rates);
+    const double crest = std::hypot(run.work.forces[1].x, run.work.forces[1].y);
+    const std::vector<double> found = run.places(1, crest * (1 - 1e-3));
+    CAPTURE(part, crest);
     REQUIRE(found.size() == 1);
     CHECK(found[0] == Approx(part).margin(0.02));
   }

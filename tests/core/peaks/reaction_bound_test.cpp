@@ -34,6 +34,36 @@ template <BaseMotion M> void check_random_wings() {
 
 } // namespace
 
+// The first moment about a hinge: of its own body, and of each body further out at the hinge by which it hangs there.
+TEST_CASE("a lever's mass and first moment are those of all that is outward of its hinge") {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    oracle::RandomScene options;
+    options.bodies = 1 + static_cast<int>(seed % 7), options.branching = seed % 2 == 0;
+    const Scene scene = oracle::random_scene(500 + seed, options);
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    std::vector<Lever<double>> levers;
+    set_levers(wing, wing.tree, levers);
+    for (int i = 1; i <= wing.size(); ++i) {
+      double mass = 0;
+      Vec2<double> moment{0, 0};
+      for (int k = i; k <= wing.size(); ++k) {
+        Vec2<double> place = wing.bodies[k].center;
+        int on = k;
+        for (; on > i; on = wing.tree.parent_of(on)) place = wing.bodies[on].arm;
+        if (on != i) continue;
+        mass += wing.bodies[k].mass, moment = fused(wing.bodies[k].mass, place, moment);
+      }
+      CAPTURE(seed, i);
+      CHECK(levers[i].mass == Approx(mass));
+      CHECK(levers[i].sigma.x == Approx(moment.x).margin(1e-12));
+      CHECK(levers[i].sigma.y == Approx(moment.y).margin(1e-12));
+      CHECK(levers[i].moment == Approx(std::hypot(moment.x, moment.y)));
+      CHECK(levers[i].arm == Approx(std::hypot(wing.bodies[i].arm.x, wing.bodies[i].arm.y)));
+    }
+  }
+}
+
 TEST_CASE("a hinge force rises no more inside a step than the bound says: fixed base") {
   check_random_wings<BaseMotion::fixed>();
 }

@@ -304,3 +304,21 @@ TEST_CASE("what a loop leaves out of the model is its torque less its linear par
       for (const int i : {0, 1}) CHECK(bound(i) <= 1.15 * most[i] + 1e-12);
   }
 }
+
+TEST_CASE(
+    "the model of a wing on a base that turns faster or slower knows its largest rate to the end") {
+  for (int k = 0; k < 100; ++k) {
+    Draws draws(8800 + k);
+    Scene scene = oracle::latching_panel();
+    scene.base.motion = BaseMotion::prescribed;
+    scene.base.rate = draws.uniform(-2, 2), scene.base.angular_acceleration = draws.uniform(-2, 2);
+    const double end = draws.log_uniform(0.01, 10);
+    const Latched<BaseMotion::prescribed> wing(scene, end);
+    double fastest = 0;
+    for (int n = 0; n <= 200; ++n)
+      fastest = std::max(
+          fastest, std::abs(scene.base.rate + scene.base.angular_acceleration * end * n / 200));
+    CAPTURE(k, scene.base.rate, scene.base.angular_acceleration, end);
+    CHECK(wing.model.spin == Approx(fastest));
+  }
+}

@@ -224,3 +224,33 @@ TEST_CASE("energy that an open hinge lacks is proven beside hinges that are latc
     CHECK(*missing == Approx(0.5 * stiffness * way * way).epsilon(1e-9));
   }
 }
+
+// A panel without a spring, at rest half-way: friction takes all that the way to its latch would need.
+TEST_CASE("no energy is called missing while an elastic hold, a motor or a law may bring some in") {
+  const auto missing = [](const Scene& scene, bool held) {
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    State<double> x;
+    system.start(x);
+    x[0] = 0.5 * (wing.hinges[1].stowed + wing.hinges[1].latched);
+    if (held) system.restrain(1, true);
+    return energy_missing(system, x, 0.0);
+  };
+  Scene scene = latching_panel();
+  scene.hinges[0].spring = {0, 0};
+  rub(scene.hinges[0], 0.5);
+  const double way = 0.5 * std::abs(scene.hinges[0].latched - scene.hinges[0].stowed);
+  REQUIRE(missing(scene, false));
+  CHECK(*missing(scene, false) == Approx(0.5 * way));
+  Scene held = scene; // its hold is deflected by half the travel
+  held.hinges[0].release = Release{.time = 1}, held.hinges[0].hold = Hold{1e3, 0};
+  CHECK_FALSE(missing(held, true));
+  CHECK(missing(held, false)); // once it has let go
+  Scene driven = scene, damped = scene;
+  driven.hinges[0].motor = Motor{.rate = 1, .gain = 5, .torque_limit = 3};
+  CHECK_FALSE(missing(driven, false));
+  damped.hinges[0].damper = Damper{};
+  CHECK_FALSE(missing(damped, false));
+}

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -69,6 +70,37 @@ TEST_CASE("segments keep mass, centre of mass and inertia, and a hinge its place
       }
     }
   }
+}
+
+// In air a segment has its part of the plate, about its own centre of mass.
+TEST_CASE("the plates of a panel's segments cover its plate once, from end to end") {
+  int cut = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Scene scene = with_bending(random_scene(seed), seed);
+    scene.environment.air_density = 1;
+    const SegmentedScene made = with_segments(scene);
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      if (!scene.bodies[b].flexible) continue;
+      ++cut;
+      const Plate& whole = *scene.bodies[b].plate;
+      const auto own = std::ranges::find(scene.hinges, static_cast<int>(b), &Hinge::child);
+      const auto on = std::ranges::find(made.scene.hinges, static_cast<int>(b), &Hinge::child);
+      const Eigen::Vector2d first = own->child_point - on->child_point;
+      Eigen::Vector2d end = whole.from;
+      CAPTURE(seed, b);
+      for (const int segment : made.segments[b]) {
+        const Eigen::Vector2d r = center_in_panel(made.scene, segment, static_cast<int>(b), first);
+        REQUIRE(made.scene.bodies[segment].plate);
+        const Plate& part = *made.scene.bodies[segment].plate;
+        CHECK((r + part.from - end).norm() < 1e-13);
+        CHECK((part.to - part.from).norm() <= (whole.to - whole.from).norm());
+        CHECK((part.width == whole.width && part.drag_coefficient == whole.drag_coefficient));
+        end = r + part.to;
+      }
+      CHECK((end - whole.to).norm() < 1e-13);
+    }
+  }
+  CHECK(cut >= 20);
 }
 
 TEST_CASE(
