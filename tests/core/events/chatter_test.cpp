@@ -71,7 +71,8 @@ Scene tied_wing(std::uint64_t seed) {
   }
   scene.hinges.back().release = Release{.fails = 1};
   for (int i = 1; i < options.bodies; ++i) {
-    Synchronisation loop{.name = std::to_string(i), .first = i - 1, .second = i};
+    Synchronisation loop;
+    loop.name = std::to_string(i), loop.first = i - 1, loop.second = i;
     loop.ratio = i == 1 ? 2 : 1;
     loop.stiffness = draws.log_uniform(1, 1e3);
     loop.damping = loop.stiffness * draws.log_uniform(0.01, 1);
