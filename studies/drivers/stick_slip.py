@@ -2,9 +2,10 @@
 
     /usr/bin/python3 studies/drivers/stick_slip.py --program build/release/wingspread --wings 2000
     /usr/bin/python3 studies/drivers/stick_slip.py --program … --wings 50 --seed 3 --rtol 1e-6 --keep DIR    # the worst scenes stay
+    /usr/bin/python3 studies/drivers/stick_slip.py --program … --wings 500 --loops                           # hinges in loops
 
 Draws wings of one to four bodies with exact friction, on fixed and free bases, with latches from lightly damped to overdamped and, of some, stops,
-dampers and gravity. Each is simulated with the static level equal to the kinetic one, where an overdamped latched hinge creeps to where its load is the
+dampers and gravity; with --loops damped loops tie neighbours, and half of the wings have a last hinge that is never let go. Each is simulated with the static level equal to the kinetic one, where an overdamped latched hinge creeps to where its load is the
 limit, and with a static level of 1.2 times that. Prints the ratio of the evaluations: the median, the worst hundredth and the worst wings.
 Exits 1 if a run fails or a ratio exceeds 20.
 """
@@ -59,6 +60,20 @@ def make_scene(dice):
     return scene
 
 
+def tie(dice, scene):
+    """Ties neighbours by loops whose strands are damped, and may hold the last hinge for good."""
+    hinges = scene["hinges"]
+    loops = scene["synchronisations"] = []
+    for first, second in zip(hinges, hinges[1:]):
+        stiffness = spread(dice, 1, 1e4)
+        ratio = abs(second["angle"]["stowed"] / first["angle"]["stowed"])
+        loops.append({"name": f"loop_{second['name']}", "between": [first["name"], second["name"]], "ratio": ratio,
+                      "stiffness": stiffness, "damping": stiffness * spread(dice, 1e-2, 1)})
+    if dice.random() < 0.5:
+        hinges[-1]["release"] = {"time": 0, "fails": 1}
+    return scene
+
+
 def simulate(given, scene, folder):
     path = folder / "scene.json"
     path.write_text(json.dumps(scene))
@@ -71,7 +86,10 @@ def simulate(given, scene, folder):
 
 
 def measure(given, index):
-    scene = make_scene(random.Random(f"{given.seed}/{index}"))
+    dice = random.Random(f"{given.seed}/{index}")
+    scene = make_scene(dice)
+    if given.loops:
+        scene = tie(dice, scene)
     easy = copy.deepcopy(scene)
     for hinge in easy["hinges"]:
         hinge["friction"]["static"] = 1.2 * hinge["friction"]["coulomb"]
@@ -88,6 +106,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--rtol", type=float, default=1e-8)
     parser.add_argument("--t-end", type=float, default=20)
+    parser.add_argument("--loops", action="store_true")
     parser.add_argument("--keep", metavar="DIR", help="the ten worst scenes are written there")
     given = parser.parse_args()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
