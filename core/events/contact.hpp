@@ -30,18 +30,21 @@ template <class T> [[nodiscard]] Contact sliding(const T& along) {
   return along > T(0) ? Contact::forward : Contact::backward;
 }
 
-/// Makes hinges with exact friction that are at rest stick, and the others slide. @return which are at rest
+/// Whether a hinge with exact friction is at rest, and since when.
+enum class Rest : char { none, as_before, just_now };
+
+/// Makes hinges with exact friction that are at rest stick, and the others slide. @return how each rests
 template <class T, class AnySystem>
-[[nodiscard]] std::vector<char> lock_hinges_at_rest(AnySystem& system, const State<T>& x) {
+[[nodiscard]] std::vector<Rest> lock_hinges_at_rest(AnySystem& system, const State<T>& x) {
   const Layout& at = system.layout();
-  std::vector<char> resting(at.bodies + 1, false);
+  std::vector<Rest> rests(at.bodies + 1, Rest::none);
   for (int i = 1; i <= at.bodies; ++i) {
     if (!system.wing().hinges[i].can_stick() || system.is_held(i)) continue;
     const T& rate = x[at.rate(i)];
-    resting[i] = rate == T(0);
-    system.set_contact(i, resting[i] ? Contact::stuck : sliding(rate));
+    if (rate == T(0)) rests[i] = system.sticks(i) ? Rest::as_before : Rest::just_now;
+    system.set_contact(i, rate == T(0) ? Contact::stuck : sliding(rate));
   }
-  return resting;
+  return rests;
 }
 
 /// The stuck hinges whose friction exceeds `slack` times its limit by more than release_margin, with the sense in which
@@ -66,10 +69,10 @@ template <class T, class AnySystem>
 template <class T, class AnySystem>
 [[nodiscard]] Contacts running_against_friction(const AnySystem& system, const State<T>& x,
                                                 const State<T>& dxdt,
-                                                const std::vector<char>& resting) {
+                                                const std::vector<Rest>& rests) {
   Contacts moves;
   for (int i = 1; i <= system.layout().bodies; ++i) {
-    if (!resting[i] || system.sticks(i)) continue;
+    if (rests[i] == Rest::none || system.sticks(i)) continue;
     const T along = T(sliding_sense(system, i)) * dxdt[system.layout().rate(i)];
     const T none =
         T(release_tolerance) * system.static_limit(x, i) / system.wing().bodies[i].central_inertia;
@@ -78,33 +81,45 @@ template <class T, class AnySystem>
   return moves;
 }
 
+/// Leaves only the hinges that have just come to rest, and the one that is due, if there are any of the former.
+inline void keep_newly_at_rest(Contacts& moves, const std::vector<Rest>& rests, int due) {
+  const auto is_new = [&](const auto& move) { return rests[move.first] == Rest::just_now; };
+  if (std::ranges::any_of(moves, is_new))
+    std::erase_if(moves, [&](const auto& move) { return !is_new(move) && move.first != due; });
+}
+
 } // namespace detail
 
 /// Decides at (x, t) which hinges with exact friction stick: those in motion slide; those at rest stick if their
 /// static limit holds them, and slide in the direction of the load otherwise. Sets dxdt with these contacts.
 ///
 /// First all hinges at rest stick. All that exceed their limits are released together, until none does: the result
-/// does not depend on the hinges' order. Released hinges that then accelerate against their sense of sliding stick
-/// again. After 16 rounds one hinge changes per round, the first wrong one [Murty 1974: least-index pivoting ends
+/// does not depend on the hinges' order. Hinges that have just come to rest are released first: one that turns back would
+/// load a stuck hinge far more if it stuck too, but it does not. Released hinges that then accelerate against their sense
+/// of sliding stick again. After 16 rounds one hinge changes per round, the first wrong one [Murty 1974: least-index pivoting ends
 /// for a positive definite mass matrix; the contacts are unique where τ_s = τ_c]. After 64 more rounds per hinge,
 /// which no tested wing has needed, the contacts stay as they are (heuristic limit).
 /// @param let_go a hinge whose release is due, even if rounding leaves it within its limit; 0: none
 template <class T, class AnySystem>
 void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T& t, int let_go) {
-  const std::vector<char> resting = detail::lock_hinges_at_rest(system, x);
+  std::vector<detail::Rest> rests = detail::lock_hinges_at_rest(system, x);
   const T slack(let_go != 0 ? 1 + release_tolerance : 1 + 1e-12);
-  const std::size_t together = 16, most = together + 64 * resting.size();
+  const std::size_t together = 16, most = together + 64 * rests.size();
   for (std::size_t round = 0;; ++round) {
     system(x, dxdt, t);
     detail::Contacts moves = detail::too_weakly_held(system, x, slack, let_go);
+    detail::keep_newly_at_rest(moves, rests, let_go);
     let_go = 0;
     if (moves.empty() || round > together) {
-      const detail::Contacts back = detail::running_against_friction(system, x, dxdt, resting);
+      const detail::Contacts back = detail::running_against_friction(system, x, dxdt, rests);
       moves.insert(moves.end(), back.begin(), back.end());
     }
     if (moves.empty() || round > most) return;
     if (round > together) moves = {*std::min_element(moves.begin(), moves.end())};
-    for (const auto& [i, contact] : moves) system.set_contact(i, contact);
+    for (const auto& [i, contact] : moves) {
+      system.set_contact(i, contact);
+      if (contact == Contact::stuck) rests[i] = detail::Rest::as_before;
+    }
   }
 }
 

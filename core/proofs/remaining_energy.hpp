@@ -239,14 +239,14 @@ private:
   /// Whether a hinge touches a stop, or could with this energy.
   template <class AnySystem>
   [[nodiscard]] bool may_touch_stop(const AnySystem& system, const T& available) const {
-    using std::abs;
     for (int i = 1; i < static_cast<int>(system.wing().real.size()); ++i) {
       const RealHingeTerms<T>& real = system.wing().real[i];
       const HingeMode<T>& mode = system.work().modes[i];
       if (system.is_held(i)) continue;
       if (mode.in_contact != T(0) || mode.in_far_contact != T(0)) return true;
       for (const StopTerms<T>* stop : {&real.stop, &real.far_stop}) {
-        const T way = abs(rest_[system.layout().angle(i)] - stop->contact_angle);
+        // below 0 if the spring's rest lies beyond the stop: then the hinge rests on the stop
+        const T way = stop->sense * (rest_[system.layout().angle(i)] - stop->contact_angle);
         if (stop->present && !(furthest(i, available) < way)) return true;
       }
     }

@@ -214,6 +214,11 @@ TEST_CASE("a shard is not held to requirements, and what is merged of them is") 
   const std::string a = program.folder.path() / "a", b = program.folder.path() / "b";
   CHECK(program({"run", campaign, "--out", a, "--shard", "1/2"}).code == 0);
   CHECK(program({"run", campaign, "--out", b, "--shard", "2/2"}).code == 0);
+  const Json alone = parse_json_file(a + "/summary.json")["requirements"][0];
+  CHECK(alone["verdict"] == "undecided");
+  CHECK_THAT(alone["evidence"].get<std::string>(), Catch::StartsWith("not judged: "));
+  CHECK(alone["margin"].is_null());
+  CHECK(alone["failures"]["seen"] > 0);
   CHECK(program({"merge", a, b, "--out", program.out}).code == 1);
   CHECK(program({"run", campaign, "--out", program.out + "2"}).code == 1);
   CHECK(contents(program.out) == contents(program.out + "2"));

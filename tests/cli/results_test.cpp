@@ -272,6 +272,8 @@ TEST_CASE("the commands that merge names make what is missing, and then it merge
                               " are missing";
   CHECK(preview.code == 1); // it meets no requirement
   CHECK_THAT(preview.error, HasFacts({warning, "\nnot met: a preview has no verdicts\n"}));
+  for (const Json& requirement : parse_json_file(out + "/summary.json")["requirements"])
+    CHECK(requirement["verdict"] == "undecided");
   CHECK_THAT(preview.out, Catch::Contains(" · PREVIEW: " + std::to_string(there) + " of 20 runs, " +
                                           std::to_string(20 - there) + " missing"));
   for (const std::vector<std::string>& command :

@@ -154,6 +154,16 @@ std::vector<std::string> warnings(const RankSensitivity& all) {
     list.push_back(fmt::format("the draws of {} depend on those of others: their joint effect "
                                "is in Spearman's coefficients, not in the partial ones",
                                quoted(all.collinear)));
+  const auto lacks_bounds = [](const RankEffect& effect) {
+    return effect.spearman.bounds.lower && !std::isnan(effect.partial.value) &&
+           !effect.partial.bounds.lower;
+  };
+  if (std::ranges::any_of(all.outputs, [&](const OutputRanks& output) {
+        return std::ranges::any_of(output.effects, lacks_bounds);
+      }))
+    list.emplace_back("some partial coefficients have no bounds: their bias is as large as the "
+                      "bounds are wide, because the draws explain nearly all of the output's "
+                      "ranks, or there are too few runs");
   if (std::ranges::any_of(all.outputs, &OutputRanks::entangled))
     list.emplace_back("some outputs have no partial coefficients: two dispersions rank "
                       "the runs alike, or there are too few runs");

@@ -211,7 +211,7 @@ public:
   [[nodiscard]] RankEffect effect(const Found& found, std::size_t j) const {
     const double spearman = found.all.spearman[j], partial = found.all.partial[j];
     return {{spearman, spearman_bounds(found, j, confidence_)},
-            {partial, partial_bounds(found, j)},
+            {partial, that_contain(partial, partial_bounds(found, j))},
             seen(found, j)};
   }
 
@@ -229,6 +229,14 @@ private:
     std::vector<double> without;
     for (const std::vector<double>& z : found.z_without) without.push_back(z[j]);
     return from_z(jackknife_bounds(found.z.empty() ? undefined : found.z[j], without, confidence_));
+  }
+
+  /// No bounds where the bias, which they are corrected for, carries them past the coefficient: where the draws explain
+  /// nearly all of an output's ranks, too few ranks are left for either.
+  [[nodiscard]] static Bounds that_contain(double coefficient, const Bounds& bounds) {
+    const bool inside =
+        bounds.lower && *bounds.lower <= coefficient && coefficient <= *bounds.upper;
+    return inside ? bounds : Bounds{};
   }
 
   [[nodiscard]] static Bounds jackknifed(const Found& found, std::size_t j, Kind kind,

@@ -35,10 +35,13 @@ std::optional<Matrix> inverse_of(const Matrix& correlations) {
 
 Bounds rank_correlation_bounds(double coefficient, long n, double confidence) {
   if (n <= 3) return {};
-  const double z = std::atanh(coefficient);
-  const double s = std::sqrt((1 + coefficient * coefficient / 2) / static_cast<double>(n - 3));
-  const double reach = two_sided_normal(confidence) * s;
-  return {std::tanh(z - reach), std::tanh(z + reach)};
+  // z is infinite where the ranks agree; the nearest coefficient, of two neighbours exchanged, bounds the other side
+  const double rows = static_cast<double>(n), nearest = 1 - 12 / (rows * (rows * rows - 1));
+  const double r = std::clamp(coefficient, -nearest, nearest);
+  const double reach = two_sided_normal(confidence) * std::sqrt((1 + r * r / 2) / (rows - 3));
+  const double z = std::atanh(r);
+  return {coefficient < -nearest ? coefficient : std::tanh(z - reach),
+          coefficient > nearest ? coefficient : std::tanh(z + reach)};
 }
 
 PartialCorrelations::PartialCorrelations(const std::vector<Spilled<double>>& columns, int threads)
@@ -98,12 +101,14 @@ std::vector<double> PartialCorrelations::given(std::span<const double> plain) co
       b[i] += (*inverse_)(index(i), index(j)) * plain[varying_[j]];
     explained += b[i] * plain[varying_[i]];
   }
-  // A rest below the rounding error is noise, and would make the other coefficients noise: it is raised to that error.
+  // A rest below the rounding error is noise, and would make the other coefficients noise: it is raised to that error. A
+  // coefficient that is smaller than this leaves undecided is 0/0: columns that explain y alone leave nothing to the others.
   const double rounding = 64 * static_cast<double>(k + 1) * std::numeric_limits<double>::epsilon();
   const double rest = std::max(1 - explained, rounding);
   for (std::size_t i = 0; i < k; ++i) {
-    const double size = std::sqrt(b[i] * b[i] + rest * (*inverse_)(index(i), index(i)));
-    partial[varying_[i]] = std::clamp(b[i] / size, -1.0, 1.0);
+    const double left = rest * (*inverse_)(index(i), index(i));
+    if (rest > 1 - explained && b[i] * b[i] < left) continue;
+    partial[varying_[i]] = std::clamp(b[i] / std::sqrt(b[i] * b[i] + left), -1.0, 1.0);
   }
   return partial;
 }

@@ -32,7 +32,8 @@
 
 namespace wingspread {
 
-/// Two-sided bounds (2) of Spearman's coefficient; none for n ≤ 3.
+/// Two-sided bounds (2) of Spearman's coefficient; none for n ≤ 3. Of ±1 the inner bound is that of the nearest
+/// coefficient of n rows.
 /// @pre −1 ≤ coefficient ≤ 1, from independent rows
 [[nodiscard]] Bounds rank_correlation_bounds(double coefficient, long n, double confidence);
 

@@ -68,7 +68,8 @@ void print_notes(const Summary& summary) {
         summary.interim.count(), fmt::join(summary.interim.before, ", "));
   const auto is_open = [](const Verdict& verdict) {
     // more of the same run decide nothing, nor do more runs whose peaks t_end cuts
-    return !is_decided(verdict) && !verdict.one_run && !rests_on_cut_peaks(verdict);
+    return !is_decided(verdict) && !verdict.one_run && !verdict.of_part &&
+           !rests_on_cut_peaks(verdict);
   };
   if (std::ranges::any_of(summary.requirements, is_open))
     print_message(
@@ -180,7 +181,7 @@ void end_table() { std::fflush(stdout); }
 
 int judge_results(const StoredCampaign& stored, const Summary& summary) {
   end_table();
-  if (!stored.stamp.shard) {
+  if (!stored.stamp.is_part()) {
     for (const Verdict& verdict : summary.requirements)
       if (verdict.decision != Decision::pass) print_not_met("", verdict, "");
     print_notes(summary);

@@ -12,7 +12,8 @@ namespace {
 constexpr double instant = 1e-6;    // s: in this time nothing moves
 constexpr double least_load = 1e-9; // N·m; heuristic: round-off of a wing without torques
 
-/// "root waits for mid waits for root", of a hold that waits for itself; else empty.
+/// "root waits for mid waits for root", of a hold that waits for itself; else empty, as where the next hinge may pass its
+/// angle in an elastic hold.
 std::string cycle_of(const Scene& scene, int hinge) {
   std::string names = scene.hinges[hinge].name;
   int at = hinge;
@@ -20,6 +21,8 @@ std::string cycle_of(const Scene& scene, int hinge) {
     const std::optional<Release>& release = scene.hinges[at].release;
     if (!release || release->after < 0) return "";
     at = release->after;
+    // an elastic hold lets its hinge turn a little
+    if (release->event == Release::Event::passed && scene.hinges[at].hold) return "";
     names += " waits for " + scene.hinges[at].name;
     if (at == hinge) return names;
   }

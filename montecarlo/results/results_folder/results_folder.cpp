@@ -280,6 +280,7 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results,
   summary.overtravels = overtravels(campaign.scene, results);
   if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
   withdraw_if_one_run(campaign, summary);
+  if (stored.stamp.is_part()) withdraw_of_part(summary);
   const bool whole = std::ssize(results.runs) == stored.runs().size();
   summary.stopped = !whole && is_complete(stored, results);
   if (!stored.foreign && !stored.stamp.shard && (whole || summary.stopped)) {

@@ -35,6 +35,8 @@ struct Stamp {
   std::string hash; ///< of the campaign; equal for all its shards
   std::optional<Shard> shard;
   std::optional<Preview> preview{};
+  /// Whether the folder has a part of the campaign's runs, which is not judged.
+  [[nodiscard]] bool is_part() const { return shard || preview; }
   bool operator==(const Stamp&) const = default;
 };
 

@@ -65,15 +65,31 @@ std::vector<Verdict> judge_campaign(const Campaign& campaign, const Results& res
                    static_margin_columns(campaign, results));
 }
 
+namespace {
+
+void withdraw(Verdict& verdict) {
+  verdict.decision = Decision::undecided;
+  verdict.guaranteed_share = undefined;
+  verdict.guaranteed = verdict.margin = std::nullopt;
+}
+
+} // namespace
+
 void withdraw_if_one_run(const Campaign& campaign, Summary& summary) {
   if (summary.runs == 0 || vary(campaign.dispersions) || !have_one_result(summary)) return;
   summary.one_run = true;
   for (Verdict& verdict : summary.requirements) {
     if (verdict.decision != Decision::pass) continue;
     verdict.one_run = true;
-    verdict.decision = Decision::undecided;
-    verdict.guaranteed_share = undefined;
-    verdict.guaranteed = verdict.margin = std::nullopt;
+    withdraw(verdict);
+  }
+}
+
+void withdraw_of_part(Summary& summary) {
+  for (Verdict& verdict : summary.requirements) {
+    verdict.of_part = true;
+    verdict.disproved = false;
+    withdraw(verdict);
   }
 }
 

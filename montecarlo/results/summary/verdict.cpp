@@ -281,6 +281,7 @@ std::string evidence(const Verdict& verdict) {
     causes.push_back(fmt::format("{} of them because {}", verdict.absent,
                                  verdict.absent == 1 ? "it did not deploy or has no value"
                                                      : "they did not deploy or have no value"));
+  if (verdict.of_part) return "not judged: a part of the campaign's runs. So far " + found;
   if (!causes.empty()) found += fmt::format(" ({})", fmt::join(causes, ", "));
   if (verdict.allowed) {
     const bool open = verdict.decision == Decision::fail && !verdict.disproved;

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace wingspread;
 
 TEST_CASE("check says what an elastic hold that starts unstrained does to its moment",
@@ -55,4 +57,25 @@ TEST_CASE("a release is warned of if its time and delay together reach t_end", "
     REQUIRE(std::ssize(warnings.list()) == (late ? 1 : 0));
     if (late) CHECK(warnings.list().front().pointer == "/hinges/1/release/time");
   }
+}
+
+TEST_CASE("holds wait for themselves where no elastic one lets its hinge pass the angle",
+          "[warnings]") {
+  Scene scene = read_scene_file(test::three_panel_file());
+  Release& first = scene.hinges[0].release.emplace();
+  first.after = 1, first.event = Release::Event::passed, first.angle = 0.02;
+  Release& second = scene.hinges[1].release.emplace();
+  second.after = 0, second.event = Release::Event::latched;
+  const auto cycles = [&] {
+    InputWarnings warnings(ScenePlace{"scene.json"});
+    check_life(scene, Integration(), Outcome(), warnings);
+    return std::ranges::count_if(warnings.list(), [](const InputWarning& each) {
+      return each.found.find("waits for itself") != std::string::npos;
+    });
+  };
+  CHECK(cycles() == 2);
+  scene.hinges[0].hold = Hold{3, 0}; // mid is held rigidly
+  CHECK(cycles() == 2);
+  scene.hinges[1].hold = Hold{3, 0};
+  CHECK(cycles() == 0);
 }
