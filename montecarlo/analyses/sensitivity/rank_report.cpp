@@ -154,13 +154,21 @@ std::vector<std::string> warnings(const RankSensitivity& all) {
     list.push_back(fmt::format("the draws of {} depend on those of others: their joint effect "
                                "is in Spearman's coefficients, not in the partial ones",
                                quoted(all.collinear)));
+  const auto any_effect = [&](const auto& has) {
+    return std::ranges::any_of(all.outputs, [&](const OutputRanks& output) {
+      return !output.entangled && std::ranges::any_of(output.effects, has);
+    });
+  };
+  if (any_effect([](const RankEffect& effect) {
+        return std::isnan(effect.partial.value) && !std::isnan(effect.spearman.value);
+      }))
+    list.emplace_back("some partial coefficients are missing: other draws explain the output's "
+                      "ranks exactly, or there are too few runs");
   const auto lacks_bounds = [](const RankEffect& effect) {
     return effect.spearman.bounds.lower && !std::isnan(effect.partial.value) &&
            !effect.partial.bounds.lower;
   };
-  if (std::ranges::any_of(all.outputs, [&](const OutputRanks& output) {
-        return std::ranges::any_of(output.effects, lacks_bounds);
-      }))
+  if (any_effect(lacks_bounds))
     list.emplace_back("some partial coefficients have no bounds: their bias is as large as the "
                       "bounds are wide, because the draws explain nearly all of the output's "
                       "ranks, or there are too few runs");

@@ -13,7 +13,8 @@
 ///
 /// (1) is the partial rank correlation coefficient (PRCC): the correlation of x_j and y after the linear part of every
 /// other column, in ranks, is subtracted from both. (1) equals the textbook's −P_jy/√(P_jj P_yy), with P the inverse of
-/// the matrix of all correlations, but also holds if the columns x determine y completely. (2) holds for independent
+/// the matrix of all correlations, but also holds if the columns x determine y completely; a column to which the others leave nothing then has none, 0/0.
+/// (2) holds for independent
 /// rows and for ρ only. Applied to partial coefficients, nominal 95 % bounds by (2) cover 87 to 97 %, and with the
 /// variance 1/(n − k − 2) down to 79 %; so partial coefficients are bounded by the jackknife (jackknife.hpp), after a
 /// correction of their bias (rank_bias.hpp).
