@@ -96,9 +96,9 @@ inline void keep_newly_at_rest(Contacts& moves, const std::vector<Rest>& rests, 
 /// First all hinges at rest stick. All that exceed their limits are released together, until none does: the result
 /// does not depend on the hinges' order. Hinges that have just come to rest are released first: one that turns back would
 /// load a stuck hinge far more if it stuck too, but it does not. Released hinges that then accelerate against their sense
-/// of sliding stick again. After 16 rounds one hinge changes per round, the first wrong one [Murty 1974: least-index pivoting ends
-/// for a positive definite mass matrix; the contacts are unique where τ_s = τ_c]. After 64 more rounds per hinge,
-/// which no tested wing has needed, the contacts stay as they are (heuristic limit).
+/// of sliding stick again. After 16 rounds one hinge changes per round, the first wrong one [Murty 1974: least-index
+/// pivoting ends for a positive definite mass matrix; the contacts are unique where τ_s = τ_c]. After 64 more rounds per
+/// hinge, which no tested wing has needed, the contacts stay as they are (heuristic limit).
 /// @param let_go a hinge whose release is due, even if rounding leaves it within its limit; 0: none
 template <class T, class AnySystem>
 void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T& t, int let_go) {

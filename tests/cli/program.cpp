@@ -59,6 +59,22 @@ Finished run_program(const Folder& folder, const std::vector<std::string>& argum
   return Program(folder, arguments, out).finish();
 }
 
+std::vector<int> run_named(const Folder& folder, const std::string& text) {
+  std::vector<int> codes;
+  for (const std::string& line : lines_of(text)) {
+    if (!line.starts_with("  wingspread ")) continue;
+    std::vector<std::string> words;
+    std::istringstream in(line);
+    for (std::string word; in >> word;) {
+      std::erase(word, '\''); // of a path with a star
+      words.push_back(word);
+    }
+    words.erase(words.begin());
+    codes.push_back(run_program(folder, words).code);
+  }
+  return codes;
+}
+
 std::string shown_on_terminal(const std::vector<std::string>& arguments) {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
   if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0)

@@ -38,6 +38,9 @@ private:
 [[nodiscard]] Finished run_program(const Folder& folder, const std::vector<std::string>& arguments,
                                    const std::filesystem::path& out = {});
 
+/// Runs the commands that the program printed, one per line. @return their exit codes
+[[nodiscard]] std::vector<int> run_named(const Folder& folder, const std::string& text);
+
 /// What the program writes to standard error where that is a terminal.
 [[nodiscard]] std::string shown_on_terminal(const std::vector<std::string>& arguments);
 

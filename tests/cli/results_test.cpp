@@ -21,18 +21,6 @@ struct DoneCampaign {
   }
 };
 
-/// Runs the commands that the program printed, one per line.
-void run_named(const Folder& folder, const std::string& text) {
-  for (const std::string& line : lines_of(text)) {
-    if (!line.starts_with("  wingspread ")) continue;
-    std::vector<std::string> words;
-    std::istringstream in(line);
-    for (std::string word; in >> word;) words.push_back(word);
-    words.erase(words.begin());
-    CHECK(run_program(folder, words).code <= 1);
-  }
-}
-
 } // namespace
 
 TEST_CASE("merge puts shards together, and says where the files are") {
@@ -284,7 +272,7 @@ TEST_CASE("the commands that merge names make what is missing, and then it merge
     CHECK(read.code == (command.front() == "analyze" ? 1 : 0));
   }
   CHECK_THAT(read_text(out + "/report.html").value(), Catch::Contains("\"partial\":true"));
-  run_named(folder, refused.error);
+  for (const int code : run_named(folder, refused.error)) CHECK(code <= 1);
   const auto merged =
       run_program(folder, {"merge", part(1), part(2), part(3), part(4), "--out", out});
   CHECK(merged.code == 0);

@@ -101,8 +101,8 @@ std::vector<double> PartialCorrelations::given(std::span<const double> plain) co
       b[i] += (*inverse_)(index(i), index(j)) * plain[varying_[j]];
     explained += b[i] * plain[varying_[i]];
   }
-  // A rest below the rounding error is noise, and would make the other coefficients noise: it is raised to that error. A
-  // coefficient that is smaller than this leaves undecided is 0/0: columns that explain y alone leave nothing to the others.
+  // A rest below the rounding error is noise, and would make the other coefficients noise: it is raised to that error. Where
+  // some columns then explain y alone, the coefficients of the others are 0/0, and undefined.
   const double rounding = 64 * static_cast<double>(k + 1) * std::numeric_limits<double>::epsilon();
   const double rest = std::max(1 - explained, rounding);
   for (std::size_t i = 0; i < k; ++i) {

@@ -13,11 +13,10 @@
 ///
 /// (1) is the partial rank correlation coefficient (PRCC): the correlation of x_j and y after the linear part of every
 /// other column, in ranks, is subtracted from both. (1) equals the textbook's −P_jy/√(P_jj P_yy), with P the inverse of
-/// the matrix of all correlations, but also holds if the columns x determine y completely; a column to which the others leave nothing then has none, 0/0.
-/// (2) holds for independent
-/// rows and for ρ only. Applied to partial coefficients, nominal 95 % bounds by (2) cover 87 to 97 %, and with the
-/// variance 1/(n − k − 2) down to 79 %; so partial coefficients are bounded by the jackknife (jackknife.hpp), after a
-/// correction of their bias (rank_bias.hpp).
+/// the matrix of all correlations, but also holds if the columns x determine y completely. Where some of them determine
+/// y alone, the others have no coefficient (0/0). (2) holds for independent rows and for ρ only. Applied to partial
+/// coefficients, nominal 95 % bounds by (2) cover 87 to 97 %, and with the variance 1/(n − k − 2) down to 79 %; so
+/// partial coefficients are bounded by the jackknife (jackknife.hpp), after a correction of their bias (rank_bias.hpp).
 /// Sources: R. L. Iman, W. J. Conover, Technometrics 21 (1979) 499–509;
 /// (2), Fisher's z with ranks' variance: D. G. Bonett, T. A. Wright, Psychometrika 65 (2000) 23–28.
 #pragma once

@@ -57,7 +57,7 @@ TEST_CASE("a hinge that turns back does not break a stuck one loose") {
     CAPTURE(method);
     for (const double limit : {1.0, 0.6}) {
       const Outcome out = Deployment().run(turning_back(limit), how, {.to_t_end = true});
-      // by SciPy's DOP853 at rtol 1e-11 with a Lagrangian of its own: the tip rests from 0.2 s on
+      // by another program: Lagrange's equations, SciPy's DOP853 at rtol 1e-11
       CHECK(out.final_angle[1] == Approx(0.557730).margin(2e-6));
       CHECK(out.final.rates[1] == 0);
     }
