@@ -90,11 +90,12 @@ const char* method_of(const RareResult& result) {
   return result.estimate.plain ? "plain_sampling" : "subset_simulation";
 }
 
-/// P of the stratum and the event, "≲ " for an upper bound.
+/// P of the stratum and the event; "≤ " before an upper bound, "≲ " before an estimated one.
 std::string part_text(const StratumEstimate& part, double factor) {
-  return fmt::format(
-      "{}{:.3g}", part.estimate.reached ? "" : "≲ ",
-      factor * (part.estimate.reached ? part.estimate.probability : part.estimate.interval.upper));
+  const RareEstimate& estimate = part.estimate;
+  const bool hit = estimate.reached && estimate.probability > 0;
+  return fmt::format("{}{:.3g}", hit ? "" : estimate.reached ? "≤ " : "≲ ",
+                     factor * (hit ? estimate.probability : estimate.interval.upper));
 }
 
 /// The strata, largest part of the sum first, at most 12.
@@ -180,6 +181,9 @@ std::string plain_text(const RareEstimate& estimate) {
                      estimate.plain_runs);
 }
 
+/// Whether the bounds of a stratum's estimate keep their confidence.
+bool is_bounded(const StratumEstimate& part) { return part.estimate.reached; }
+
 /// The estimate and its bounds.
 std::string result_text(const RareResult& result, double confidence, const std::string& event) {
   const RareEstimate& all = result.estimate;
@@ -187,6 +191,11 @@ std::string result_text(const RareResult& result, double confidence, const std::
     return fmt::format("P({}) = {:.3g}, {:g} % bounds {:.4g} … {:.4g}{}\n", event, all.probability,
                        100 * confidence, all.interval.lower, all.interval.upper,
                        all.reached ? "" : "; the upper one is an estimate, not guaranteed");
+  if (is_stratified(result) && !all.reached)
+    return fmt::format(
+        "P({}): not reached. {:g} % upper bound {:.3g}{}\n", event, 100 * confidence,
+        all.interval.upper,
+        std::ranges::all_of(result.strata, is_bounded) ? "" : ", estimated, not guaranteed");
   const std::vector<SubsetEstimate>& repeats = result.strata.front().estimates;
   if (!all.reached)
     return fmt::format(
@@ -195,6 +204,10 @@ std::string result_text(const RareResult& result, double confidence, const std::
         "{:.3g}:\nestimated upper bound, not guaranteed\n",
         event, std::ranges::count(repeats, false, &SubsetEstimate::reached), repeats.size(),
         all.probability, 100 * confidence, all.interval.upper);
+  if (all.plain && all.hits == 0)
+    return fmt::format("P({}): not reached, {:g} % upper bound {:.3g} (Clopper–Pearson)\nThe first "
+                       "levels are a plain sample: 0 of {} runs have the event.\n",
+                       event, 100 * confidence, all.interval.upper, all.draws);
   if (all.plain)
     return fmt::format("P({}) = {:.6g}, {:g} % bounds {:.6g} … {:.6g} (Clopper–Pearson)\nThe "
                        "first levels are a plain sample: {} of {} runs have the event. For such an "

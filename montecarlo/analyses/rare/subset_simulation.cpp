@@ -22,6 +22,9 @@ constexpr double aimed_at =
 constexpr double first_scale =
     0.6; // λ of the first chains (ibid.); a bad value costs accepted moves in the first steps only
 constexpr double bias_of_square = 0.5; // bias / δ²: the middle of the measurements in README.md
+// Heuristic. Below a tie of g a level may start its chains from so few points: the standard error of its share is then
+// 1/√30 = 18 %.
+constexpr long fewest_seeds = 30;
 
 // Heuristic: so many standard errors between the largest and the smallest repetition are too many. Among 1000 normal
 // repetitions they are at most 4.7 apart; logarithms of estimates with a variation of 50 % have longer tails.
@@ -100,11 +103,16 @@ private:
     return level;
   }
 
-  /// The lower decile of g over the points.
+  /// The lower decile of g over the points. If nine tenths of them are equal: the next smaller g outside the event, if
+  /// enough points have it or less.
   [[nodiscard]] double next_threshold() const {
     std::vector<double> sorted = level_.g;
     std::ranges::sort(sorted);
-    return sorted[static_cast<std::size_t>(chains() - 1)];
+    const double decile = sorted[static_cast<std::size_t>(chains() - 1)];
+    const auto below = std::ranges::lower_bound(sorted, sorted.back()) - sorted.begin();
+    if (decile < sorted.back() || below < fewest_seeds) return decile;
+    const double next = sorted[static_cast<std::size_t>(below - 1)];
+    return next < 0 ? decile : next;
   }
 
   /// γ_j by (4).
@@ -129,12 +137,12 @@ private:
     const auto n = static_cast<double>(options_.samples);
     const double share = static_cast<double>(std::ranges::count(in, true)) / n;
     const double gamma = chain_correlation(in, share);
-    const double variation = std::sqrt((1 - share) / (share * n) * (1 + gamma));
+    const double variation = std::sqrt((1 - share) / (share * n) * (1 + gamma) * copies_);
     estimate_.levels.push_back({threshold, share, gamma, variation, taken});
     estimate_.last_level *= share;
   }
 
-  /// Indices of c points with g ≤ threshold, evenly chosen if ties leave more than c.
+  /// Indices of c points with g ≤ threshold: evenly chosen if there are more than c, repeated if there are fewer.
   [[nodiscard]] std::vector<std::size_t> seeds(double threshold) const {
     std::vector<std::size_t> in;
     for (std::size_t k = 0; k < level_.g.size(); ++k)
@@ -158,6 +166,8 @@ private:
   Level next_level(double threshold, double& taken) {
     std::vector<NormalPoint> at;
     std::vector<double> g;
+    const auto inside = std::ranges::count_if(level_.g, [&](double x) { return x <= threshold; });
+    copies_ = std::max(1.0, static_cast<double>(chains()) / static_cast<double>(inside));
     for (const std::size_t seed : seeds(threshold)) {
       at.push_back(level_.points[seed]);
       g.push_back(level_.g[seed]);
@@ -216,6 +226,7 @@ private:
   SubsetEstimate estimate_;
   Level level_;
   double scale_ = first_scale; ///< λ
+  double copies_ = 1;          ///< chains of the level that start from one point
 };
 
 /// The relative standard error of the mean.
@@ -236,6 +247,7 @@ bool is_plain(std::span<const SubsetEstimate> estimates) {
 
 /// Estimates by the share of the pooled first levels.
 void estimate_plainly(double confidence, RareEstimate& all) {
+  all.bias = 0;
   all.plain = all.reached = true;
   all.probability = static_cast<double>(all.hits) / static_cast<double>(all.draws);
   all.interval = clopper_pearson(all.hits, all.draws, confidence);
@@ -333,6 +345,9 @@ RareEstimate combined(std::span<const SubsetEstimate> estimates, double confiden
     estimate_by_levels(estimates, confidence, all);
     if (all.reached && std::ranges::any_of(estimates, &SubsetEstimate::stuck))
       widen_for_atom(confidence, all);
+    const bool none = std::ranges::none_of(estimates, &SubsetEstimate::reached);
+    if (none && clopper_pearson(0, all.draws, confidence).upper < all.interval.upper)
+      estimate_plainly(confidence, all);
   }
   return all;
 }

@@ -36,10 +36,14 @@
 /// level, the first levels of all R repetitions are pooled: N R independent draws, of which `hits` have the event, with
 /// Clopper–Pearson bounds. (3) has no meaning for P → 1, where δ → 0 in every repetition without a miss.
 ///
-/// An atom: if g is equal at nine tenths of a level's points, no further level exists (`stuck`). The estimate is then
-/// the share of the level's points in the event, which may be 0. It is unbiased, but for a share of 0 its δ is unknown.
-/// The interval therefore contains a Clopper–Pearson interval: that of as many runs of plain sampling as have the
-/// variation found.
+/// An atom: if g is equal at nine tenths of a level's points, the next level starts from the other points if there are at
+/// least 30, so that some start several chains; δ_j² of that level is larger by the chains a point starts. From fewer
+/// points no further level starts (`stuck`). The estimate is then the share of the level's points in the event, which may
+/// be 0. It is unbiased, but for a share of 0 its δ is unknown. The interval therefore contains a Clopper–Pearson
+/// interval: that of as many runs of plain sampling as have the variation found.
+///
+/// If no repetition reaches the event, the last level's probability is an upper bound, and the first levels' 0 hits are
+/// another. The estimate is by the smaller bound.
 ///
 /// Sources: S.-K. Au, J. L. Beck, Probabilistic Engineering Mechanics 16 (2001) 263–277: (1), (3),
 /// (4); I. Papaioannou, W. Betz, K. Zwirglmaier, D. Straub, ibid. 41 (2015) 89–103: (2), and 44 %.

@@ -8,6 +8,7 @@
 #include <functional>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace wingspread::oracle {
@@ -30,6 +31,14 @@ inline PointFunction linear(double beta) {
 }
 
 inline double normal_tail(double beta) { return std::erfc(beta / std::sqrt(2)) / 2; }
+
+/// The points of the first level have these, in their order; all others are far away, so that no move is taken.
+inline LimitStateFunction never_nearer(std::vector<double> first) {
+  return [first, begins = true](std::span<const NormalPoint> points) mutable {
+    if (!std::exchange(begins, false)) return std::vector<double>(points.size(), 1e9);
+    return first;
+  };
+}
 
 inline RareEstimate repeated(const PointFunction& g, std::size_t d, long samples, long repeats,
                              std::uint64_t seed) {

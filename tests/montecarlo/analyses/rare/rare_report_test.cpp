@@ -185,8 +185,26 @@ TEST_CASE(
           CHECK(has(text, "≤ 1e-06") == (left_out > 0));
           CHECK(has(text, "1 others, each at most 2e-06") == (rare == 12)); // of 13, 12 are shown
           CHECK(has(text, "the upper one is an estimate") == (!reached && lower > 0));
-          CHECK(has(text, "not reached in 1 of 1 repeats") == (!reached && lower == 0));
+          CHECK(has(text, "not reached. 95 % upper bound 0.002") == (!reached && lower == 0));
         }
+}
+
+TEST_CASE("an event that no run has: a bound by counting is none that is estimated", "[rare]") {
+  RareResult result = result_of({repeat_of(false)});
+  result.estimate.interval = {0, 0.002};
+  result.estimate.draws = 1800;
+  result.estimate.plain = result.estimate.reached = true;
+  const auto told = [&] { return rare_text(result, {}, campaign_with(1)); };
+  CHECK(has(told(), "not reached, 95 % upper bound 0.002"));
+  CHECK(has(told(), "0 of 1800 runs"));
+  CHECK_FALSE(has(told(), "use `wingspread run`"));
+  result.strata[0].estimate = result.estimate;
+  result.strata.push_back(result.strata[0]);
+  result.estimate.reached = false;
+  CHECK(has(told(), "not reached. 95 % upper bound 0.002"));
+  CHECK_FALSE(has(told(), "not guaranteed"));
+  result.strata[1].estimate.reached = false;
+  CHECK(has(told(), "not guaranteed"));
 }
 
 TEST_CASE("the text of the likeliest run has the eight largest deviations", "[rare]") {

@@ -10,22 +10,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
-
-namespace {
-
-/// The points of the first level have these, in their order; all others are far away, so that no move is taken.
-LimitStateFunction never_nearer(std::vector<double> first) {
-  return [first, begins = true](std::span<const NormalPoint> points) mutable {
-    if (!std::exchange(begins, false)) return std::vector<double>(points.size(), 1e9);
-    return first;
-  };
-}
-
-} // namespace
 
 TEST_CASE("a linear limit state, β = 4: 3.16712e-5 within 20 % at 60,000 evaluations", "[long]") {
   // Over seeds, since one of them proves nothing: an error of 20 % is to be two standard deviations
