@@ -145,6 +145,10 @@ Json fit_json(const FitResult& result, const FitSpec& spec, const Json& about) {
                {"unseen", unseen_json(result)},
                {"other_modes", std::move(modes)},
                {"tests", tests_json(result, spec)}});
+  if (result.values.count > 0)
+    json["values"] = {{"n", result.values.count},
+                      {"chi_squared", json_number(result.values.chi_squared)},
+                      {"p_value", json_number(result.values.p_value)}};
   if (!result.candidates.empty()) json["candidates"] = candidates_json(result);
   if (!result.prediction.empty()) json["prediction"] = std::move(prediction);
   return json;

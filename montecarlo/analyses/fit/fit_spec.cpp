@@ -332,6 +332,9 @@ private:
     if (!candidate) object.required("value", value.measured, Dimension{value.unit});
     object.required("std", value.std, Dimension{value.unit, "> 0"}, is_positive);
     object.refuse_others();
+    if (std::ranges::find(test.values, value.name, &FitValue::name) != test.values.end())
+      at.refuse(fmt::format("a second value of \"{}\"", value.name),
+                "one in a test: the mean of several, with its std, or a test for each");
     test.values.push_back(std::move(value));
   }
 
@@ -341,11 +344,10 @@ private:
     std::vector<std::string> known;
     for (const OutputColumn& column : output_columns(scene, all_outputs()))
       known.push_back(column.name);
-    if (std::ranges::find(known, name) != known.end()) {
-      if (const auto family = family_of(name)) outputs.insert(*family);
-      return;
-    }
-    at.refuse(fmt::format("\"{}\"", name), "an output of the scene" + did_you_mean(name, known));
+    if (std::ranges::find(known, name) == known.end())
+      at.refuse(fmt::format("\"{}\"", name), "an output of the scene" + did_you_mean(name, known));
+    else if (const auto family = family_of(name))
+      outputs.insert(*family);
   }
 
   void read_own(const JsonCursor& at, FitTest& test) const {
@@ -368,10 +370,9 @@ private:
 /// Refuses more parameters than measured numbers.
 void refuse_few_data(const FitSpec& spec, const std::string& file, std::vector<Problem>& problems) {
   std::size_t data = 0, parameters = spec.parameters.size();
-  for (const FitTest& test : spec.tests) {
-    data += test.values.size() + test.times.size() * test.columns.size();
-    parameters += test.own.size();
-  }
+  for (const FitTest& test : spec.tests)
+    data += test.values.size() + test.times.size() * test.columns.size(),
+        parameters += test.own.size();
   if (data < parameters)
     problems.push_back({file, "/tests",
                         fmt::format("{} measured number{} for {} parameters", data,

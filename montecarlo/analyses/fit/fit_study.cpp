@@ -9,11 +9,11 @@
 #include "montecarlo/model/campaign/set_by_draws.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
 
-#include <boost/math/special_functions/gamma.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace wingspread {
 namespace {
@@ -297,11 +297,18 @@ private:
       fitted.measured = data_.measured[channel.first];
       fitted.fitted = mode[channel.first];
       fitted.sigmas = (fitted.measured - fitted.fitted) / channel.std.value_or(undefined);
-      fitted.p_value = p_value_of(channel, predictions);
+      fitted.p_value = p_value_of(data_, {&channel, 1}, predictions);
       if (!channel.column) continue;
       add_bands(channel, predictions, fitted);
       add_outliers(channel, fitted);
     }
+    std::vector<Channel> values;
+    std::ranges::copy_if(data_.channels, std::back_inserter(values),
+                         [](const Channel& channel) { return !channel.column; });
+    result_.values.count = values.size();
+    for (const FittedChannel& each : result_.channels)
+      if (!each.channel.column) result_.values.chi_squared += each.chi_squared;
+    if (!values.empty()) result_.values.p_value = p_value_of(data_, values, predictions);
   }
 
   void add_outliers(const Channel& channel, FittedChannel& fitted) const {
@@ -317,20 +324,6 @@ private:
     }
     fitted.rest_rms =
         std::sqrt(std::max(0.0, rest.value()) / static_cast<double>(residuals.size() - far.size()));
-  }
-
-  /// The mean over the posterior of P(χ²(n_eff) ≥ κ χ²). κ = n_eff/n makes κ χ² the sum over n_eff independent numbers.
-  [[nodiscard]] double p_value_of(const Channel& channel,
-                                  const std::vector<Prediction>& predictions) const {
-    if (!channel.std) return undefined;
-    Sum sum;
-    for (const Prediction& prediction : predictions) {
-      const double chi = fit_of(data_, channel, prediction).chi_squared;
-      const double share = channel.effective / static_cast<double>(channel.count);
-      sum.add(std::isfinite(chi) ? boost::math::gamma_q(channel.effective / 2, share * chi / 2)
-                                 : 0);
-    }
-    return sum.value() / static_cast<double>(predictions.size());
   }
 
   void add_bands(const Channel& channel, const std::vector<Prediction>& predictions,

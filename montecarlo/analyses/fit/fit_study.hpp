@@ -66,6 +66,13 @@ struct FittedChannel {
   double rest_rms = 0;             ///< rms without the outliers
 };
 
+/// All measured values together: many small contradictions of one sense show only here.
+struct FittedValues {
+  std::size_t count = 0;
+  double chi_squared = 0; ///< at the highest mode
+  double p_value = 1;     ///< as of a channel
+};
+
 /// Whether a channel contradicts the model: the p-value is below this.
 inline constexpr double misfit_p_value = 0.01;
 /// Heuristic: a trace whose rms residual at the best fit is this many σ is probably of another hinge or in another
@@ -103,6 +110,7 @@ struct FitResult {
   std::vector<FitDirection> directions; ///< of the common parameters
   Eigen::MatrixXd u_covariance;         ///< of the common parameters
   std::vector<FittedChannel> channels;
+  FittedValues values;
   EnsembleState sampler;
   long runs = 0;                         ///< all runs made
   std::vector<std::vector<double>> rows; ///< posterior.csv: common parameters

@@ -98,6 +98,11 @@ void add_misfits(const FitResult& result, const FitSpec& spec, std::vector<std::
     else if (fitted.p_value < misfit_p_value)
       list.push_back(fmt::format("the model does not fit {}: {}", where, misfit_text(fitted)));
   }
+  if (result.values.count > 1 && result.values.p_value < misfit_p_value)
+    list.push_back(fmt::format("the model does not fit the {} measured values together: χ² {:.4g}, "
+                               "p {:.2g}",
+                               result.values.count, result.values.chi_squared,
+                               result.values.p_value));
   for (const FittedParameter& each : result.parameters)
     if (each.prior_sigmas > conflict_sigmas)
       list.push_back(fmt::format("{} lies {:.1f} standard deviations of its prior from the prior's "

@@ -51,13 +51,16 @@ std::string describe(const FitDirection& direction, const std::vector<std::strin
   if (which.size() == 1)
     return fmt::format("the tests do not see {}: its sd stays {:.2f} of the prior's", name(0),
                        direction.std_ratio);
-  if (which.size() != 2)
+  const auto unseen = [&] {
     return fmt::format("the tests do not see {}: its sd stays {:.2f} of the prior's",
                        combination(direction.weights, names, which), direction.std_ratio);
+  };
+  if (which.size() != 2) return unseen();
   Eigen::VectorXd seen = Eigen::VectorXd::Zero(direction.weights.size());
   seen[which[0]] = -direction.weights[which[1]], seen[which[1]] = direction.weights[which[0]];
   seen.normalize();
   const double sd = std::sqrt(seen.dot(covariance * seen));
+  if (!(sd < unseen_ratio)) return unseen();
   const bool same_sign = direction.weights[which[0]] * direction.weights[which[1]] > 0;
   return fmt::format("the tests tell {} and {} only by their {}: sd of the {} {:.2f} of the "
                      "prior's, of the {} {:.2g}",

@@ -2,6 +2,8 @@
 
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
+#include <boost/math/special_functions/gamma.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,6 +38,23 @@ std::vector<double> raw_residuals(const FitData& data, const Channel& channel,
 }
 
 } // namespace
+
+double p_value_of(const FitData& data, std::span<const Channel> channels,
+                  std::span<const Prediction> predictions) {
+  if (std::ranges::any_of(channels, [](const Channel& channel) { return !channel.std; }))
+    return undefined;
+  Sum sum;
+  for (const Prediction& prediction : predictions) {
+    double chi = 0, effective = 0;
+    for (const Channel& channel : channels) {
+      chi += channel.effective / static_cast<double>(channel.count) *
+             fit_of(data, channel, prediction).chi_squared;
+      effective += channel.effective;
+    }
+    sum.add(std::isfinite(chi) ? boost::math::gamma_q(effective / 2, chi / 2) : 0);
+  }
+  return sum.value() / static_cast<double>(predictions.size());
+}
 
 std::vector<double> residuals_of(const FitData& data, const Channel& channel,
                                  const Prediction& prediction) {

@@ -27,6 +27,12 @@ struct ChannelFit {
 [[nodiscard]] ChannelFit fit_of(const FitData& data, const Channel& channel,
                                 const Prediction& prediction);
 
+/// The posterior predictive p-value of channels together: the mean over points of the posterior of
+/// P(χ²(Σ n_eff) ≥ Σ κ χ²). κ χ² is the sum over n_eff independent numbers.
+/// @return NaN if a channel's σ is not known
+[[nodiscard]] double p_value_of(const FitData& data, std::span<const Channel> channels,
+                                std::span<const Prediction> predictions);
+
 /// Residuals r_i − b̂ of a channel.
 [[nodiscard]] std::vector<double> residuals_of(const FitData& data, const Channel& channel,
                                                const Prediction& prediction);

@@ -2,6 +2,7 @@
 
 #include "distributions/continuous_law.hpp"
 #include "montecarlo/analyses/sensitivity/draw_slopes.hpp"
+#include "montecarlo/analyses/sensitivity/failure_curve.hpp"
 #include "montecarlo/analyses/sensitivity/lever_response.hpp"
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
@@ -84,6 +85,7 @@ public:
       const Bounds slope =
           slope_bounds(effect, slopes_.without(moved.columns, weights), confidence_);
       t = index_ends(effect, slope, end);
+      if (!is_seen(moved, t)) return std::nullopt;
     }
     return t.edge ? std::optional(completed(moved, t, end)) : std::nullopt;
   }
@@ -104,7 +106,7 @@ private:
   [[nodiscard]] long share_of(long runs) const {
     return static_cast<long>((1 - verdict_.requirement.probability) * static_cast<double>(runs));
   }
-  /// (3): most of these runs that may break so that a new campaign passes with this probability; −1 if none may.
+  /// (4): most of these runs that may break so that a new campaign passes with this probability; −1 if none may.
   [[nodiscard]] long seen_at(double probability) const {
     const auto m = static_cast<double>(may());
     long low = -1, high = std::max<long>(4 * may() + 100, 0); // passes at low, not at high
@@ -195,7 +197,7 @@ private:
     return t;
   }
 
-  /// (2) for the numbers of runs of (3).
+  /// (2) for the numbers of runs of (4).
   [[nodiscard]] Ends index_ends(double effect, const Bounds& slope, double end) const {
     const auto within = [&](std::optional<double> t, double by) {
       if (t) *t *= effect / by;
@@ -218,6 +220,22 @@ private:
     if (!(q > r && q < 1)) return std::nullopt;
     const double density = std::exp(-at(q) * at(q) / 2) / std::sqrt(2 * std::numbers::pi);
     return -density * (at(q) - at(r)) / effect;
+  }
+  /// Whether the runs themselves show the decrease that (2) predicts: (3) at the edge is nearer to r than to q.
+  /// Withdraws the far change if more than r remain there.
+  [[nodiscard]] bool is_seen(const MovedDraws& moved, Ends& t) const {
+    if (!t.edge) return true;
+    const LeverRuns runs = runs_of(moved);
+    const FailureCurve curve(runs.u, values_.y);
+    const auto remaining = [&](double change) {
+      Sum sum;
+      for (std::size_t i = 0; i < runs.u.size(); ++i)
+        sum.add(curve.at(runs.u[i] + change * runs.d[i]));
+      return sum.value();
+    };
+    const double most = std::max(0.5, static_cast<double>(may()));
+    if (t.far && remaining(*t.far) > most) t.far.reset();
+    return remaining(*t.edge) <= std::midpoint(most, remaining(0));
   }
   [[nodiscard]] bool breaks(std::size_t i) const {
     return what_ == NeededFor::deployment ? values_.y[i] > 0

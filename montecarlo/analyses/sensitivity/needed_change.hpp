@@ -24,16 +24,23 @@
 ///
 ///   t = −φ(Φ⁻¹(q)) (Φ⁻¹(q) − Φ⁻¹(r))/d̄                                                        (2)
 ///
+/// The runs must show it without the normal law. Let p(u) be the share that fails where the moved draws make the part u
+/// of the linear fit (failure_curve.hpp). If the other draws do not depend on these,
+///
+///   Σ p(u_i + t d_i)                                                                          (3)
+///
+/// runs fail after the change. If (3) falls by less than half of what (2) promises, there is no estimate.
+///
 /// At this edge a new campaign of n runs passes in every second case only. If k of n runs break it here, at most m of n
 /// new runs do with probability
 ///
-///   P(≤ m | k) = I_½(k + 1, m + 1)                                                             (3)
+///   P(≤ m | k) = I_½(k + 1, m + 1)                                                             (4)
 ///
 /// (negative binomial, from a flat prior of the rate). The bounds are the changes for the largest k with P at least
 /// (1 ∓ c)/2, widened by the jackknife's bounds of the slope. The far bound is the change to try.
 ///
 /// A change is known only within the draws: at least 10 runs were drawn beyond the changed mean, and of those no larger
-/// share than the requirement allows did not deploy. Beyond, neither the output nor the deployment is known.
+/// share than the requirement allows did not deploy; nor is (3) larger. Beyond, neither the output nor the deployment is known.
 #pragma once
 
 #include "montecarlo/results/summary/replication.hpp"

@@ -146,12 +146,14 @@ Json scatter_json(const PageSource& source, const Pair& pair) {
 /// The `margin` command whose range holds the lever's change; null if `margin` cannot make the change.
 Json margin_command(const PageSource& source, const LeverChange& each) {
   if (each.lever.paths.empty() || !(each.change.change > 0)) return nullptr;
-  const double t = each.change.change - 1;
+  constexpr double least = 0.005; // of a range of three digits
+  const double size = std::max(std::abs(each.change.change - 1), least),
+               t = std::copysign(size, each.change.change - 1);
   // The range goes from twice the change to half of it in the other direction.
   const double beyond = std::max(0.05, 1 + 2 * t), before = std::max(0.05, 1 - t / 2);
   std::vector<std::string> paths;
   for (const std::string& path : each.lever.paths) paths.push_back(shell_word(path));
-  return fmt::format("wingspread margin {} --scale {} --range {:.2g} {:.2g} --out results/margin",
+  return fmt::format("wingspread margin {} --scale {} --range {:.3g} {:.3g} --out results/margin",
                      shell_word((source.made_from / campaign_file).string()), fmt::join(paths, " "),
                      std::min(beyond, before), std::max(beyond, before));
 }

@@ -67,6 +67,35 @@ TEST_CASE("a dispersion that is not fitted is named, and its spread widens what 
   CHECK(fitted(campaign, both).held.empty());
 }
 
+TEST_CASE("values that deviate little each, but together too much, are told") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign(0.5, 0.2));
+  Json tests = parse_json(R"({ "tests": [],
+    "fit": { "parameters": ["spring", "friction"], "samples": 200, "starts": 2 } })");
+  const auto study = [&](double off) {
+    tests["tests"].clear();
+    for (int k = 0; k < 10; ++k)
+      tests["tests"].push_back({{"name", "timer " + std::to_string(k)},
+                                {"values",
+                                 {{{"output", "root.latch_time"},
+                                   {"value", 2.35 + (k % 2 == 0 ? off : -off)},
+                                   {"std", 0.0215}}}}});
+    const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
+    const FitResult result = fitted(campaign, spec);
+    // The mean fits at the mode: χ² = Σ (off/std)².
+    CHECK(result.values.chi_squared == Approx(10 * std::pow(off / 0.0215, 2)).epsilon(0.01));
+    CHECK(fit_json(result, spec, Json::object())["values"]["n"] == 10);
+    return std::pair(result.values.p_value, fit_findings(result, spec));
+  };
+  const auto [p, findings] = study(0.05); // 2.3 σ each
+  CHECK(p < 1e-6);                        // χ² 54 of 10 numbers: 5e-8
+  REQUIRE(findings.size() == 1);
+  CHECK_THAT(findings[0], Catch::Contains("10 measured values together"));
+  const auto [fits, none] = study(0.02);
+  CHECK(fits == Approx(0.5).margin(0.2)); // χ² 8.7
+  CHECK(none.empty());
+}
+
 TEST_CASE("what is held widens a standard deviation at most to the prior's, and then says so") {
   FitResult result;
   result.finished = true;

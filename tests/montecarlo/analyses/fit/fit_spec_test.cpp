@@ -98,6 +98,10 @@ TEST_CASE("each fault of the tests has its place") {
         std::string::npos);
   CHECK(change("/tests/0/set", R"({ "bodies.panel.inertia": -1 })")
             .find("bodies.panel.inertia of -1") != std::string::npos);
+  Json twice = tests_json();
+  twice["tests"][0]["values"].push_back(twice["tests"][0]["values"][0]);
+  CHECK(
+      files.problems(twice).starts_with("tests.json: /tests/0/values/2: found a second value of"));
   CHECK(change("/tests/0/trace/file", R"("none.csv")")
             .starts_with("tests.json: /tests/0/trace/file: found no file"));
   CHECK(change("/tests/0/trace/columns", R"({ "tip.angle": "th" })") ==

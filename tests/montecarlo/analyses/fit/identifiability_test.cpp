@@ -29,3 +29,15 @@ TEST_CASE("directions of a covariance, and their sentences") {
         "the tests do not see 0.60 spring − 0.60 friction + 0.53 damper: its sd stays 0.97 of the "
         "prior's");
 }
+
+TEST_CASE("of two parameters that no test sees, neither sum nor difference is told") {
+  const Eigen::MatrixXd covariance{{0.98, 0.01}, {0.01, 0.98}};
+  const auto directions = directions_of(covariance);
+  for (const FitDirection& each : directions) {
+    const std::string text = describe(each, {"spring", "friction"}, covariance);
+    CAPTURE(text);
+    CHECK(text.starts_with("the tests do not see "));
+    CHECK(text.find("0.71 spring") != std::string::npos);
+    CHECK(text.find("0.71 friction") != std::string::npos);
+  }
+}

@@ -177,6 +177,25 @@ TEST_CASE("a wing that deploys above a threshold needs the shift of its normal l
   CHECK(found[1]->of_broken > found[1]->of_others);
 }
 
+TEST_CASE("a rare weak value among equal ones is no normal law: no change is promised",
+          "[needed]") {
+  for (const double weak : {0.3, 0.9}) {
+    InventedRuns sample(2000, 5, [](double a, double, double) { return a; });
+    for (std::size_t i = 0; i < sample.a.size(); ++i) {
+      sample.a[i] = i % 33 == 0 ? weak : 1;
+      if (i % 33 == 0) sample.status[i] = Status::stalled;
+    }
+    CHECK_FALSE(
+        needed_of(NeededFor::deployment, deploying(0.985), sample.results(), {a_scaled})[0]);
+    if (weak > 0.5) continue;
+    // Springs of other strength beside them do not fill the gap.
+    for (std::size_t i = 0; i < sample.a.size(); ++i)
+      if (i % 33 != 0) sample.a[i] = 1 + 0.2 * (sample.b[i] - 1);
+    CHECK_FALSE(
+        needed_of(NeededFor::deployment, deploying(0.985), sample.results(), {a_scaled})[0]);
+  }
+}
+
 TEST_CASE("beyond the values drawn, and where wings drawn there stall, no change is known",
           "[needed]") {
   const auto output = [](double a, double b, double) { return 3 * a - 2 * b; };

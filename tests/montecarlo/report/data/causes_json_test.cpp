@@ -190,7 +190,8 @@ TEST_CASE("coefficients have three or four digits on the page, points six and bo
 namespace {
 
 /// A set of invented runs whose deployment time is 13 − 4 × the root spring's factor, limited.
-std::unique_ptr<PageSource> slow_set(double limit, int runs = 1000, const char* design = "random") {
+std::unique_ptr<PageSource> slow_set(double limit, int runs = 1000, const char* design = "random",
+                                     double spread = 0.05) {
   Json json = quick_campaign(runs);
   json["sampling"]["design"] = design;
   if (runs > 10'000) json["statistics"]["accuracy_runs"] = 0;
@@ -205,7 +206,7 @@ std::unique_ptr<PageSource> slow_set(double limit, int runs = 1000, const char* 
   std::normal_distribution<double> normal;
   Results results(names);
   for (long run = 0; run < runs; ++run) {
-    std::vector<double> draws{1 + 0.05 * normal(random)};
+    std::vector<double> draws{1 + spread * normal(random)};
     for (int panel = 0; panel < 3; ++panel) draws.push_back(9 + 2 * uniform(random));
     std::vector<double> outputs(names.outputs.size(), 1.0);
     outputs[static_cast<std::size_t>(column)] = 13 - 4 * draws[0];
@@ -246,7 +247,12 @@ TEST_CASE(
   CHECK(lever["command"] ==
         "wingspread margin results/set/campaign.json --scale hinges.root.spring.torque_stowed "
         "hinges.root.spring.torque_latched --range " +
-            fmt::format("{:.2g} {:.2g}", 1 - t / 2, 1 + 2 * t) + " --out results/margin");
+            fmt::format("{:.3g} {:.3g}", 1 - t / 2, 1 + 2 * t) + " --out results/margin");
+  const auto fine =
+      slow_set(9.0074, 1000, "random", 0.001); // the range of a small change is no single value
+  const Json small = changes_json(*fine, fine->summary.requirements.front())[0]["levers"][0];
+  CHECK(small["change"].get<double>() == Approx(1.001).margin(0.001));
+  CHECK(small["command"].get<std::string>().find("--range 0.998 1.01 ") != std::string::npos);
   Verdict passed = verdict;
   passed.decision = Decision::pass;
   CHECK(changes_json(*source, passed).empty());
