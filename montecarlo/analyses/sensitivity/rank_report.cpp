@@ -169,9 +169,9 @@ std::vector<std::string> warnings(const RankSensitivity& all) {
            !effect.partial.bounds.lower;
   };
   if (any_effect(lacks_bounds))
-    list.emplace_back("some partial coefficients have no bounds: their bias is as large as the "
-                      "bounds are wide, because the draws explain nearly all of the output's "
-                      "ranks, or there are too few runs");
+    list.emplace_back("some partial coefficients have no bounds: the draws explain nearly all of "
+                      "the output's ranks, and their error is not known from the few that are "
+                      "left, or there are too few runs");
   if (std::ranges::any_of(all.outputs, &OutputRanks::entangled))
     list.emplace_back("some outputs have no partial coefficients: two dispersions rank "
                       "the runs alike, or there are too few runs");

@@ -87,20 +87,35 @@ std::vector<double> PartialCorrelations::explained() const {
   return explained;
 }
 
-std::vector<double> PartialCorrelations::given(std::span<const double> plain) const {
-  std::vector<double> partial(columns_, undefined);
+std::optional<PartialCorrelations::Regression>
+PartialCorrelations::regression(std::span<const double> plain) const {
   const std::size_t k = varying_.size();
   const bool usable =
       inverse_ && rows_ > static_cast<long>(k) + 1 &&
       std::ranges::none_of(varying_, [&](std::size_t j) { return std::isnan(plain[j]); });
-  if (!usable) return partial;
-  std::vector<double> b(k, 0.0);
-  double explained = 0; // c·b
+  if (!usable) return std::nullopt;
+  Regression found{std::vector<double>(k, 0.0)};
   for (std::size_t i = 0; i < k; ++i) {
     for (std::size_t j = 0; j < k; ++j)
-      b[i] += (*inverse_)(index(i), index(j)) * plain[varying_[j]];
-    explained += b[i] * plain[varying_[i]];
+      found.b[i] += (*inverse_)(index(i), index(j)) * plain[varying_[j]];
+    found.explained += found.b[i] * plain[varying_[i]];
   }
+  return found;
+}
+
+double PartialCorrelations::unexplained(std::span<const double> plain) const {
+  const auto found = regression(plain);
+  if (!found) return undefined;
+  return std::max(0.0, 1 - found->explained) * static_cast<double>(rows_ - 1) /
+         static_cast<double>(rows_ - varying() - 1);
+}
+
+std::vector<double> PartialCorrelations::given(std::span<const double> plain) const {
+  std::vector<double> partial(columns_, undefined);
+  const auto found = regression(plain);
+  if (!found) return partial;
+  const auto& [b, explained] = *found;
+  const std::size_t k = varying_.size();
   // A rest below the rounding error is noise, and would make the other coefficients noise: it is raised to that error. Where
   // some columns then explain y alone, the coefficients of the others are 0/0, and undefined.
   const double rounding = 64 * static_cast<double>(k + 1) * std::numeric_limits<double>::epsilon();

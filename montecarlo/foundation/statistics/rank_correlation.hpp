@@ -67,7 +67,18 @@ public:
   /// @param plain c: Pearson's correlation of each column with y; cost O(k²)
   [[nodiscard]] std::vector<double> given(std::span<const double> plain) const;
 
+  /// The share of y's variance that the columns leave, 1 − R², adjusted for their number; at least 0. NaN where `given`
+  /// is NaN for all.
+  [[nodiscard]] double unexplained(std::span<const double> plain) const;
+
 private:
+  /// b of the varying columns, and c·b; nothing where `given` is NaN for all.
+  struct Regression {
+    std::vector<double> b;
+    double explained = 0;
+  };
+  [[nodiscard]] std::optional<Regression> regression(std::span<const double> plain) const;
+
   std::size_t columns_;
   long rows_;
   std::vector<std::size_t> varying_;
