@@ -334,6 +334,12 @@ void check_correlations(const Campaign& campaign, InputWarnings& warnings) {
           fmt::format("/correlations/{}", k),
           fmt::format("{} of {} and {}", all[k].spearman, name(all[k].first), name(all[k].second)),
           usual_cause);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (const std::size_t which : {all[k].first, all[k].second})
+      if (!varies(campaign.dispersions[which].distribution))
+        warnings.add(fmt::format("/correlations/{}", k),
+                     fmt::format("a correlation of {}, whose law has a single value", name(which)),
+                     "a law that varies: the correlation has no effect");
   if (const auto three = common_cause(all))
     warnings.add("/correlations",
                  fmt::format("{}, {} and {}, each correlated with the others", name((*three)[0]),

@@ -53,7 +53,7 @@ void check_latch(const std::string& at, const Hinge& hinge, InputWarnings& warni
                  "> 0: a latch without stiffness does not hold the hinge");
 }
 
-/// Spring less harness less friction at rest, referred to the drive's leading hinge, N·m.
+/// Spring and motor less harness less friction at rest, referred to the drive's leading hinge, N·m.
 double net_torque(const Scene& scene, const HingeDrive& drive, double x,
                   const StaticMarginSpec& spec) {
   const TorqueTerms terms = terms_at(scene, drive, x, spec);
@@ -75,12 +75,21 @@ void check_net(const Scene& scene, const HingeDrive& drive, InputWarnings& warni
   }
   if (!is_negative(least)) return;
   const int leading = drive.hinges.front();
+  const bool motor =
+      std::ranges::any_of(drive.hinges, [&](int h) { return bool(scene.hinges[h].motor); });
   warnings.add(fmt::format("/hinges/{}/spring", leading),
-               fmt::format("a net static torque of {1:.4g} N·m at {2:.4g} rad of {0}: spring less "
+               fmt::format("a net static torque of {:.4g} N·m at {:.4g} rad of {}: spring{} less "
                            "harness less friction at rest",
-                           name_of(drive, scene), least.value,
-                           angle_at(scene.hinges[leading], least.at)),
+                           least.value, angle_at(scene.hinges[leading], least.at),
+                           name_of(drive, scene), motor ? " and motor" : ""),
                "≥ 0 on the whole travel: a wing that stops where it is < 0 does not start again");
+}
+
+/// Whether the hinge has a torque or a rate of its own.
+bool is_driven(const Hinge& hinge) {
+  return hinge.motor || hinge.initial_rate != 0 ||
+         std::ranges::any_of(places_of_least(hinge),
+                             [&](double x) { return torque_at(hinge.spring, hinge, x) != 0; });
 }
 
 } // namespace
@@ -96,6 +105,10 @@ void check_torques(const Scene& scene, InputWarnings& warnings) {
     pushes.push_back(check_spring(at, scene.hinges[h], warnings));
     check_latch(at, scene.hinges[h], warnings);
   }
+  const bool still = scene.base.motion == BaseMotion::fixed && scene.environment.gravity.isZero();
+  if (still && std::ranges::none_of(scene.hinges, is_driven))
+    warnings.add("/hinges", "no spring with a torque, no motor and no initial rate",
+                 "one of them: nothing moves the wing");
   for (const HingeDrive& drive : drives_of(scene))
     if (std::ranges::all_of(drive.hinges, [&](int h) { return pushes[h]; }))
       check_net(scene, drive, warnings);

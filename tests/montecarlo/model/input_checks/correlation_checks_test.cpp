@@ -71,3 +71,15 @@ TEST_CASE("a correlation of 0.8 and more, of either sign, has one cause", "[warn
       CHECK_THAT(told[1].found, Catch::EndsWith("of mass.panel_2 and mass.panel_3"));
     }
 }
+
+TEST_CASE("a correlation with a law of a single value is told, whichever of both it is",
+          "[warnings]") {
+  for (const std::size_t constant : {0, 1, 2}) {
+    Campaign campaign = campaign_of(quick_campaign(1));
+    campaign.dispersions[constant].distribution.law = Constant{1};
+    const auto told = told_of(campaign, {{2, 3}, {1, 0}}, 0.6);
+    REQUIRE(told.size() == 1);
+    CHECK(told[0].pointer == (constant == 2 ? "/correlations/0" : "/correlations/1"));
+    CHECK_THAT(told[0].found, Catch::Contains(campaign.dispersions[constant].name));
+  }
+}

@@ -4,6 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <functional>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -57,4 +60,41 @@ TEST_CASE("a net torque that is least between eighths of a table's piece is foun
            R"({ "table": { "angle": [-3, -1.02, 0], "torque": [2.28, 0.33, 1.61] } })", 0);
   REQUIRE(lacking.size() == 1);
   CHECK_THAT(lacking[0], Catch::Contains("a net static torque of -0.02094 N·m at -2.46"));
+}
+
+TEST_CASE("the net torque of a hinge with a motor names it") {
+  Json document = small_scene();
+  document["hinges"][0]["spring"] = parse_json(R"({"torque_stowed": 0.1, "torque_latched": 0.1})");
+  document["hinges"][0]["harness"] = parse_json(R"({"torque_stowed": 5, "torque_latched": 5})");
+  document["hinges"][0]["motor"] =
+      parse_json(R"({ "rate": -0.1, "torque_limit": 1, "gain": 100 })");
+  InputWarnings warnings({"wing.json", ""});
+  check_torques(read_scene(document), warnings);
+  const auto list = warnings.list();
+  const auto of_motor = std::ranges::find(list, "/hinges/0/spring", &InputWarning::pointer);
+  REQUIRE(of_motor != list.end());
+  CHECK_THAT(of_motor->found, Catch::Contains("spring and motor less harness"));
+}
+
+TEST_CASE("a wing that nothing moves is told") {
+  const auto is_told = [](const std::function<void(Json&)>& change) {
+    Json document = small_scene();
+    for (Json& hinge : document["hinges"]) {
+      hinge["spring"] = parse_json(R"({"torque_stowed": 0, "torque_latched": 0})");
+      for (const char* term : {"harness", "friction", "initial_rate"}) hinge.erase(term);
+    }
+    change(document);
+    InputWarnings warnings({"wing.json", ""});
+    check_torques(read_scene(document), warnings);
+    return std::ranges::any_of(warnings.list(), [](const InputWarning& warning) {
+      return warning.pointer == "/hinges" &&
+             warning.usual.find("nothing moves") != std::string::npos;
+    });
+  };
+  CHECK(is_told([](Json&) {}));
+  CHECK_FALSE(is_told([](Json& document) { document["hinges"][1]["initial_rate"] = 0.1; }));
+  CHECK_FALSE(is_told([](Json& document) {
+    document["hinges"][1]["spring"] = parse_json(R"({"torque_stowed": 0, "torque_latched": 0.1})");
+  }));
+  CHECK_FALSE(is_told([](Json& document) { document["environment"]["gravity"] = {0, -1}; }));
 }
