@@ -157,6 +157,13 @@ std::string requirement_lines(const std::vector<CaseSummary>& all, Cases cases) 
                          allowed ? std::to_string(*allowed) : "–");
     });
   }
+  const auto groups = judge_groups(cases.front().summary.requirements);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    text +=
+        line(fmt::format("  group {}, {:.10g} %", groups[g].name, 100 * groups[g].confidence),
+             cases, [g](const CaseSummary& each) {
+               return std::string(to_string(judge_groups(each.summary.requirements)[g].decision));
+             });
   return text;
 }
 
@@ -177,6 +184,7 @@ Json cases_json(const std::vector<CaseSummary>& cases, const Json& about) {
     Json& its = json["cases"][cases[i].name];
     its = {{"runs", cases[i].summary.runs}, {"status", summaries[i]["status"]}};
     if (summaries[i].contains("nominal")) its["nominal"] = summaries[i]["nominal"];
+    if (summaries[i].contains("groups")) its["groups"] = summaries[i]["groups"];
     if (cases[i].partial) its["partial"] = true;
     for (const auto& [output, statistics] : summaries[i]["outputs"].items())
       json["outputs"][output][cases[i].name] = statistics;

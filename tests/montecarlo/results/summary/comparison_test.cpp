@@ -126,6 +126,22 @@ TEST_CASE("a group's members share its risk in every case", "[comparison]") {
   CHECK(joint(3) == Approx(1 - 3 * 0.11).epsilon(1e-12));
 }
 
+TEST_CASE("cases.json and the table have each case's verdict on a group", "[comparison]") {
+  std::vector<CaseSummary> cases{case_of("cold", 20), case_of("hot", 0)};
+  std::vector<Verdict> verdicts{cases[0].summary.requirements[0], cases[1].summary.requirements[0]};
+  for (Verdict& each : verdicts) each.requirement.group = "timing";
+  cases[0].summary.requirements = {verdicts[0], verdicts[1]}; // one of two fails
+  cases[1].summary.requirements = {verdicts[1], verdicts[1]};
+  for (Verdict& each : cases[0].summary.requirements) each.requirement.group = "timing";
+  const Json json = cases_json(cases, "about")["cases"];
+  CHECK(json["cold"]["groups"][0]["verdict"] == "fail");
+  CHECK(json["hot"]["groups"][0]["verdict"] == "pass");
+  const std::string table = cases_table(cases, "title", "folder");
+  const auto line = table.substr(table.find("  group timing, 90 %"), 100);
+  CHECK(line.find("fail") < line.find("pass"));
+  CHECK(line.find("pass") < line.find('\n'));
+}
+
 TEST_CASE("cases stand side by side", "[comparison]") {
   std::vector<CaseSummary> cases{case_of("hot", 0), case_of("cold", 20)};
   cases[1].summary.nominal = NominalRun{Status::deployed, "root", ""};
