@@ -84,7 +84,7 @@ public:
     } else {
       const Bounds slope =
           slope_bounds(effect, slopes_.without(moved.columns, weights), confidence_);
-      t = index_ends(effect, slope, end);
+      t = index_ends(index_of(moved, effect), slope, end);
       if (!is_seen(moved, t)) return std::nullopt;
     }
     return t.edge ? std::optional(completed(moved, t, end)) : std::nullopt;
@@ -197,29 +197,69 @@ private:
     return t;
   }
 
+  /// The standardised normal index, of which the moved draws make a part.
+  struct Index {
+    double effect = 0; ///< d̄
+    double
+        own = 0,
+        shared =
+            0; ///< variance of the moved part u/φ; its covariance with the rest of the linear fit
+    bool scaled = false;
+    [[nodiscard]] double variance(double t) const {
+      return scaled ? std::max(0.0, 1 + t * (2 + t) * own + 2 * t * shared) : 1;
+    }
+  };
+  [[nodiscard]] Index index_of(const MovedDraws& moved, double effect) const {
+    const LeverRuns runs = runs_of(moved);
+    Sum own, shared;
+    for (std::size_t i = 0; i < runs.u.size(); ++i)
+      own.add(runs.u[i] * runs.u[i]), shared.add(runs.u[i] * runs.r[i]);
+    const double all = static_cast<double>(runs.u.size()) * density() * density();
+    return {effect, own.value() / all, shared.value() / all, moved.scaled};
+  }
+
   /// (2) for the numbers of runs of (4).
-  [[nodiscard]] Ends index_ends(double effect, const Bounds& slope, double end) const {
-    const auto within = [&](std::optional<double> t, double by) {
-      if (t) *t *= effect / by;
-      return t && std::abs(*t) <= std::abs(end) ? t : std::nullopt;
-    };
+  [[nodiscard]] Ends index_ends(const Index& index, const Bounds& slope, double end) const {
     if (!slope.lower || !(*slope.lower * *slope.upper > 0)) return {};
     const auto [weak, strong] = std::minmax(
         *slope.lower, *slope.upper, [](double a, double b) { return std::abs(a) < std::abs(b); });
-    Ends t{within(index(effect, may()), effect), within(index(effect, seen_near()), strong), {}};
+    Ends t{
+        change_at(index, index.effect, may(), end), change_at(index, strong, seen_near(), end), {}};
     if (!t.near) t.near = 0;
-    if (const long few = seen_far(); few >= 0) t.far = within(index(effect, few), weak);
+    if (const long few = seen_far(); few >= 0) t.far = change_at(index, weak, few, end);
     return t;
   }
-  /// (2). If no run may break the requirement, r is half a run's share, because Φ⁻¹(0) is infinite.
-  [[nodiscard]] std::optional<double> index(double effect, long most) const {
-    const auto n = static_cast<double>(values_.y.size());
-    const auto at = [](double share) { return inverse(Normal{}, {share, 1 - share}); };
-    const double q = static_cast<double>(std::ranges::count(values_.y, 1.0)) / n,
-                 r = std::max(0.5, static_cast<double>(most)) / n;
-    if (!(q > r && q < 1)) return std::nullopt;
-    const double density = std::exp(-at(q) * at(q) / 2) / std::sqrt(2 * std::numbers::pi);
-    return -density * (at(q) - at(r)) / effect;
+  [[nodiscard]] double broken_share() const {
+    return static_cast<double>(std::ranges::count(values_.y, 1.0)) /
+           static_cast<double>(values_.y.size());
+  }
+  [[nodiscard]] static double normal_at(double share) {
+    return inverse(Normal{}, {share, 1 - share});
+  }
+  /// φ(Φ⁻¹(q)).
+  [[nodiscard]] double density() const {
+    const double z = normal_at(broken_share());
+    return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi);
+  }
+  /// (2) with this slope; nothing beyond `end`. If no run may break the requirement, r is half a run's share, because
+  /// Φ⁻¹(0) is infinite.
+  [[nodiscard]] std::optional<double> change_at(const Index& index, double slope, long most,
+                                                double end) const {
+    const double q = broken_share(), r = std::max(0.5, static_cast<double>(most)) /
+                                         static_cast<double>(values_.y.size());
+    if (!(q > r && q < 1) || !std::isfinite(end)) return std::nullopt;
+    const double now = normal_at(q), then = normal_at(r);
+    const auto fails = [&](double t) {
+      return now + t * slope / density() > then * std::sqrt(index.variance(t));
+    };
+    if (fails(end)) return std::nullopt;
+    double low = 0, high = end;
+    while (std::abs(high - low) > 1e-13 * std::abs(end)) {
+      const double middle = std::midpoint(low, high);
+      if (middle == low || middle == high) break;
+      (fails(middle) ? low : high) = middle;
+    }
+    return high;
   }
   /// Whether the runs themselves show the decrease that (2) predicts: (3) at the edge is nearer to r than to q.
   /// Withdraws the far change if more than r remain there.

@@ -20,9 +20,12 @@
 ///
 /// For deployment, let a run fail where a linear index of the draws passes a threshold. For normal draws the slope of
 /// the indicator is that of the standardised index times φ(Φ⁻¹(q)) (D. R. Brillinger, in: A Festschrift for Erich L.
-/// Lehmann (1983) 97–114), so
+/// Lehmann (1983) 97–114). The share r fails where
 ///
-///   t = −φ(Φ⁻¹(q)) (Φ⁻¹(q) − Φ⁻¹(r))/d̄                                                        (2)
+///   Φ⁻¹(q) + t d̄/φ(Φ⁻¹(q)) = Φ⁻¹(r) s(t)                                                      (2)
+///
+/// with s the index's standard deviation after the change: 1 of a shift; a factor multiplies the spread of the moved
+/// draws too, s² = 1 + (2t + t²) var(u)/φ² + 2t cov(u, r)/φ², u and r the moved part of the linear fit and the rest.
 ///
 /// The runs must show it without the normal law. Let p(u) be the share that fails where the moved draws make the part u
 /// of the linear fit (failure_curve.hpp). If the other draws do not depend on these,
@@ -40,7 +43,8 @@
 /// (1 ∓ c)/2, widened by the jackknife's bounds of the slope. The far bound is the change to try.
 ///
 /// A change is known only within the draws: at least 10 runs were drawn beyond the changed mean, and of those no larger
-/// share than the requirement allows did not deploy; nor is (3) larger. Beyond, neither the output nor the deployment is known.
+/// share than the requirement allows did not deploy; nor is (3) larger. Beyond, neither the output nor the deployment is
+/// known.
 #pragma once
 
 #include "montecarlo/results/summary/replication.hpp"

@@ -2,6 +2,8 @@
 #include "montecarlo/analyses/sensitivity/needed_change.hpp"
 #include "tests/montecarlo/sample_support.hpp"
 
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
 
 #include <random>
@@ -172,9 +174,42 @@ TEST_CASE("a wing that deploys above a threshold needs the shift of its normal l
     CHECK(found[place]->edge == Approx(expected).epsilon(0.1));
     CHECK(std::abs(found[place]->change) >= std::abs(found[place]->edge));
   }
-  CHECK(found[2]->edge - 1 == Approx(found[0]->edge).epsilon(0.01)); // the mean of a is 1
+  // A factor of a multiplies its spread too: 0.4 + 2 t = 2.05 … 2.09 √(0.2² (1 + t)² + 0.2² + 0.1²).
+  const double t = found[2]->edge - 1, sigma = std::hypot(0.2 * (1 + t), 0.2, 0.1);
+  CHECK((0.4 + 2 * t) / sigma ==
+        Approx((0.4 + 2 * found[0]->edge) / 0.3).epsilon(0.005)); // as the shift
+  CHECK(t > 1.1 * found[0]->edge);
   CHECK(found[0]->of_broken < found[0]->of_others);
   CHECK(found[1]->of_broken > found[1]->of_others);
+}
+
+// A factor multiplies the spread of a draw too: N(1, 0.1) times c falls below 0.9 with Φ((0.9/c − 1)/0.1).
+TEST_CASE("a factor that is called enough lets new runs deploy, however many there are",
+          "[needed]") {
+  const auto [runs, sigma, probability] = GENERATE(table<int, double, double>(
+      {{2000, 0.1, 0.95}, {5000, 0.1, 0.99}, {10'000, 0.1, 0.99}, {1000, 0.15, 0.9}}));
+  constexpr int samples = 20;
+  double passes = 0;
+  int known = 0;
+  for (std::uint64_t seed = 0; seed < samples; ++seed) {
+    InventedRuns sample(runs, 50 + seed, [](double a, double, double) { return a; });
+    for (std::size_t i = 0; i < sample.a.size(); ++i) {
+      sample.a[i] = 1 + sigma / 0.1 * (sample.a[i] - 1);
+      if (sample.a[i] < 0.9) sample.status[i] = Status::stalled;
+    }
+    const Verdict verdict = judge(deploying(probability), sample.results());
+    const auto change =
+        needed_of(NeededFor::deployment, deploying(probability), sample.results(), {a_scaled})[0];
+    REQUIRE(change);
+    if (!change->known) continue;
+    ++known;
+    const boost::math::normal law(1, sigma);
+    const double fails = cdf(law, 0.9 / change->change);
+    passes += cdf(boost::math::binomial(runs, fails), static_cast<double>(*verdict.allowed));
+  }
+  CAPTURE(runs, sigma, probability, known);
+  CHECK(known >= samples / 2);
+  CHECK(passes / known > 0.9);
 }
 
 TEST_CASE("a rare weak value among equal ones is no normal law: no change is promised",
