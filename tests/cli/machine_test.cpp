@@ -1,5 +1,6 @@
 // Full disks, missing permissions, damaged files: errors without loss of data.
 #include "montecarlo/foundation/platform/folder_lock.hpp"
+#include "montecarlo/results/export/hdf5_export.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/montecarlo/analyses/fit/fit_support.hpp"
@@ -127,6 +128,20 @@ TEST_CASE("a file that may grow no more is the machine's refusal, and what is do
     CHECK(code == 4);
     CHECK_THAT(error, Catch::Contains("File too large"));
     CHECK_THAT(error, Catch::Contains(cut.string()));
+    if (has_hdf5()) {
+      const auto exported = run_program(folder, {"export", whole, "--out", folder.path() / "t.h5"});
+      CHECK(exported.code == 4);
+      CHECK_THAT(exported.error, Catch::Contains("File too large"));
+      CHECK_FALSE(std::filesystem::exists(folder.path() / "t.h5"));
+    }
+  }
+  if (has_hdf5()) { // below the limit nothing changes
+    const Limit limit(10'000'000);
+    CHECK(run_program(folder, {"export", whole, "--out", folder.path() / "limited.h5"}).code == 0);
+  }
+  if (has_hdf5()) {
+    CHECK(run_program(folder, {"export", whole, "--out", folder.path() / "t.h5"}).code == 0);
+    CHECK(read_text(folder.path() / "t.h5") == read_text(folder.path() / "limited.h5"));
   }
   const bool has_campaign = std::filesystem::exists(cut / campaign_file);
   std::vector<std::string> again{"run", campaign, "--out", cut};

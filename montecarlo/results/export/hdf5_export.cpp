@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 
 #include <H5Cpp.h>
 #include <algorithm>
@@ -291,11 +292,20 @@ void write_tables(const StoredCampaign& stored, H5::H5File& file) {
   }
 }
 
+/// Properties without blocks that the library fills and shortens at the end: a file in memory then has the bytes of one
+/// on the device.
+H5::FileAccPropList without_blocks() {
+  H5::FileAccPropList access;
+  H5Pset_meta_block_size(access.getId(), 0);
+  H5Pset_small_data_block_size(access.getId(), 0);
+  return access;
+}
+
 void write_hdf5(const StoredCampaign& stored, const std::filesystem::path& path) {
   H5::FileCreatPropList properties;
   set_up_group(properties.getId());
   std::optional<H5::H5File> file;
-  on_device([&] { file.emplace(path.string(), H5F_ACC_TRUNC, properties); });
+  on_device([&] { file.emplace(path.string(), H5F_ACC_TRUNC, properties, without_blocks()); });
   try {
     on_device([&] { write_tables(stored, *file); });
     on_device([&] { file->flush(H5F_SCOPE_GLOBAL); });
@@ -304,6 +314,26 @@ void write_hdf5(const StoredCampaign& stored, const std::filesystem::path& path)
     throw;
   }
   on_device([&] { file->close(); });
+}
+
+/// Whether files may not grow beyond some size (ulimit -f). This holds in memory (divert) too.
+bool has_file_limit() {
+  rlimit limit{};
+  return getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+/// The bytes of the HDF5 file, made in memory.
+std::string hdf5_image(const StoredCampaign& stored) {
+  H5::FileCreatPropList properties;
+  set_up_group(properties.getId());
+  H5::FileAccPropList access = without_blocks();
+  access.setCore(std::size_t{1} << 20, false);
+  H5::H5File file("in memory", H5F_ACC_TRUNC, properties, access);
+  write_tables(stored, file);
+  file.flush(H5F_SCOPE_GLOBAL);
+  std::string image(static_cast<std::size_t>(H5Fget_file_image(file.getId(), nullptr, 0)), '\0');
+  H5Fget_file_image(file.getId(), image.data(), image.size());
+  return image;
 }
 
 void refuse_special(const std::filesystem::path& file) {
@@ -326,7 +356,10 @@ void export_hdf5(const std::filesystem::path& folder, const std::filesystem::pat
   H5::Exception::dontPrint();
   constexpr const char* expected = "a file that can be written";
   try {
-    write_hdf5(stored, whole.part());
+    if (has_file_limit())
+      on_device([&] { whole.write(hdf5_image(stored)); });
+    else
+      write_hdf5(stored, whole.part());
   } catch (const Failure& failure) {
     if (failure.error != 0) refuse_path(file, failure.error, expected);
     throw MachineError({file.string(), "", "HDF5: " + failure.what, expected});
