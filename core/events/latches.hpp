@@ -154,8 +154,7 @@ public:
 
 private:
   [[nodiscard]] bool is_open(int i) const {
-    return system_.wing().hinges[i].has_latch && !system_.work().engaged[i] && !system_.sticks(i) &&
-           !system_.is_restrained(i);
+    return system_.wing().hinges[i].has_latch && !system_.work().engaged[i] && !system_.sticks(i);
   }
   [[nodiscard]] bool may_miss(int i) const { return has_capture(system_.wing(), i); }
 

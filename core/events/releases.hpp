@@ -1,8 +1,8 @@
 /// Holds: hinges that are locked at their stowed angles until a time, or until an event of another hinge.
 ///
 /// A rigidly held hinge is a locked hinge of the recursion (locked.hpp) without a limit. An elastic hold adds a spring
-/// and a damper about the stowed angle to the hinge's own laws. A held hinge cannot latch. At its release the state is
-/// continuous, and the hinge may stick by its own friction (contact.hpp).
+/// and a damper about the stowed angle to the hinge's own laws; if the hinge reaches its latched angle in spite of it, it
+/// latches. At a release the state is continuous, and the hinge may stick by its own friction (contact.hpp).
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -98,11 +98,11 @@ public:
     return false;
   }
 
-  /// Held hinges that have a latch.
+  /// Hinges with a latch that are held rigidly, so that they cannot latch.
   [[nodiscard]] int latches_held() const {
     int count = 0;
     for (int i = 1; held_ > 0 && i < size(); ++i)
-      count += is_held(i) && system_.wing().hinges[i].has_latch;
+      count += system_.is_held(i) && system_.wing().hinges[i].has_latch;
     return count;
   }
 

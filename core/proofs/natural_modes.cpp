@@ -26,6 +26,26 @@ Scene for_small_swings(Scene scene) {
   return scene;
 }
 
+bool is_latched(const std::optional<std::vector<int>>& latched, int hinge) {
+  return !latched || std::ranges::find(*latched, hinge) != latched->end();
+}
+
+/// Replaces hinges that elastic holds hold by joints of these holds' stiffness at their stowed angles. A hinge in a loop
+/// stays: the loop needs its travel.
+Scene with_holds_as_joints(Scene scene, const std::optional<std::vector<int>>& latched) {
+  for (int h = 0; h < std::ssize(scene.hinges); ++h) {
+    Hinge& hinge = scene.hinges[h];
+    const bool in_loop = std::ranges::any_of(scene.synchronisations, [h](const auto& loop) {
+      return loop.first == h || loop.second == h;
+    });
+    if (!hinge.latch || !hinge.hold || in_loop || is_latched(latched, h)) continue;
+    hinge.joint = Joint{hinge.hold->stiffness, hinge.hold->damping};
+    hinge.latched = hinge.stowed;
+    hinge.latch.reset(), hinge.release.reset(), hinge.hold.reset(), hinge.motor.reset();
+  }
+  return scene;
+}
+
 /// The wing's linear model, reduced to the hinges that move.
 struct Reduced {
   RestModel model;
@@ -105,11 +125,11 @@ NaturalMode mode_of(const Reduced& reduced, int k, std::size_t hinges) {
 
 std::optional<WingModes> natural_modes(const Scene& scene,
                                        const std::optional<std::vector<int>>& latched) {
-  WingModes found{with_segments(for_small_swings(scene)), {}, {}};
+  WingModes found{with_segments(with_holds_as_joints(for_small_swings(scene), latched)), {}, {}};
   const Scene& wing = found.wing.scene;
   std::vector<char> is_held(wing.hinges.size(), 0);
   for (int h = 0; latched && h < std::ssize(wing.hinges); ++h)
-    is_held[h] = wing.hinges[h].latch && std::ranges::find(*latched, h) == latched->end();
+    is_held[h] = wing.hinges[h].latch && !is_latched(latched, h);
   Reduced reduced;
   if (!reduced.make(wing, is_held, Eigen::ComputeEigenvectors | Eigen::Ax_lBx)) return std::nullopt;
   found.rest.resize(wing.hinges.size());

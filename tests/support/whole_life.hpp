@@ -274,7 +274,7 @@ private:
     const Hinge& hinge = scene_.hinges[i];
     switch (event % kinds) {
     case passes:
-      if (!hinge.latch || engaged_[i] || held_[i]) return -1;
+      if (!hinge.latch || engaged_[i] || (held_[i] && !hinge.hold)) return -1;
       return -side_[i] * beyond(y, i);
     case opens: {
       if (!hinge.latch || !engaged_[i] || !hinge.latch->holding_moment) return -1;

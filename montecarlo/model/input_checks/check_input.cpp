@@ -6,6 +6,7 @@
 #include "montecarlo/model/input_checks/clearance_check.hpp"
 #include "montecarlo/model/input_checks/damper_check.hpp"
 #include "montecarlo/model/input_checks/dispersion_checks.hpp"
+#include "montecarlo/model/input_checks/extent_checks.hpp"
 #include "montecarlo/model/input_checks/life_checks.hpp"
 #include "montecarlo/model/input_checks/motor_checks.hpp"
 #include "montecarlo/model/input_checks/shape_checks.hpp"
@@ -22,6 +23,7 @@ namespace {
 void check_numbers(const Scene& scene, InputWarnings& warnings) {
   check_sizes(scene, warnings);
   check_torques(scene, warnings);
+  check_extents(scene, warnings);
   check_shape(scene, warnings);
   check_bending(scene, warnings);
 }
@@ -32,6 +34,7 @@ Outcome check_motion(const Scene& scene, const Integration& integration, InputWa
   check_dampers(scene, integration, nominal, warnings);
   check_life(scene, integration, nominal, warnings);
   check_motors(scene, integration, nominal, warnings);
+  check_arrival(nominal, warnings);
   return nominal;
 }
 
@@ -60,15 +63,25 @@ void check_cases(const Campaign& campaign, const InputWarnings& nominal, InputWa
   }
 }
 
+/// ScenePlace::written of a scene.
+std::map<std::string, std::size_t> written_in(const Json& scene) {
+  std::map<std::string, std::size_t> written;
+  if (scene.is_object() && scene.contains("mirror"))
+    for (const char* key : {"bodies", "hinges", "synchronisations"})
+      written[key] = scene.value(key, Json::array()).size();
+  return written;
+}
+
 } // namespace
 
 ScenePlace scene_place(const std::filesystem::path& file) {
   if (file.empty()) return {};
   const Json document = parse_json_file(file);
   const auto scene = document.find("scene");
-  if (scene == document.end()) return {file.string()};
-  if (!scene->is_string()) return {file.string(), "/scene"};
-  return {(file.parent_path() / scene->get<std::string>()).string()};
+  if (scene == document.end()) return {file.string(), "", written_in(document)};
+  if (!scene->is_string()) return {file.string(), "/scene", written_in(*scene)};
+  const auto own = file.parent_path() / scene->get<std::string>();
+  return {own.string(), "", written_in(parse_json_file(own))};
 }
 
 std::vector<InputWarning> check_input(const Scene& scene, const Integration& integration,

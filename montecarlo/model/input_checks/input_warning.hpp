@@ -3,6 +3,8 @@
 
 #include "montecarlo/foundation/formats/spec_error.hpp"
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,9 @@ namespace wingspread {
 struct ScenePlace {
   std::string file;
   std::string prefix{};
+  /// Numbers of elements in the file, by key ("hinges"), where a mirror adds copies. A warning of a copy would repeat
+  /// that of its original, at a place that the file lacks.
+  std::map<std::string, std::size_t> written{};
 };
 
 struct InputWarning {
@@ -23,7 +28,7 @@ struct InputWarning {
 /// "FILE: POINTER: found …, usual is …" on one line.
 [[nodiscard]] std::string to_string(const InputWarning& warning);
 
-/// Collects the warnings of one input. Keeps the first one of each pointer.
+/// Collects the warnings of one input. Keeps the first one of each pointer, and none of a mirrored copy.
 class InputWarnings {
 public:
   explicit InputWarnings(ScenePlace place) : place_(std::move(place)) {}

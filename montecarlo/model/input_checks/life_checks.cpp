@@ -79,6 +79,19 @@ void check_holds(const Scene& scene, const Integration& integration, InputWarnin
           "release");
 }
 
+/// Warns of a hinge that reaches its latch while an elastic hold still holds it.
+void check_hold_lasts(int h, const Outcome& nominal, InputWarnings& warnings) {
+  const auto latched = std::ranges::find(nominal.latches, h, &LatchEvent::hinge);
+  const auto released = std::ranges::find(nominal.releases, h, &HingeEvent::hinge);
+  if (latched == nominal.latches.end() ||
+      (released != nominal.releases.end() && released->time <= latched->time))
+    return;
+  warnings.add(
+      fmt::format("/hinges/{}/hold/stiffness", h),
+      fmt::format("a hinge that latches at {:.4g} s, before its hold lets go", latched->time),
+      "a hold that keeps the hinge near its stowed angle");
+}
+
 void check_capture(const Scene& scene, int h, const Outcome& nominal, InputWarnings& warnings) {
   const std::string at = fmt::format("/hinges/{}/latch", h);
   const Hinge& hinge = scene.hinges[h];
@@ -110,6 +123,7 @@ void check_life(const Scene& scene, const Integration& integration, const Outcom
   check_holds(scene, integration, warnings);
   for (int h = 0; h < std::ssize(scene.hinges); ++h) {
     if (scene.hinges[h].release) check_release(scene, h, integration.t_end, warnings);
+    if (scene.hinges[h].release && scene.hinges[h].hold) check_hold_lasts(h, nominal, warnings);
     if (scene.hinges[h].latch && scene.hinges[h].latch->can_miss())
       check_capture(scene, h, nominal, warnings);
   }

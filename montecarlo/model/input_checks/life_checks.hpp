@@ -6,8 +6,9 @@
 
 namespace wingspread {
 
-/// Warns of holds that wait for themselves, that fail, or that let go after t_end; of latches that the nominal
-/// deployment passes too fast or pulls open, and of a hinge that nothing stops if it misses its latch.
+/// Warns of holds that wait for themselves, that fail, that let go after t_end or after their hinge has latched; of
+/// latches that the nominal deployment passes too fast or pulls open, and of a hinge that nothing stops if it misses its
+/// latch.
 /// @param nominal the nominal deployment
 void check_life(const Scene& scene, const Integration& integration, const Outcome& nominal,
                 InputWarnings& warnings);

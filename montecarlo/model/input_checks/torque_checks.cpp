@@ -31,6 +31,12 @@ struct Least {
 
 bool is_negative(const Least& least) { return least.value < -negligible * least.largest; }
 
+/// Whether the hinge's spring has a torque somewhere.
+bool spring_acts(const Hinge& hinge) {
+  return std::ranges::any_of(places_of_least(hinge),
+                             [&](double x) { return torque_at(hinge.spring, hinge, x) != 0; });
+}
+
 /// Returns false if the spring pushes away from the latch somewhere.
 bool check_spring(const std::string& at, const Hinge& hinge, InputWarnings& warnings) {
   Least least;
@@ -77,19 +83,18 @@ void check_net(const Scene& scene, const HingeDrive& drive, InputWarnings& warni
   const int leading = drive.hinges.front();
   const bool motor =
       std::ranges::any_of(drive.hinges, [&](int h) { return bool(scene.hinges[h].motor); });
-  warnings.add(fmt::format("/hinges/{}/spring", leading),
-               fmt::format("a net static torque of {:.4g} N·m at {:.4g} rad of {}: spring{} less "
-                           "harness less friction at rest",
-                           least.value, angle_at(scene.hinges[leading], least.at),
-                           name_of(drive, scene), motor ? " and motor" : ""),
-               "≥ 0 on the whole travel: a wing that stops where it is < 0 does not start again");
+  warnings.add(
+      fmt::format("/hinges/{}{}", leading, spring_acts(scene.hinges[leading]) ? "/spring" : ""),
+      fmt::format("a net static torque of {:.4g} N·m at {:.4g} rad of {}: spring{} less "
+                  "harness less friction at rest",
+                  least.value, angle_at(scene.hinges[leading], least.at), name_of(drive, scene),
+                  motor ? " and motor" : ""),
+      "≥ 0 on the whole travel: a wing that stops where it is < 0 does not start again");
 }
 
 /// Whether the hinge has a torque or a rate of its own.
 bool is_driven(const Hinge& hinge) {
-  return hinge.motor || hinge.initial_rate != 0 ||
-         std::ranges::any_of(places_of_least(hinge),
-                             [&](double x) { return torque_at(hinge.spring, hinge, x) != 0; });
+  return hinge.motor || hinge.initial_rate != 0 || spring_acts(hinge);
 }
 
 } // namespace

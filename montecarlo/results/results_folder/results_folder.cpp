@@ -201,7 +201,7 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
   const RowCheck check(names);
   const auto [first, last] = stored.runs();
   while (reader.next()) {
-    if (const auto fault = stored.foreign ? check.fault_in(reader.row()) : std::nullopt)
+    if (const auto fault = check.fault_in(reader.row()))
       throw reader.error(fault->column, fault->found, fault->expected);
     if (const long run = reader.row().run; run < first || run >= last)
       throw SpecError({{path.string(), "", fmt::format("run {}", run),

@@ -1,5 +1,5 @@
-/// Checks that the cells of a row of runs.csv, written by another tool, do not contradict each other. Rows of this
-/// program never do.
+/// Checks that the cells of a row of runs.csv do not contradict each other. Rows of this program do so only if they were
+/// edited or damaged.
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"
@@ -19,7 +19,7 @@ struct RowFault {
 /// Checks, as far as the columns exist:
 /// - magnitudes, counts and times are ≥ 0;
 /// - a deployed run has all latch times and a deployment time, and no other run has a deployment time;
-/// - the latch order names hinges, each once, by ascending latch times.
+/// - the latch order names the hinges with a latch time, each once, by ascending latch times.
 class RowCheck {
 public:
   /// @param names  of the campaign's columns

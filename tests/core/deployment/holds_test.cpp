@@ -81,6 +81,30 @@ TEST_CASE("a panel that a spring holds swings about its load until it is release
   CHECK(relative(damped.hold_moment[0].value, most) < 1e-9);
 }
 
+// x(t) = τ/k (1 − cos ωt), ω² = k/J, reaches the latch where cos ωt = 1 − k Θ/τ.
+TEST_CASE("a hinge that reaches its latch in spite of an elastic hold latches there, and its "
+          "energy stays") {
+  constexpr double k = 1, tau = 2, travel = pi / 2;
+  const double omega = std::sqrt(k / panel_inertia), time = std::acos(1 - k * travel / tau) / omega,
+               rate = tau / k * omega * std::sin(omega * time);
+  for (const double released : {2 * time, 1000.}) {
+    Scene scene = latching_panel();
+    scene.hinges[0].release = at_time(released);
+    scene.hinges[0].hold = Hold{k, 0};
+    for (const Scene& way : {scene, other_sense(scene)}) {
+      const Integration how = within(1e-11, 30);
+      const Outcome out = Deployment().run(way, how, {});
+      require_equal_bits({way, way, way}, how, every_peak);
+      REQUIRE(out.latches.size() == 1);
+      CHECK(std::abs(out.latches[0].time - time) < 1e-9);
+      CHECK(std::abs(out.latches[0].rates[0]) == Approx(rate).epsilon(1e-8));
+      CHECK(out.status == (released < 30 ? Status::deployed : Status::stalled));
+      CHECK(std::abs(out.final.angles[0]) < 0.02);
+      CHECK(out.energy.final < out.energy.initial);
+    }
+  }
+}
+
 TEST_CASE("an elastic hold that fails stalls the run, and no latch engages meanwhile") {
   Scene scene = two_panels();
   scene.hinges[0].release = at_time(1), scene.hinges[0].release->fails = 1;

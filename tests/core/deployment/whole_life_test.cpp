@@ -65,7 +65,7 @@ Scene with_life(Scene scene, std::uint64_t seed, bool motors = false) {
     if (draws.chance(0.1)) release.fails = 1;
     hinge.release = release;
     if (motors && motor_draws.chance(0.4))
-      hinge.hold = Hold{motor_draws.log_uniform(30, 3000), motor_draws.log_uniform(0.1, 10)};
+      hinge.hold = Hold{motor_draws.log_uniform(1, 3000), motor_draws.log_uniform(0.1, 10)};
   }
   return scene;
 }

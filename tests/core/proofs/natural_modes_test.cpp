@@ -198,6 +198,31 @@ TEST_CASE(
   CHECK(root.modes[0].shape[1] == 0);
 }
 
+TEST_CASE(
+    "a hinge that is not latched swings on its elastic hold as on a joint of this stiffness") {
+  Scene held = seed_scene(), jointed = seed_scene();
+  held.hinges[1].release = Release{.time = 1}, held.hinges[1].hold = Hold{20, 0.05};
+  Hinge& joint = jointed.hinges[1];
+  joint.joint = Joint{20, 0.05}, joint.latched = joint.stowed, joint.latch.reset();
+  for (const std::vector<int>& latched : {std::vector<int>{0}, {0, 2}, {}}) {
+    const WingModes found = modes_of(held, latched), expected = modes_of(jointed, latched);
+    REQUIRE(found.modes.size() == latched.size() + 1);
+    REQUIRE(expected.modes.size() == found.modes.size());
+    for (std::size_t k = 0; k < found.modes.size(); ++k) {
+      CHECK(found.modes[k].frequency == Approx(expected.modes[k].frequency).epsilon(1e-12));
+      CHECK(found.modes[k].damping_ratio == Approx(expected.modes[k].damping_ratio).epsilon(1e-9));
+    }
+    CHECK(found.modes[0].frequency <
+          modes_of(seed_scene(), std::vector<int>{0}).modes[0].frequency);
+  }
+  CHECK(modes_of(held, std::vector<int>{0, 1, 2}).modes.size() == 3); // latched: the hold is gone
+  Synchronisation loop;
+  loop.name = "loop", loop.first = 0, loop.second = 1, loop.stiffness = 100;
+  held.synchronisations.push_back(loop);
+  CHECK(modes_of(held, std::vector<int>{0}).modes.size() ==
+        1); // held rigidly: the loop needs its travel
+}
+
 TEST_CASE("a cantilever of segments has frequencies that converge as the page says") {
   // errors of the first frequency of a uniform rod
   const std::pair<int, double> errors[] = {{4, 1.45e-2}, {8, 3.60e-3}, {16, 8.97e-4}};

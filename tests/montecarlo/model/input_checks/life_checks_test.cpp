@@ -79,3 +79,24 @@ TEST_CASE("holds wait for themselves where no elastic one lets its hinge pass th
   scene.hinges[1].hold = Hold{3, 0};
   CHECK(cycles() == 0);
 }
+
+TEST_CASE("a hinge that latches before its elastic hold lets go is told", "[warnings]") {
+  Scene scene = read_scene_file(test::three_panel_file());
+  scene.hinges[1].release.emplace().time = 5;
+  scene.hinges[1].hold = Hold{2000, 0};
+  const auto told = [&](double latched, double released) {
+    Outcome nominal;
+    if (latched > 0) nominal.latches = {{1, latched, {0, 0, 0}}};
+    if (released > 0) nominal.releases = {{1, released, 0}};
+    InputWarnings warnings(ScenePlace{"scene.json"});
+    check_life(scene, Integration(), nominal, warnings);
+    return std::ranges::find(warnings.list(), "/hinges/1/hold/stiffness", &InputWarning::pointer) !=
+           warnings.list().end();
+  };
+  CHECK(told(4, 5));
+  CHECK(told(4, -1));
+  CHECK_FALSE(told(6, 5));
+  CHECK_FALSE(told(-1, 5));
+  scene.hinges[1].hold.reset();
+  CHECK_FALSE(told(4, 5));
+}

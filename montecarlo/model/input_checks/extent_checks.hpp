@@ -1,0 +1,19 @@
+/// Checks that what a scene gives acts on its wing at all, and that rates and accelerations are of a wing.
+#pragma once
+
+#include "core/outcome.hpp"
+#include "core/scene/scene.hpp"
+#include "montecarlo/model/input_checks/input_warning.hpp"
+
+namespace wingspread {
+
+/// Warns of a damper's window beside the travel, of a table over less than half of it, of a latch that gives way to its
+/// hinge's spring, of air without a plate, and of an initial rate or a gravity that no wing has. An elastic joint has no
+/// travel.
+void check_extents(const Scene& scene, InputWarnings& warnings);
+
+/// Warns of a hinge that reaches its latch faster than those of wings do.
+/// @param nominal the nominal deployment
+void check_arrival(const Outcome& nominal, InputWarnings& warnings);
+
+} // namespace wingspread
