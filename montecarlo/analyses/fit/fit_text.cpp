@@ -2,6 +2,7 @@
 #include "montecarlo/engine/runs/trajectory_columns.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 
+#include <boost/math/special_functions/gamma.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -74,6 +75,41 @@ void add_held(const FitResult& result, std::vector<std::string>& list) {
                                  : "To first order, with the spread of what is held, the "
                                    "posterior sd is: " +
                                        widened));
+}
+
+/// Tests with the same measured numbers: each counts as a test of its own.
+void add_repeated(const FitSpec& spec, std::vector<std::string>& list) {
+  const auto measured = [](const FitTest& test) {
+    std::vector<double> numbers = test.times;
+    for (const auto& column : test.columns)
+      numbers.insert(numbers.end(), column.measured.begin(), column.measured.end());
+    return numbers;
+  };
+  for (std::size_t k = 1; k < spec.tests.size(); ++k)
+    for (std::size_t i = 0; i < k; ++i)
+      if (!spec.tests[k].times.empty() && measured(spec.tests[i]) == measured(spec.tests[k]))
+        list.push_back(fmt::format("\"{}\" has the numbers of \"{}\": the same trace counts twice",
+                                   spec.tests[k].name, spec.tests[i].name));
+}
+
+/// Residuals that count as fewer. If they were too large for as many independent ones, something bends them.
+std::string dependence_text(const FittedChannel& fitted, const FitSpec& spec) {
+  const Channel& channel = fitted.channel;
+  const auto count = static_cast<double>(channel.count);
+  std::string text =
+      fmt::format("the residuals of {} of \"{}\" depend on each other: {} numbers "
+                  "count as {:.0f}",
+                  fitted.name, spec.tests[channel.test].name, channel.count, channel.effective);
+  const double p = std::isfinite(fitted.chi_squared)
+                       ? boost::math::gamma_q(count / 2, fitted.chi_squared / 2)
+                       : 1;
+  if (channel.std && p < misfit_p_value)
+    text += fmt::format(". As independent ones they would not fit (χ² {:.4g}, p {:.2g}): the model "
+                        "lacks something, as an offset of the clock (time_offset_std) or a "
+                        "dispersion that is not fitted, and parameters may be off by more than "
+                        "their intervals",
+                        fitted.chi_squared, p);
+  return text;
 }
 
 void add_misfits(const FitResult& result, const FitSpec& spec, std::vector<std::string>& list) {
@@ -205,14 +241,10 @@ std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& sp
     if (result.mode_distances[k] > other_mode_distance)
       list.push_back(fmt::format("another mode lies {:.1f} sd away, {:.1f} nats below the best one",
                                  result.mode_distances[k], result.mode_drops[k]));
-  for (const FittedChannel& fitted : result.channels) {
-    const double share = fitted.channel.effective / static_cast<double>(fitted.channel.count);
-    if (share < 0.5)
-      list.push_back(fmt::format("the residuals of {} of \"{}\" depend on each other: {} numbers "
-                                 "count as {:.0f}",
-                                 fitted.name, spec.tests[fitted.channel.test].name,
-                                 fitted.channel.count, fitted.channel.effective));
-  }
+  for (const FittedChannel& fitted : result.channels)
+    if (fitted.channel.effective < 0.5 * static_cast<double>(fitted.channel.count))
+      list.push_back(dependence_text(fitted, spec));
+  add_repeated(spec, list);
   add_held(result, list);
   for (const std::string& law : result.lost_laws)
     list.push_back("the law of this case is not in the written campaign, which draws the posterior "

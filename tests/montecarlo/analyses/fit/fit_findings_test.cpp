@@ -5,7 +5,9 @@
 #include "tests/montecarlo/analyses/fit/fit_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -94,6 +96,33 @@ TEST_CASE("values that deviate little each, but together too much, are told") {
   const auto [fits, none] = study(0.02);
   CHECK(fits == Approx(0.5).margin(0.2)); // χ² 8.7
   CHECK(none.empty());
+}
+
+TEST_CASE(
+    "a clock that is late is told where the residuals count as few, and a trace given twice") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign(0.5, 0.2));
+  const auto findings = [&](double late, bool twice) {
+    std::string text = "t,th\n";
+    RandomStream random(3, 0, stream_name("trace"));
+    for (int k = 0; k <= 80; ++k) {
+      const double z = inverse(Normal{}, tails_of_uniform(open_uniform(random())));
+      text += std::to_string(0.02 * k) + "," +
+              csv_cell(panel_angle(std::max(0.0, 0.02 * k - late), 1, 1) + 0.005 * z) + "\n";
+    }
+    folder.write("t1.csv", text);
+    Json tests = parse_json(one_way);
+    tests["fit"]["samples"] = 100;
+    tests["tests"][0]["trace"].erase("correlated");
+    if (twice) tests["tests"].push_back(tests["tests"][0]), tests["tests"][1]["name"] = "again";
+    const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
+    return fmt::format("{}", fmt::join(fit_findings(fitted(campaign, spec), spec), "\n"));
+  };
+  CHECK(findings(0, false).empty());
+  CHECK_THAT(findings(0.1, false), Catch::Contains("depend on each other") &&
+                                       Catch::Contains("the model lacks something"));
+  CHECK_THAT(findings(0, true), Catch::Equals("\"again\" has the numbers of \"one way\": the same "
+                                              "trace counts twice"));
 }
 
 TEST_CASE("what is held widens a standard deviation at most to the prior's, and then says so") {
