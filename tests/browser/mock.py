@@ -212,7 +212,7 @@ def comparison(sets, first, second):
                          "relative": step / abs(one["mean"]), "runs": one["count"], "magnitude": False})
     rates = [(one["status"], two["rate"] - one["rate"]) for one, two in zip(sets[first]["statuses"], sets[second]["statuses"])]
     return {"sets": [first, second], "folders": not sets[first]["case"], "paired": True, "runs": sets[second]["runs"], "outputs": rows,
-            "text": f"{sets[second]['label']} − {sets[first]['label']}, run by run over the {sets[second]['runs']} runs with the same draws",
+            "text": f"{sets[second]['label']} − {sets[first]['label']}, run by run over the {sets[second]['runs']} runs with the same random numbers",
             "statuses": [{"status": s, "difference": d, "lower": d - 0.004, "upper": d + 0.004} for s, d in rates]}
 
 

@@ -8,7 +8,7 @@ from number_checks import DEGREES, parsed
 REQUIREMENTS = "Requirement|Verdict|Quantile or share|One-sided 90 % bound|Distance to the limit|Against the limit|Runs that break it"
 OUTPUTS = "Output|Unit|Runs|Distribution|Nominal|Mean|Std|1 % quantile|Median|99 % quantile"
 STATIC = "Hinge|Least, nominal|Least, 1 % quantile|Required|Nominal verdict|Verdict, 1 % quantile"
-DIFFERENCES = "ambient − cold, run by run over the 2000 runs with the same draws"
+DIFFERENCES = "ambient − cold, run by run over the 2000 runs with the same random numbers"
 TABLES = {  # by kind of page: the heads below each caption
     "plain": {"Requirements, the worst first": REQUIREMENTS, "Outcomes of the runs": "Outcome|Runs|Share|95 % two-sided bounds", "Latch orders": "Order|Runs|Share",
               "Numerical and statistical error of each output": "Output|Unit|Numerical, largest|Numerical, rms|Standard error of the mean",

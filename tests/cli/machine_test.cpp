@@ -10,6 +10,9 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <fstream>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -148,6 +151,27 @@ TEST_CASE("a file that may grow no more is the machine's refusal, and what is do
   if (has_campaign) again.emplace_back("--resume");
   CHECK(run_program(folder, again).code == 0);
   CHECK(read_text(cut / runs_file) == read_text(whole / runs_file));
+}
+
+TEST_CASE("an edited row that contradicts itself is refused in a folder of the program's own") {
+  const Folder folder;
+  const std::string campaign = folder.write("c.json", quick_campaign(5).dump());
+  const std::filesystem::path out = folder.path() / "r";
+  REQUIRE(run_program(folder, {"run", campaign, "--out", out}).code == 0);
+  std::string csv = read_text(out / runs_file).value();
+  const std::size_t header = csv.find('\n'), line = csv.find('\n', header + 1) + 1; // of run 1
+  const std::string names = csv.substr(0, header);
+  const auto cell = [&](const std::string& name) { // its first character in the line
+    std::size_t at = line;
+    for (std::size_t k = std::ranges::count(names.substr(0, names.find(name)), ','); k > 0; --k)
+      at = csv.find(',', at) + 1;
+    return at;
+  };
+  csv.insert(cell("root.latch_time"), "-");
+  std::ofstream(out / runs_file) << csv;
+  const auto [code, text, error] = run_program(folder, {"analyze", out});
+  CHECK(code == 2);
+  CHECK_THAT(error, HasFacts({"line 3", "'root.latch_time'", "a time ≥ 0"}));
 }
 
 TEST_CASE("a folder in which a process is at work is refused by all that write to it") {

@@ -277,7 +277,7 @@ TEST_CASE("report has a set for each case, and compares them run by run", "[repo
   REQUIRE(data["comparisons"].size() == 1);
   CHECK(data["comparisons"][0]["paired"] == true);
   CHECK(data["comparisons"][0]["text"] ==
-        "weak − as_it_is, run by run over the 20 runs with the same draws");
+        "weak − as_it_is, run by run over the 20 runs with the same random numbers");
   CHECK(data["comparisons"][0]["outputs"].back()["lower"].get<double>() >
         0); // the weaker, the slower
 }
@@ -308,12 +308,12 @@ TEST_CASE("folders with cases are compared case by case, over the runs that both
     for (const Json& each : data["unpaired"]) texts.push_back(each);
     return texts;
   };
-  const std::string over = ", run by run over the 12 runs with the same draws",
+  const std::string over = ", run by run over the 12 runs with the same random numbers",
                     of = over + " (of 12 and 20)";
   CHECK(compared({a, b}) ==
         std::vector<std::string>{
             "B · hot − A · hot" + of, "B · cold − A · cold" + of,
-            "A · hot − A · cold, run by run over the 20 runs with the same draws",
+            "A · hot − A · cold, run by run over the 20 runs with the same random numbers",
             "B · space − B · hot" + over, "B · cold − B · hot" + over,
             "B · cold − B · space" + over,
             "B · space: none of A · cold, A · hot is the case space"});

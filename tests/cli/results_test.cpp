@@ -143,10 +143,16 @@ TEST_CASE("analyze counts what stalled with its reason, and takes it for no fail
   const StoredCampaign stored = read_stored_campaign(done.path);
   const Results results = read_stored_results(stored).results;
   std::string csv;
-  append_header(csv, RunPlan(stored.campaign).names());
+  const ResultNames names = RunPlan(stored.campaign).names();
+  append_header(csv, names);
+  const auto deployment =
+      std::ranges::find(names.outputs, "deployment_time") - names.outputs.begin();
   for (std::size_t k = 0; k < 6; ++k) {
     ResultRow row = results.row(k);
-    if (k % 2 == 0) row.status = Status::stalled, row.reason = "friction holds tip";
+    if (k % 2 == 0) {
+      row.status = Status::stalled, row.reason = "friction holds tip";
+      row.outputs.at(static_cast<std::size_t>(deployment)) = std::nan("");
+    }
     append_row(csv, row);
   }
   std::ofstream(done.path / runs_file, std::ios::binary) << csv;

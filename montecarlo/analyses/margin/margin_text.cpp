@@ -159,7 +159,8 @@ private:
     if (!std::isnan(each.present_quantile) && !std::isnan(each.quantile))
       text += fmt::format(
           "; {:.10g} % quantile among runs with a value: {:.5g} now, {:.5g} recommended",
-          100 * before.requirement.probability,
+          100 * (before.requirement.min ? 1 - before.requirement.probability
+                                        : before.requirement.probability),
           in_unit_of_limit(before.requirement, each.present_quantile),
           in_unit_of_limit(before.requirement, each.quantile));
     return below(text);

@@ -287,7 +287,7 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
       {"beyond", event_json(options.event)},
       {"case", campaign.of_case.empty() ? Json(nullptr) : Json(campaign.of_case)},
       {"probability", all.probability},
-      {"reached", all.reached},
+      {"reached", all.reached && all.probability > 0},
       {"method", method_of(result)},
       {"first_levels", {{"runs", all.draws}, {"with_event", all.hits}}},
       {"confidence", options.confidence},

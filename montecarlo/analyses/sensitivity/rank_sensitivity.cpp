@@ -1,5 +1,6 @@
 #include "montecarlo/analyses/sensitivity/rank_sensitivity.hpp"
 
+#include "montecarlo/analyses/sensitivity/ranked_draws.hpp"
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/foundation/statistics/jackknife.hpp"
 #include "montecarlo/foundation/statistics/rank_bias.hpp"
@@ -21,13 +22,13 @@ namespace {
 /// smaller value it names independent dispersions of small campaigns by chance. With a larger value, dispersions that
 /// share half of their variance with others go unmentioned.
 constexpr double most_explained = 0.5;
+/// Runs that `collinear` needs beside one for each dispersion: three independent draws of 4 to 7 runs were named in a
+/// quarter of the campaigns, of 20 and more in none.
+constexpr long least_beside = 16;
 /// Partial coefficients have bounds if at least n (1 − R²) of this size is left of an output's ranks. Below, the rest is
 /// of few ranks (its rms is below 0.3 √n), and nominal 90 % bounds covered 0 to 80 %. Above, wrong bounds were given in
 /// at most 12 % of the samples (README.md).
 constexpr double least_unexplained = 1;
-constexpr int all_threads = 0;
-
-using Rows = std::vector<bool>; ///< which runs are kept
 
 std::vector<RankedColumn> ranked(const std::vector<const Column*>& columns) {
   std::vector<const Spilled<double>*> values;
@@ -41,43 +42,6 @@ void keep_runs_with(const Column& column, Rows& keep) {
     if (std::isnan(column.values[i])) keep[i] = false;
   column.values.release();
 }
-
-/// The ranks of the draws over selected runs, and their partial correlations.
-class RankedDraws {
-public:
-  RankedDraws(const std::vector<RankedColumn>& draws, const Rows& keep)
-      : ranks_(ranks_of(draws, keep)), partial_(ranks_, all_threads) {}
-
-  [[nodiscard]] const PartialCorrelations& partial() const { return partial_; }
-  [[nodiscard]] const std::vector<Spilled<double>>& ranks() const { return ranks_; }
-
-  struct Coefficients {
-    std::vector<double> spearman, partial;
-    double unexplained = undefined; ///< 1 − R² of the output's ranks
-  };
-  /// @param ranks of the output, in the kept runs
-  [[nodiscard]] Coefficients with(const std::vector<double>& ranks) const {
-    Coefficients found;
-    for (const Spilled<double>& draw : ranks_) {
-      found.spearman.push_back(pearson(draw, ranks));
-      draw.release();
-    }
-    found.partial = partial_.given(found.spearman);
-    found.unexplained = partial_.unexplained(found.spearman);
-    return found;
-  }
-
-private:
-  static std::vector<Spilled<double>> ranks_of(const std::vector<RankedColumn>& draws,
-                                               const Rows& keep) {
-    std::vector<Spilled<double>> ranks;
-    for (const RankedColumn& draw : draws) ranks.emplace_back(draw.ranks_where(keep));
-    return ranks;
-  }
-
-  std::vector<Spilled<double>> ranks_;
-  PartialCorrelations partial_;
-};
 
 using Coefficients = RankedDraws::Coefficients;
 
@@ -201,6 +165,8 @@ struct Found {
   long count = 0, held = 0;
   Coefficients all;
   std::vector<Coefficients> without{};
+  std::vector<double>
+      errors{};            ///< of Spearman's coefficients, for any law; of independent runs only
   std::vector<double> z{}; ///< corrected partial coefficients; of independent runs only
   std::vector<std::vector<double>> z_without{};
 };
@@ -228,7 +194,9 @@ private:
   [[nodiscard]] Bounds spearman_bounds(const Found& found, std::size_t j, double confidence) const {
     const double value = found.all.spearman[j];
     if (!independent_) return jackknifed(found, j, &Coefficients::spearman, confidence);
-    return std::isnan(value) ? Bounds{} : rank_correlation_bounds(value, found.count, confidence);
+    if (std::isnan(value)) return {};
+    const double error = found.errors.empty() ? 0 : found.errors[j];
+    return rank_correlation_bounds(value, found.count, confidence, error);
   }
 
   [[nodiscard]] Bounds partial_bounds(const Found& found, std::size_t j) const {
@@ -307,6 +275,7 @@ std::vector<Found> coefficients(const std::vector<RankedColumn>& draws,
     ranks.push_back(output->ranks_where(keep));
     found.push_back({std::ranges::count(keep, true), std::max(0L, all.partial().varying() - 1),
                      all.with(ranks.back())});
+    if (groups.independent()) found.back().errors = all.errors(ranks.back());
   }
   std::optional<CorrectedPartial> corrected;
   if (groups.independent() && groups.count() > 0) {
@@ -338,7 +307,10 @@ OutputRanks output_ranks(const std::string& name, const Found& found, const Resu
 /// Lists the constant, idle and collinear dispersions.
 void note_dispersions(const Results& results, const std::vector<RankedColumn>& draws,
                       const Rows& with_draws, RankSensitivity& all) {
-  const std::vector<double> explained = RankedDraws(draws, with_draws).partial().explained();
+  const RankedDraws ranked(draws, with_draws);
+  const std::vector<double> explained = ranked.partial().explained();
+  const bool enough =
+      std::ranges::count(with_draws, true) >= ranked.partial().varying() + least_beside;
   for (std::size_t j = 0; j < draws.size(); ++j) {
     const std::string& name = results.draws[j].name;
     const auto seen = [&](const OutputRanks& output) { return output.effects[j].seen; };
@@ -346,7 +318,7 @@ void note_dispersions(const Results& results, const std::vector<RankedColumn>& d
       all.unvaried.push_back(name);
     else if (std::ranges::none_of(all.outputs, seen))
       all.idle.push_back(name);
-    if (explained[j] >= most_explained) all.collinear.push_back(name);
+    if (enough && explained[j] >= most_explained) all.collinear.push_back(name);
   }
 }
 

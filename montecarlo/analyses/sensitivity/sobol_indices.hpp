@@ -14,7 +14,7 @@
 ///
 /// (1): A. Saltelli et al., Computer Physics Communications 181 (2010) 259–270, table 2 b; (2): M.
 /// J. W. Jansen, ibid. 117 (1999) 35–43. Both are exactly 0 for a dispersion
-/// without effect. Bounds: percentile bootstrap over independent rows; for dependent rows the jackknife over the
+/// without effect. Bounds, from 16 rows on: percentile bootstrap over independent rows; for dependent rows the jackknife over the
 /// replicates of the design (jackknife.hpp).
 ///
 /// An output with a missing value has no indices. Dropping the affected rows is no remedy: with 26 points per row, 2 %

@@ -31,17 +31,67 @@ std::optional<Matrix> inverse_of(const Matrix& correlations) {
   return Matrix((root.transpose() * root).cast<double>());
 }
 
+/// Ranks from their mean, divided by their number.
+std::vector<double> centred(std::span<const double> ranks) {
+  const auto n = static_cast<double>(ranks.size());
+  std::vector<double> shares;
+  for (const double rank : ranks) shares.push_back((rank - (n + 1) / 2) / n);
+  return shares;
+}
+
+double mean_product(std::span<const double> a, std::span<const double> b) {
+  Sum sum;
+  for (std::size_t i = 0; i < a.size(); ++i) sum.add(a[i] * b[i]);
+  return sum.value() / static_cast<double>(a.size());
+}
+
+/// G of each row: the mean of the values of rows with larger ranks, and half of those with the same rank.
+std::vector<double> upper_means(std::span<const double> ranks, std::span<const double> values) {
+  const auto place = [&](std::size_t i) { return static_cast<std::size_t>(2 * ranks[i]); };
+  std::vector<double> above(2 * ranks.size() + 1, 0.0);
+  for (std::size_t i = 0; i < ranks.size(); ++i) above[place(i)] += values[i];
+  double sum = 0; // of larger ranks
+  for (std::size_t k = above.size(); k-- > 0;) {
+    const double own = above[k];
+    above[k] = sum + own / 2;
+    sum += own;
+  }
+  std::vector<double> means;
+  for (std::size_t i = 0; i < ranks.size(); ++i)
+    means.push_back(above[place(i)] / static_cast<double>(ranks.size()));
+  return means;
+}
+
 } // namespace
 
-Bounds rank_correlation_bounds(double coefficient, long n, double confidence) {
+Bounds rank_correlation_bounds(double coefficient, long n, double confidence, double error) {
   if (n <= 3) return {};
   // z is infinite where the ranks agree; the nearest coefficient, of two neighbours exchanged, bounds the other side
   const double rows = static_cast<double>(n), nearest = 1 - 12 / (rows * (rows * rows - 1));
   const double r = std::clamp(coefficient, -nearest, nearest);
-  const double reach = two_sided_normal(confidence) * std::sqrt((1 + r * r / 2) / (rows - 3));
+  const double by_normal = std::sqrt((1 + r * r / 2) / (rows - 3)), by_rows = error / (1 - r * r);
+  const double reach = two_sided_normal(confidence) * std::max(by_normal, by_rows);
   const double z = std::atanh(r);
   return {coefficient < -nearest ? coefficient : std::tanh(z - reach),
           coefficient > nearest ? coefficient : std::tanh(z + reach)};
+}
+
+double rank_correlation_error(std::span<const double> a, std::span<const double> b) {
+  const std::vector<double> u = centred(a), v = centred(b);
+  const double uu = mean_product(u, u), vv = mean_product(v, v), uv = mean_product(u, v);
+  if (!(uu > 0 && vv > 0)) return 0;
+  const std::vector<double> of_uv = upper_means(a, v), of_vu = upper_means(b, u),
+                            of_uu = upper_means(a, u), of_vv = upper_means(b, v);
+  const double scale = std::sqrt(uu * vv), rho = uv / scale;
+  Sum square;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const double both = u[i] * v[i] + of_uv[i] + of_vu[i] - 3 * uv,
+                 first = u[i] * u[i] + 2 * of_uu[i] - 3 * uu,
+                 second = v[i] * v[i] + 2 * of_vv[i] - 3 * vv,
+                 influence = both / scale - rho / 2 * (first / uu + second / vv);
+    square.add(influence * influence);
+  }
+  return std::sqrt(square.value()) / static_cast<double>(u.size());
 }
 
 PartialCorrelations::PartialCorrelations(const std::vector<Spilled<double>>& columns, int threads)

@@ -146,7 +146,7 @@ std::string runs_text(const Sides& sides) {
   if (!sides.paired) return fmt::format("draws of their own: {} and {} runs", second, first);
   const std::string of =
       both == first && both == second ? "" : fmt::format(" (of {} and {})", second, first);
-  return fmt::format("run by run over the {} runs with the same draws{}", both, of);
+  return fmt::format("run by run over the {} runs with the same random numbers{}", both, of);
 }
 
 using Sets = std::span<const std::unique_ptr<PageSource>>;

@@ -44,7 +44,7 @@ struct SameRuns {
 [[nodiscard]] Difference unpaired_share_difference(long first, long first_of, long second,
                                                    long second_of, double confidence);
 
-/// Whether runs of equal number have equal draws in both sets.
+/// Whether runs of equal number are made from the same random numbers in both sets: equal draws where the laws are equal.
 [[nodiscard]] bool have_same_draws(const PageSource& first, const PageSource& second);
 
 /// The sets that the page compares, and those without a partner.

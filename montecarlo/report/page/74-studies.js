@@ -293,7 +293,7 @@
             },
           });
     const reached =
-      rare.reached === false && strata.length === 0
+      rare.reached === false && strata.length === 0 && rare.probability > 0
         ? " The event was not reached: this is the estimated probability of the last level, which contains the event. Estimated upper bound, not guaranteed."
         : "";
     return [

@@ -40,7 +40,7 @@
           title: `Change of the means: ${W.sets[j].label} against ${W.sets[i].label}`,
           class: "forest",
           printed: 860,
-          note: `${comparison.paired ? `Paired over the ${F.count(comparison.runs)} runs of both sets with the same draws, so scatter between runs cancels. Each difference is over the runs that have the output in both sets.` : "Not paired: the sets have different draws."}${rows.length > drawn.length ? ` The picture has the ${drawn.length} largest of ${rows.length} changes; the table has all.` : ""}`,
+          note: `${comparison.paired ? `Paired over the ${F.count(comparison.runs)} runs of both sets with the same random numbers, so scatter between runs cancels. Each difference is over the runs that have the output in both sets.` : "Not paired: the sets have different random numbers."}${rows.length > drawn.length ? ` The picture has the ${drawn.length} largest of ${rows.length} changes; the table has all.` : ""}`,
           description: () =>
             drawn
               .slice(0, 12)

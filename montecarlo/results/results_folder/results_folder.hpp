@@ -89,8 +89,8 @@ struct RowsRead {
 };
 
 /// Delivers the rows of runs.csv one after another, without a torn last line.
-/// @throws SpecError if the file is broken, has a run that is not the folder's, or if a row of another tool contradicts
-///   itself (row_check.hpp)
+/// @throws SpecError if the file is broken, has a run that is not the folder's, or if a row contradicts itself
+///   (row_check.hpp)
 RowsRead for_each_stored_row(const StoredCampaign& stored,
                              const std::function<void(const ResultRow&)>& take);
 

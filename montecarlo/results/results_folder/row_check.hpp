@@ -19,7 +19,7 @@ struct RowFault {
 /// Checks, as far as the columns exist:
 /// - magnitudes, counts and times are ≥ 0;
 /// - a deployed run has all latch times and a deployment time, and no other run has a deployment time;
-/// - the latch order names the hinges with a latch time, each once, by ascending latch times.
+/// - the latch order names hinges, each once, by ascending latch times.
 class RowCheck {
 public:
   /// @param names  of the campaign's columns

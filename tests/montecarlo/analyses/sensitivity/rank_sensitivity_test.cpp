@@ -202,6 +202,14 @@ TEST_CASE("dispersions that follow from others are named") {
   CHECK(rank_sensitivity(results_of({x[0], x[2], x[3]}, y), 0.95).collinear.empty());
 }
 
+TEST_CASE("in few runs no independent draws are said to follow from others") {
+  for (const std::size_t runs : {5, 6, 8, 12, 19})
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const Columns x = normal_columns(3, runs, seed);
+      CHECK(rank_sensitivity(results_of(x, combination(x, {1, 1, 1})), 0.95).collinear.empty());
+    }
+}
+
 TEST_CASE("a dispersion of which the others explain half is named, one of a third is not") {
   const auto collinear = [](double rest) { // R² = 1/(1 + rest²)
     Columns x = normal_columns(4, 2000, 14);

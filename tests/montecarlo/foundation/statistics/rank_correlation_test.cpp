@@ -4,7 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -75,4 +77,57 @@ TEST_CASE("partial coefficients have the same bits for any number of threads", "
       CHECK(together.explained() == alone.explained());
     }
   }
+}
+
+namespace {
+
+/// Mid-ranks, by counting.
+std::vector<double> counted_ranks(const std::vector<double>& x) {
+  std::vector<double> ranks;
+  for (const double a : x)
+    ranks.push_back(0.5 + 0.5 * static_cast<double>(std::ranges::count(x, a)) +
+                    static_cast<double>(std::ranges::count_if(x, [&](double b) { return b < a; })));
+  return ranks;
+}
+
+/// The jackknife's standard error of Spearman's coefficient, leaving out one row after the other.
+double jackknife_error(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<double> without;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    std::vector<double> a = x, b = y;
+    a.erase(a.begin() + static_cast<long>(k)), b.erase(b.begin() + static_cast<long>(k));
+    without.push_back(pearson(counted_ranks(a), counted_ranks(b)));
+  }
+  const auto n = static_cast<double>(x.size());
+  return (n - 1) / std::sqrt(n) * moments(without).std;
+}
+
+} // namespace
+
+TEST_CASE(
+    "the error of Spearman's coefficient for any law is the jackknife's, with ties and without") {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  for (const int kind : {0, 1, 2, 3}) {
+    std::vector<double> x, y;
+    for (int i = 0; i < 150; ++i) {
+      double a = normal(random), b = normal(random);
+      if (kind == 1) a = a < 1 ? 0 : 1; // two values
+      if (kind == 2) b = a * a + 0.1 * b;
+      if (kind == 3) a = std::round(a), b = std::round(2 * (a + b));
+      x.push_back(a), y.push_back(kind == 2 ? b : a + b);
+    }
+    CAPTURE(kind);
+    const double error = rank_correlation_error(counted_ranks(x), counted_ranks(y));
+    CHECK(error == Approx(jackknife_error(x, y)).epsilon(0.04)); // 1/n, and curvature
+    const double rho = pearson(counted_ranks(x), counted_ranks(y));
+    const Bounds wide = rank_correlation_bounds(rho, 150, 0.95, 10 * error),
+                 narrow = rank_correlation_bounds(rho, 150, 0.95, 0.1 * error);
+    CHECK(*wide.upper - *wide.lower > *narrow.upper - *narrow.lower);
+    CHECK(*narrow.lower == *rank_correlation_bounds(rho, 150, 0.95).lower); // the formula is wider
+    // by hand: artanh ρ ± 1.96 · 10 error/(1 − ρ²)
+    CHECK(std::atanh(*wide.upper) - std::atanh(rho) ==
+          Approx(1.959963984540054 * 10 * error / (1 - rho * rho)).epsilon(1e-9));
+  }
+  CHECK(rank_correlation_error(std::vector{1., 2., 3.}, std::vector{2., 2., 2.}) == 0);
 }

@@ -142,7 +142,7 @@ TEST_CASE("sets are paired where their draws are the same", "[page]") {
   CHECK(paired["paired"] == true);
   CHECK(paired["sets"] == Json{0, 1});
   CHECK(paired["text"] ==
-        "set − set, run by run over the 20 runs with the same draws (of 20 and 30)");
+        "set − set, run by run over the 20 runs with the same random numbers (of 20 and 30)");
   const Json& time = paired["outputs"].back();
   CHECK(time["output"] == "deployment_time");
   CHECK(time["runs"] == 20);
