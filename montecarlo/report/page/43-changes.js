@@ -178,7 +178,7 @@
       W.table(`Estimated: what would make ${one.name || F.nameOf(one.output)} pass`, heads, rows, { class: "needed-table", stacks: true }),
       h(
         "p.note",
-        `An estimate from ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `: a linear fit, which explains ${F.share(block.explained, 0)} of the spread, and a quadratic along each change` : ""}. The stated change is the far bound. There, by this estimate, a new campaign of as many runs passes with ${F.given(Number((50 * (1 + set.confidence)).toPrecision(6)))} % probability. ${block.levers.some((lever) => lever.scaled) ? "× multiplies the present value. " : ""}`,
+        `An estimate from ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `: a linear fit, which explains ${F.share(block.explained, 0)} of the spread, and a quadratic along each change` : ""}. The stated change is the far bound. There, by this estimate, a new campaign of as many runs passes with ${F.given(Number((50 * (1 + set.confidence)).toPrecision(6)))} % probability. ${block.levers.some((lever) => lever.scaled) ? "× multiplies every value drawn, and so their spread too. " : ""}`,
         unknown ? "Not known: the runs are too few, the change leads beyond the values drawn, or wings drawn there do not deploy. " : null,
         h("a", { href: "#why" }, "More causes"),
         ".",

@@ -228,9 +228,10 @@ std::string tolerance_notes(const Summary& summary) {
     text += "  " + wrapped(fmt::format("–: {} ({})", why, fmt::join(names, ", ")), 4) + '\n';
   if (beyond)
     text += "  " +
-            wrapped("Limits are over all runs, as requirements: a run ranks beyond every number if "
-                    "it did not deploy, has no value, or t_end cut its peak, even where the "
-                    "quantiles above use its value.",
+            wrapped("Limits are over all runs, as requirements: a run that did not deploy, has no "
+                    "value, or whose peak t_end cut counts as worse than any value (above all for "
+                    "an upper limit, below all for a lower one), even where the quantiles above "
+                    "use its value.",
                     4) +
             '\n';
   return text;
