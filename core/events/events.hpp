@@ -126,12 +126,8 @@ public:
       return {way * (step.x1[at.angle(i)] - angle), way * step.x1[at.rate(i)],
               way * step.dxdt1[at.rate(i)]};
     }
-    case Event::let_go: {
-      const Layout& at = system_.layout();
-      const CaptureTerms<T>& latch = system_.wing().real[i].capture;
-      const T &angle = step.x1[at.angle(i)], &rate = step.x1[at.rate(i)];
-      return {latch.excess(angle, rate), latch.excess_rate(angle, rate, step.dxdt1[at.rate(i)])};
-    }
+    case Event::let_go:
+      return indicator_of_letting_go(step, i);
     case Event::seen: {
       const int k = releases_.seen_by(i), r = system_.layout().rate(k);
       const T& sense = system_.wing().hinges[k].sense;
@@ -177,6 +173,22 @@ public:
   }
 
 private:
+  /// A latch lets go where it bears on its stowed side and its load reaches the holding moment: the later of both. With
+  /// a damper the load may have reached it before.
+  [[nodiscard]] Indicator indicator_of_letting_go(const Step<T>& step, int i) const {
+    const Layout& at = system_.layout();
+    const CaptureTerms<T>& latch = system_.wing().real[i].capture;
+    const T &angle = step.x1[at.angle(i)], &rate = step.x1[at.rate(i)],
+            &acceleration = step.dxdt1[at.rate(i)];
+    const Indicator side{-latch.deflection(angle), -(latch.sense * rate),
+                         -(latch.sense * acceleration)};
+    const Indicator load{latch.excess(angle, rate), latch.excess_rate(angle, rate, acceleration)};
+    const bool side_is_later =
+        side.slope > T(0) &&
+        (!(load.slope > T(0)) || -side.value * load.slope > -load.value * side.slope);
+    return side_is_later ? side : load;
+  }
+
   AnySystem& system_;
   Latches<T, AnySystem> latches_;
   Releases<T, AnySystem> releases_;

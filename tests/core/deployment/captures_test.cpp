@@ -157,6 +157,28 @@ TEST_CASE(
   CHECK(relative(whole.peak_moment[0].value, out.peak_moment[0].value) < 1e-9);
 }
 
+// The latched panel swings back to e = 0 after π/ω_d, at e^(−δ π/ω_d) of its rate, δ = d/2J: there the damper's jump
+// exceeds the holding moment.
+TEST_CASE(
+    "a latch that its damper opens on the way back opens at its latched angle, to the tolerance") {
+  for (const double rtol : {1e-6, 1e-9})
+    for (const double k : {1e2, 1e4}) {
+      const double w0 = std::sqrt(k / panel_inertia), d = 0.02 * w0 * panel_inertia;
+      const double delta = d / (2 * panel_inertia), wd = std::sqrt(w0 * w0 - delta * delta),
+                   back = std::exp(-delta * pi / wd);
+      for (const double share : {0.05, 0.5, 0.95}) {
+        CAPTURE(rtol, k, share);
+        const Scene scene = thrown_at_latch(holding(k, share * d * back, d));
+        for (const Scene& way : {scene, other_sense(scene)}) {
+          const Outcome out = run_everywhere(way, rtol, 4);
+          REQUIRE(out.let_go.size() == 1);
+          CHECK(std::abs(out.let_go[0].time - (1 + pi / wd)) < 3 * rtol);
+          CHECK(std::abs(out.let_go[0].rate) == Approx(back).epsilon(3 * rtol));
+        }
+      }
+    }
+}
+
 TEST_CASE("a latch whose damper pulls it open where it begins to bear lets go once") {
   for (const double rtol : {1e-4, 1e-6, 1e-8})
     for (const double damping : {40., 60., 80., 100., 120., 150.}) // back at 0.7 … 0.2 rad/s
