@@ -39,6 +39,15 @@ TEST_CASE("sensitivity of a results folder: a table, two files, and JSON") {
   const auto refused = run_program(folder, {"sensitivity", path, "--samples", "8", "--resume"});
   CHECK(refused.code == 2);
   CHECK(lines_of(refused.error).size() == 2);
+  using Option = std::vector<std::string>;
+  for (const Option& option :
+       {Option{"--samples", "8"}, {"--seed", "3"}, {"--resume"}, {"--shard", "1/2"}}) {
+    std::vector<std::string> words{"sensitivity", path};
+    words.insert(words.end(), option.begin(), option.end());
+    const auto done = run_program(folder, words);
+    CHECK(done.code == 2);
+    CHECK_THAT(done.error, Catch::StartsWith("error: " + option[0] + ": found "));
+  }
 }
 
 TEST_CASE(

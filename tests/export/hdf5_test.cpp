@@ -146,6 +146,26 @@ TEST_CASE("exported columns say what they are, and the file where they are from"
         "relative rate of mid when tip latches, signed");
 }
 
+TEST_CASE("an exported shard has its own number of runs, and says which shard it is") {
+  const Folder folder;
+  long all = 0;
+  for (const long index : {1L, 2L, 3L}) {
+    const std::string name = "r" + std::to_string(index);
+    const auto path = folder.path() / name, file = folder.path() / (name + ".h5");
+    const Shard shard{index, 3};
+    (void)run_into(path, campaign_of(quick_campaign(20)), {.shard = shard});
+    export_hdf5(path, file);
+    const H5::H5File in(file.string(), H5F_ACC_RDONLY);
+    check_rows(in, path);
+    std::int64_t runs = 0;
+    in.openAttribute("runs").read(H5::PredType::NATIVE_INT64, &runs);
+    CHECK(runs == shard_runs(20, shard).size());
+    CHECK(attribute(in, "shard") == describe(std::optional(shard)));
+    all += runs;
+  }
+  CHECK(all == 20);
+}
+
 TEST_CASE("the same folder is exported to the same bytes, in place of what was there") {
   const Folder folder;
   const auto path = folder.path() / "r", a = folder.path() / "a.h5", b = folder.path() / "b.h5";

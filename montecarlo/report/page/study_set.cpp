@@ -243,11 +243,12 @@ Json strata_json(const Json& study) {
     std::string text;
     for (const auto& [name, value] : part.at("rare_values").items())
       text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, value.get<double>());
-    const bool reached = part.at("reached");
+    // Of a plain sample without the event (`reached`, for its bounds hold) the upper bound says more than the share 0.
+    const bool hit = part.at("reached").get<bool>() && part.at("event").get<double>() > 0;
     strata.push_back({{"text", text.empty() ? "no rare value" : text},
                       {"probability", page_number(part.at("probability"), 6)},
-                      {"event", page_number(part.at(reached ? "event" : "upper"), 6)},
-                      {"reached", reached}});
+                      {"event", page_number(part.at(hit ? "event" : "upper"), 6)},
+                      {"reached", hit}});
   }
   std::ranges::stable_sort(strata, std::ranges::greater{}, [](const Json& part) {
     return part["probability"].get<double>() * part["event"].get<double>();

@@ -33,3 +33,24 @@ TEST_CASE("what weaker springs leave of the static margins, by hand", "[margin]"
   CHECK(below[0].margin == Approx(0.2 / 0.75 - 1).epsilon(1e-12));
   CHECK(below[1].margin == Approx(0.04 / 0.06 - 1).epsilon(1e-12));
 }
+
+TEST_CASE("of each standard the drive of the lowest margin below 0 is told, wherever it stands",
+          "[margin]") {
+  for (const bool first_is_weaker : {false, true}) {
+    Json json = one_panel_margin(100);
+    Json& scene = json["scene"];
+    Json hinge = scene["hinges"][0], panel = scene["bodies"][0];
+    hinge["name"] = "second", hinge["child"] = panel["name"] = "other";
+    scene["bodies"].push_back(panel), scene["hinges"].push_back(hinge);
+    const std::size_t weaker = first_is_weaker ? 0 : 1;
+    scene["hinges"][1 - weaker]["friction"] = {{"coulomb", 0.1}};
+    scene["hinges"][weaker]["friction"] = {{"coulomb", 0.2}};
+    json["dispersions"] = Json::array();
+    const Campaign campaign = campaign_of(json);
+    const auto below = short_margins({&campaign, 1}, campaign.margin->scaled, 1);
+    REQUIRE(below.size() == 4);
+    CAPTURE(first_is_weaker);
+    for (const Shortfall& each : below) CHECK(each.drive == (first_is_weaker ? "root" : "second"));
+    CHECK(below[1].margin == Approx(0.2 / (3 * 0.2) - 1).epsilon(1e-12));
+  }
+}

@@ -227,3 +227,44 @@ TEST_CASE("where the proposal is far too narrow, the default mixture moves on by
   options.independent = 1;
   CHECK_FALSE(run_ensemble(target, narrow, options, nothing).finished);
 }
+
+TEST_CASE("draws of a bent proposal have its density where the bend stretches too") {
+  // ξ = z + z²/5 + z³/12: its slope grows from 0.84 to 1.9 within three standard deviations.
+  std::vector<Eigen::VectorXd> z, xi;
+  for (int k = -6; k <= 6; ++k) {
+    const double at = k / 2.0;
+    z.push_back(Eigen::VectorXd::Constant(1, at));
+    xi.push_back(Eigen::VectorXd::Constant(1, at + at * at / 5 + at * at * at / 12));
+  }
+  const double center = 2, std = 0.5;
+  const StudentMixture bent(
+      {{0, Eigen::VectorXd::Constant(1, center), Eigen::MatrixXd::Constant(1, 1, std * std),
+        PolynomialMap(z, xi, 3)}});
+  constexpr int draws = 5000;
+  RandomStream random(2, 0, stream_name("bent"));
+  std::vector<double> x;
+  for (int k = 0; k < draws; ++k)
+    if (const Eigen::VectorXd y = bent.draw([&] { return open_uniform(random()); }); y.allFinite())
+      x.push_back(y[0]);
+  REQUIRE(std::ssize(x) > draws - 20);
+  // The shares of intervals of half a standard deviation, by the rule of rectangles.
+  std::vector<double> shares;
+  constexpr int cells = 20;
+  for (int k = -16; k < 16; ++k) {
+    double sum = 0;
+    for (int c = 0; c < cells; ++c) {
+      const double y = center + std * (k + (c + 0.5) / cells) / 2;
+      sum += std::exp(bent.log_density(Eigen::VectorXd::Constant(1, y)));
+    }
+    shares.push_back(sum);
+  }
+  const double whole = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (int k = -16; k < 16; ++k) {
+    const double share = shares[static_cast<std::size_t>(k + 16)] / whole;
+    const auto count = std::ranges::count_if(
+        x, [&](double y) { return center + std * k / 2 < y && y <= center + std * (k + 1) / 2; });
+    CAPTURE(k);
+    CHECK(static_cast<double>(count) / draws ==
+          Approx(share).margin(4.5 * std::sqrt(share * (1 - share) / draws) + 1e-3));
+  }
+}

@@ -89,3 +89,17 @@ TEST_CASE("a nominal run that is given up bounds the cost from below") {
   CHECK_THAT(tried.cost, Catch::StartsWith("the nominal run takes more than ") &&
                              Catch::Contains("; 3 runs: more than "));
 }
+
+TEST_CASE("a nominal run that its campaign's own max_steps ends has failed, and is not given up") {
+  for (const long most : {1, 10, 40}) {
+    Json json = quick_campaign(3);
+    json["integration"]["max_steps"] = most;
+    const NominalRuns tried = try_nominal(campaign_of(json));
+    CAPTURE(most);
+    CHECK_THAT(tried.cost, !Catch::Contains("more than"));
+    CHECK_FALSE(tried.at_least);
+    REQUIRE(tried.notes.size() == 1);
+    CHECK_THAT(tried.notes[0],
+               Catch::Contains("does not deploy: failed") && Catch::Contains("max_steps"));
+  }
+}

@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <random>
+
 using namespace wingspread;
 
 TEST_CASE("The edit distance counts insertions, deletions, substitutions and swaps of neighbours",
@@ -34,4 +37,24 @@ TEST_CASE("The nearest word is suggested only when it is near", "[nearest]") {
   CHECK(nearest("mass", {}).empty());
   CHECK(did_you_mean("inertio", known) == " (did you mean \"inertia\"?)");
   CHECK(did_you_mean("x", known).empty());
+}
+
+TEST_CASE("A word is near if half of its letters or more need no edit", "[nearest]") {
+  std::mt19937_64 random(3);
+  const auto word = [&] {
+    std::string letters(1 + random() % 6, ' ');
+    for (char& letter : letters) letter = static_cast<char>('a' + random() % 3);
+    return letters;
+  };
+  int half = 0, suggested = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const std::string asked = word(), known = word();
+    const std::size_t distance = edit_distance(asked, known),
+                      length = std::max(asked.size(), known.size());
+    CAPTURE(asked, known);
+    CHECK(nearest(asked, {known}) == (2 * distance <= length ? known : ""));
+    half += 2 * distance == length;
+    suggested += 2 * distance <= length;
+  }
+  CHECK((half > 100 && suggested > 500 && suggested < 2500));
 }

@@ -109,6 +109,36 @@ TEST_CASE("of a campaign with cases the library runs the one that is named") {
   CHECK(message_of([&] { return api::run(as_input(json)); }).find("cold") != std::string::npos);
 }
 
+TEST_CASE("a case of the library changes the wing that the settings have changed") {
+  Json json = quick_campaign(8);
+  json["cases"] = parse_json(R"([ { "name": "hot", "scale": { "hinges.*.spring.scale": 1.25 } },
+    { "name": "fixed", "set": { "hinges.root.spring.scale": 0.9 } },
+    { "name": "more", "add": { "hinges.root.spring.scale": 0.125 } } ])");
+  const char* const path = "hinges.root.spring.scale";
+  for (const auto& [name, expected] :
+       {std::pair{"hot", 0.625}, std::pair{"fixed", 0.9}, std::pair{"more", 0.625}}) {
+    const api::Settings settings{.set = {std::string(path) + "=0.5"}, .of_case = name};
+    CAPTURE(name);
+    CHECK(api::Model(as_input(json), {path}, {}, settings).nominal().at(0) == expected);
+    Json changed = json;
+    for (Json& hinge : changed["scene"]["hinges"])
+      if (hinge["name"] == "root") hinge["spring"]["scale"] = 0.5;
+    CHECK(api::simulate(as_input(json), settings).json ==
+          api::simulate(as_input(changed), {.of_case = name}).json);
+  }
+}
+
+TEST_CASE("a run that fails has no peaks: a larger one might have followed") {
+  for (const double step : {0.2, 0.5, 1.0}) {
+    const api::Outcome outcome = api::simulate(
+        api::from_file(three_panel_file()), {.method = "runge_kutta4", .step = step, .t_end = 20});
+    CAPTURE(step);
+    REQUIRE(outcome.status == "failed");
+    CHECK_FALSE(outcome.reason.empty());
+    CHECK((outcome.peak_moment.empty() && outcome.peak_force.empty()));
+  }
+}
+
 TEST_CASE("a deployment of the library is that of simulate, with its trajectory") {
   const Scene scene = read_scene_file(three_panel_file());
   Goal goal;

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <random>
 #include <string>
 #include <vector>
 
@@ -40,4 +41,28 @@ TEST_CASE("one wrong unit of length is one warning, at that length", "[warnings]
         std::vector<std::string>{"/hinges/1/child_point"});
   CHECK(oversized([](Scene& scene) { scene.hinges[1].parent_point *= 1000; }) ==
         std::vector<std::string>{"/hinges/1/parent_point"});
+}
+
+// Edges are allowed up to 20 radii of gyration, 5.8 m, from the centre of mass.
+TEST_CASE("a plate's edge is too far out whichever end it is given as", "[warnings]") {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> place(-7, 7);
+  int warned = 0;
+  for (int k = 0; k < 200; ++k) {
+    Plate plate;
+    plate.from = {place(random), place(random)}, plate.to = {place(random), place(random)};
+    const auto told = [&] {
+      auto list = oversized([&](Scene& scene) { scene.bodies[1].plate = plate; });
+      std::erase_if(list, [](const std::string& each) { return each != "/bodies/1/plate"; });
+      return list.size();
+    };
+    const double radius = std::sqrt(0.85 / 10);
+    const std::size_t far = std::max(plate.from.norm(), plate.to.norm()) > 20 * radius ? 1 : 0;
+    CAPTURE(plate.from.transpose(), plate.to.transpose());
+    CHECK(told() == far);
+    std::swap(plate.from, plate.to);
+    CHECK(told() == far);
+    warned += static_cast<int>(far);
+  }
+  CHECK((warned > 50 && warned < 150));
 }

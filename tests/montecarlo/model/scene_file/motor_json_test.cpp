@@ -77,6 +77,9 @@ TEST_CASE("Motors that cannot be meant are refused with their place") {
   check_refused(
       R"({"rate": {"table": {"time": [0, 1], "rate": [1]}}, "gain": 1, "torque_limit": 1})",
       "/rate/table/rate", "2");
+  check_refused(
+      R"({"rate": {"table": {"time": [0, 1e-320], "rate": [0, 1]}}, "gain": 1, "torque_limit": 1})",
+      "/rate/table", "further apart");
 }
 
 TEST_CASE("An elastic joint has no motor") {

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <map>
+#include <random>
 #include <set>
 #include <sstream>
 
@@ -331,4 +332,26 @@ TEST_CASE("A path leads to a number if and only if the scene's file has it there
         }
   }
   CHECK((there > 200 && lacking > 100));
+}
+
+TEST_CASE("whatever the values of a scene's parameters, the scene that is written has them",
+          "[parameter]") {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> factor(0.9, 1.1);
+  for (const Json& specimen : scene_specimens()) {
+    Scene scene = read_scene(specimen);
+    CAPTURE(scene.name);
+    std::vector<SceneParameter> parameters;
+    for (const std::string& path : parameter_paths(scene))
+      for (const ParameterMatch& match : resolve(scene, path).matches)
+        parameters.push_back(match.parameter);
+    REQUIRE(parameters.size() > 5);
+    for (const SceneParameter& parameter : parameters)
+      if (!path_of(scene, parameter).ends_with(".fails")) parameter.in(scene) *= factor(random);
+    const Scene again = read_scene(write_scene(scene));
+    for (const SceneParameter& parameter : parameters) {
+      CAPTURE(path_of(scene, parameter));
+      CHECK(parameter.in(again) == parameter.in(std::as_const(scene)));
+    }
+  }
 }

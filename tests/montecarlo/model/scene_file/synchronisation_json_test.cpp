@@ -130,3 +130,18 @@ TEST_CASE("Loops are written in full, and not at all where there are none", "[sy
         R"("travel_of_second":[0.0,0.6,1.5]}},"stiffness":100.0,"damping":0.0})");
   CHECK_FALSE(write_scene(read_scene(test::small_scene())).contains("synchronisations"));
 }
+
+TEST_CASE("A loop is written with its preload, whether it has a ratio or a table",
+          "[synchronisation]") {
+  for (const std::size_t loop : {0U, 1U})
+    for (const double preload : {0.0, 2.5}) { // 0: none
+      Json scene = test::real_scene();
+      Json& given = scene["synchronisations"][loop];
+      given.erase("preload");
+      if (preload > 0) given["preload"] = preload;
+      const Scene again = read_scene(write_scene(read_scene(scene)));
+      CAPTURE(loop, preload);
+      CHECK(again.synchronisations[loop].preload.value_or(0) == preload);
+      CHECK(bool(again.synchronisations[loop].table) == (loop == 1));
+    }
+}

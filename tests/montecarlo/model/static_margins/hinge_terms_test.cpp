@@ -189,10 +189,15 @@ TEST_CASE("dampers are counted at a stated rate, within their windows, and not a
   hinge.damper->law = DamperLaw::eddy_current;
   hinge.damper->peak_torque = 0.4, hinge.damper->peak_rate = 0.2;
   CHECK(terms_at(hinge, 0.5, {{}, 0.2}).damping == Approx(1.5 * 0.4).epsilon(1e-14)); // at its peak
-  hinge.damper->window = {0.6, 0.9}; // from 0.4 to 0.6 of the travel
-  CHECK(terms_at(hinge, 0.5, {{}, 0.2}).damping == Approx(0.6).epsilon(1e-14));
-  CHECK(terms_at(hinge, 0.3, {{}, 0.2}).damping == 0);
-  CHECK(terms_at(hinge, 0.7, {{}, 0.2}).damping == 0);
+  // from 0.4 to 0.6 of the travel, in either order and on either side of the latch
+  for (const double side : {-1.0, 1.0})
+    for (const auto& [from, to] : {std::pair{0.9, 0.6}, {0.6, 0.9}}) {
+      hinge.stowed = side * 1.5, hinge.damper->window = {side * from, side * to};
+      CAPTURE(side, from);
+      CHECK(terms_at(hinge, 0.5, {{}, 0.2}).damping == Approx(0.6).epsilon(1e-14));
+      CHECK(terms_at(hinge, 0.3, {{}, 0.2}).damping == 0);
+      CHECK(terms_at(hinge, 0.7, {{}, 0.2}).damping == 0);
+    }
   // The least of the travel is at the window's far edge: 1.4 N·m there, 0.64 against it, and 1 against 0.04 beyond.
   double least = 1e300, at = 0;
   for (const double x : places_of_least(hinge))

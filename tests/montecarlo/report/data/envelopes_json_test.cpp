@@ -197,3 +197,22 @@ TEST_CASE("runs in which an event happens, and how often it does, are those of t
     }
   CHECK(some);
 }
+
+TEST_CASE("without rows the envelopes of a shard are of its own runs", "[page]") {
+  const Json json = quick_campaign(12);
+  const auto whole = made(json);
+  for (const Shard& shard : {Shard{1, 3}, Shard{3, 3}}) {
+    const auto source = made(json);
+    source->stored.stamp.shard = shard;
+    const auto [first, last] = source->stored.runs();
+    source->summary.runs = last - first;
+    source->streaming = std::make_unique<StreamingStatistics>(
+        source->stored.campaign, RunPlan(source->stored.campaign).names(), source->results);
+    std::vector<double> times;
+    for (long run = first; run < last; ++run)
+      times.push_back(whole->results.outputs[0].values[static_cast<std::size_t>(run)]);
+    std::ranges::sort(times);
+    CAPTURE(first);
+    CHECK(envelopes_json(*source, PageDetail(), 1)["latch_times"][0] == page_numbers(times, 6));
+  }
+}

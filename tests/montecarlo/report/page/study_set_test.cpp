@@ -121,7 +121,7 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
     { "name": "a", "value": 1, "z": 0.5 } ] })"));
 
   Json many = study;
-  for (int k = 0; k < 20; ++k)
+  for (int k = 1; k < 20; ++k)
     many["strata"].push_back({{"rare_values", {{"k", k}}},
                               {"probability", 1e-4},
                               {"event", 0.01 * k},
@@ -131,6 +131,13 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
   REQUIRE(shown.size() == 12);
   CHECK(shown[1]["text"] == "k = 19");
   CHECK(shown[9]["text"] == "k = 11"); // then k = 10, and c with as large a part
+  many["strata"][0]["event"] = 0;      // a plain sample of which no run has the event: by its bound
+  const Json none = set_of(many)["rare"]["strata"];
+  CHECK(none[1]["text"] == "k = 19");
+  for (const Json& part : none) CHECK(part["text"] != "no rare value"); // 1.8e-6 at most
+  many["strata"][0]["upper"] = 1e-3;                                    // 9e-4 at most: the largest
+  CHECK(set_of(many)["rare"]["strata"][0] ==
+        Json{{"text", "no rare value"}, {"probability", 0.9}, {"event", 1e-3}, {"reached", false}});
   many["strata"] = many["likeliest"] = nullptr;
   many["repeats"] = Json::array();
   const Json little = set_of(many)["rare"];

@@ -239,3 +239,23 @@ TEST_CASE("a folder from before peaks were told to be final opens as it is") {
   CHECK(ReplayRequest(stored, 3).replay({}).differences.empty());
   CHECK(ReplayRequest(read_stored_campaign(path), 3).replay({}).differences.empty());
 }
+
+TEST_CASE("a run that is missing before a later one is a gap, in a shard as in the whole") {
+  const Campaign campaign = campaign_of(quick_campaign(31));
+  for (const std::optional<Shard>& shard :
+       {std::optional<Shard>(), std::optional(Shard{1, 3}), std::optional(Shard{3, 3})}) {
+    const StoredCampaign stored{"r", campaign, stamp_of(campaign, shard)};
+    const auto [first, last] = stored.runs();
+    for (long missing = first; missing < last; ++missing)
+      for (const long end : {missing, missing + 1, missing + 2, last}) {
+        if (end > last) continue;
+        Results results(ResultNames{{}, {}});
+        for (long run = first; run < end; ++run)
+          if (run != missing) results.append({run, Status::deployed, {}, {}, "", "", {}});
+        CAPTURE(first, last, missing, end);
+        const bool is_gap = missing + 1 < end;
+        CHECK(gaps_text(stored, results, false).has_value() == is_gap);
+        CHECK_FALSE(gaps_text(stored, results, true)); // stopped by its rule
+      }
+  }
+}
