@@ -1,5 +1,7 @@
 // Where latches engage, and where they do not.
 #include "core/deployment.hpp"
+#include "core/events/latches.hpp"
+#include "tests/core/deployment/real_runs.hpp"
 #include "tests/support/whole_runs.hpp"
 
 #include <catch2/catch.hpp>
@@ -214,4 +216,53 @@ TEST_CASE("without springs a hinge goes as far as its initial rate takes it") {
       CHECK(out.status == Status::stalled);
     });
   }
+}
+
+namespace {
+
+/// The angle from the latched one, rad, after a latch has engaged that the step's end missed by `off`.
+double engaged_off(const Hinge& with, double off) {
+  Scene scene = latching_panel();
+  scene.hinges[0] = with;
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  using AnySystem = System<double, Tree, BaseMotion::fixed>;
+  AnySystem system(wing, std::nullopt, work);
+  Step<double> step;
+  system.start(step.x);
+  step.x = {with.latched + off, wing.hinges[1].sense};
+  step.dxdt = {step.x[1], 0};
+  system.find_sides({with.latched - wing.hinges[1].sense, 0});
+  std::vector<LatchEvent> latches;
+  std::vector<HingeEvent> missed, let_go, releases;
+  Latches<double, AnySystem> open(system);
+  open.start();
+  LatchRecord record{latches, missed, let_go, releases};
+  REQUIRE(open.engage_simultaneous(1, step, record));
+  REQUIRE(latches.size() == 1);
+  return step.x[0] - with.latched;
+}
+
+} // namespace
+
+// Beside that angle the next step would end at once, at the edge of the law, and later steps would have to grow again.
+TEST_CASE("a hinge stands exactly at its latched angle when its latch engages, where a law changes "
+          "there") {
+  for (const Scene& panel : {latching_panel(), other_sense(latching_panel())})
+    for (const double off : {-1e-12, 1e-12}) {
+      const Hinge plain = panel.hinges[0];
+      Hinge dissipates = plain, stops = plain, damped = plain;
+      dissipates.latch->damping = 0, dissipates.latch->dissipation = 2;
+      stops.far_stop = Stop{1e4, 10, 0};
+      Damper damper;
+      damper.coefficient = 1;
+      damper.window = {plain.stowed, plain.latched};
+      damped.damper = damper;
+      CAPTURE(plain.latched, off);
+      CHECK(engaged_off(plain, off) == Approx(off).epsilon(1e-3));
+      CHECK(engaged_off(dissipates, off) == 0);
+      CHECK(engaged_off(stops, off) == 0);
+      CHECK(engaged_off(damped, off) == 0);
+    }
 }

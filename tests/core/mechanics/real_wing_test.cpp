@@ -99,3 +99,37 @@ TEST_CASE("with real hinges, the same kernel serves long double and quad") {
     CHECK(energy_deviation(scene, state, quad) < 1e-28);
   }
 }
+
+// The proofs of an early end rely on this bound.
+TEST_CASE("no angle has more friction than a hinge's bound, with levels that are measured too") {
+  int measured = 0;
+  double most = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Draws draws(seed);
+    Scene scene = random_real_scene(seed, 3);
+    for (Hinge& hinge : scene.hinges)
+      if (draws.chance(0.7)) hinge.friction.model = FrictionModel::exact;
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    State<double> x;
+    system.start(x);
+    for (int i = 1; i <= wing.size(); ++i) {
+      const HingeTerms<double>& hinge = wing.hinges[i];
+      double largest = 0;
+      for (int k = 0; k <= 400; ++k) {
+        const double travel = (k / 200.0 - 0.5) * (hinge.latched - hinge.stowed);
+        x[system.layout().angle(i)] = hinge.stowed + travel;
+        largest = std::max(largest, system.static_limit(x, i));
+      }
+      CAPTURE(seed, i);
+      CHECK(largest <= hinge.most_static() * (1 + 1e-12));
+      CHECK(hinge.most_static() <= hinge.most_friction());
+      if (!(hinge.measured_exact > 0)) continue;
+      ++measured, most = std::max(most, largest / hinge.most_static());
+    }
+  }
+  CHECK(measured > 10);
+  CHECK(most > 0.9);
+}
