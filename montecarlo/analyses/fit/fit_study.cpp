@@ -18,9 +18,11 @@
 namespace wingspread {
 namespace {
 
-constexpr std::size_t least_walkers = 32;   // each half fills two threads of eight lanes
-constexpr double independent_moves = 0.8;   // heuristic: the others reach what the proposal misses
-constexpr long runs_of_a_sample = 100;      // limit of the evaluations, unless the user gives one
+constexpr std::size_t least_walkers = 32; // each half fills two threads of eight lanes
+constexpr double independent_moves = 0.8; // heuristic: the others reach what the proposal misses
+// Heuristic: the limit of the evaluations, unless the user gives one. With 100, 16 of 43 fits of four parameters, each
+// with offsets of a clock and of two sensors, ended unfinished.
+constexpr long runs_of_a_sample = 400;
 constexpr std::size_t predicted_rows = 400; // for bands and p-values: 10 rows in each 2.5 % tail
 constexpr int temperings = 2;               // the mode moves little when the likelihood is tempered
 constexpr std::size_t prior_points = 20000; // quantiles that give a prior's mean and deviation

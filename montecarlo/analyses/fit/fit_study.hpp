@@ -16,7 +16,7 @@ namespace wingspread {
 
 struct FitOptions {
   ThreadPool pool{};
-  long most_runs = 0; ///< evaluations of the sampler; 0: 100 for each sample asked for
+  long most_runs = 0; ///< evaluations of the sampler; 0: 400 for each sample asked for
   double confidence = 0.95;
 };
 

@@ -115,7 +115,7 @@ void add_fit_options(CLI::App& command, FitCommandOptions& options) {
   command.add_flag("--resume", options.resume,
                    "Continue an interrupted or unfinished fit in --out");
   within(command.add_option("--runs", options.runs,
-                            "Most runs of the sampler a test; default: 100 a sample"),
+                            "Most runs of the sampler a test; default: 400 a sample"),
          1, std::numeric_limits<long>::max())
       ->type_name("N");
   add_seed_option(command, options.seed);

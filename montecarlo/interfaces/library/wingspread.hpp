@@ -156,7 +156,7 @@ private:
 struct FitRequest {
   std::filesystem::path out{}; ///< the folder to write, new or empty; empty: writes no files
   std::optional<std::uint64_t> seed{};
-  long runs = 0;                           ///< most runs of the sampler; 0: 100 for each sample
+  long runs = 0;                           ///< most runs of the sampler; 0: 400 for each sample
   int threads = 0;                         ///< 0: all processors
   const std::atomic<bool>* stop = nullptr; ///< once true, no further run begins
 };

@@ -154,7 +154,7 @@ def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", se
     """Fits parameters of a campaign to deployment tests, as `wingspread fit`.
 
     tests: the tests and the parameters. out: the folder to write; default: no files. runs: most runs of the sampler;
-    0: 100 for each sample. threads: 0 for all processors. If result["finished"] is False, the chains are too short, and
+    0: 400 for each sample. threads: 0 for all processors. If result["finished"] is False, the chains are too short, and
     the numbers are no result; a Notice says so.
     """
     text, posterior = _native.fit(_input_of(campaign), _input_of(tests), os.fspath(out),
