@@ -85,7 +85,7 @@ class ChangeChecks:
         given('{ for: "limit", runs: 500, explained: 0.1, levers: [] }')
         self.assertIn("a linear fit explains 10 % of the spread. Ask wingspread margin.", self.one(".findings .needed").text)
         given('{ for: "limit", runs: 500, explained: 0.5, levers: [] }')
-        self.assertIn("No dispersed input alone is seen to do it", self.one(".findings .needed").text)
+        self.assertIn("No change of a dispersed input within the values drawn is seen to be enough", self.one(".findings .needed").text)
         given('{ for: "limit", runs: 500, explained: 0.9, levers: [far] }')
         self.assertIn("An estimated change, not yet run: confirm it first.", self.one(".findings .needed").text)
 

@@ -94,7 +94,7 @@ def studies(hinges):
     rare = {"text": f"P({hinges[0]}.peak_moment > 300)", "probability": 2.6e-6, "lower": 1.9e-6, "upper": 3.5e-6,
             "levels": [{"threshold": 230 + 14 * k, "probability": 10.0 ** (-k)} for k in range(1, 6)] + [{"threshold": 300, "probability": 2.6e-6}],
             "likeliest": {"draws": [{"name": f"{hinges[0]}.spring", "value": 1.11, "z": 3.6}, {"name": f"{hinges[0]}.coulomb", "value": 0.8, "z": -1.9}]}}
-    return {"static_margins": {"kind": "ECSS", "draws": 1000, "lower_p": 0.01, "hinges": static}, "rare": rare,
+    return {"static_margins": {"kind": "ECSS", "formula": "T / (1.35 ΣT_fixed + 2.5 ΣT_variable) − 1", "draws": 1000, "lower_p": 0.01, "hinges": static}, "rare": rare,
             "margin": {"scales": scales, "requirements": rows, "recommended": 1.42, "window": [1.1, 1.58]}}
 
 

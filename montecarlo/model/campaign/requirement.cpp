@@ -120,6 +120,11 @@ void refuse_repeated_requirements(const JsonCursor& at, std::span<const Requirem
       at.element(i).refuse(fmt::format("the requirement of {}/{} a second time", at.pointer(),
                                        first - requirements.begin()),
                            "each requirement once");
+    const std::string& name = requirements[i].name;
+    if (!name.empty() && std::ranges::find(requirements.first(i), name, &Requirement::name) !=
+                             requirements.begin() + static_cast<std::ptrdiff_t>(i))
+      at.element(i).member("name").refuse(fmt::format("\"{}\" a second time", name),
+                                          "another name: goals and verdicts go by it");
   }
 }
 

@@ -1,5 +1,7 @@
 #include "montecarlo/model/static_margins/static_margin.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace wingspread {
@@ -65,6 +67,32 @@ Margins margins_of(const TorqueTerms& terms, double largest_spring, const Static
   Margins margins;
   for (std::size_t kind = 0; kind < margins.size(); ++kind) margins[kind] = margin(quotients[kind]);
   return margins;
+}
+
+std::string formula_of(MarginKind kind, const StaticMarginSpec& spec) {
+  const auto by_class = [](double fixed, double variable) {
+    return fmt::format("T / ({:.4g} ΣT_fixed + {:.4g} ΣT_variable) − 1", fixed, variable);
+  };
+  const EcssFactors& f = spec.ecss;
+  switch (kind) {
+  case MarginKind::ecss:
+    return fmt::format(
+        "{:.4g} T / T_min − 1, T_min = {:.4g} ({:.4g} I + {:.4g} S + {:.4g} HM + {:.4g} FR + "
+        "{:.4g} HY + {:.4g} HA + {:.4g} HD) + {:.4g} TD + TL",
+        f.available, f.motorization, f.inertia, f.spring, f.motor, f.friction, f.hysteresis,
+        f.harness, f.adhesion, f.acceleration);
+  case MarginKind::nasa:
+    return by_class(spec.nasa.fixed, spec.nasa.variable);
+  case MarginKind::nasa_one_spring_out:
+    return fmt::format("(T − T_s/{}) / (ΣT_fixed + ΣT_variable) − 1, T_s the largest spring torque "
+                       "of one hinge",
+                       spec.springs_per_hinge);
+  case MarginKind::gevs:
+    return by_class(spec.gevs.known, spec.gevs.variable);
+  case MarginKind::aiaa:
+    break;
+  }
+  return by_class(spec.aiaa.known, spec.aiaa.variable);
 }
 
 } // namespace wingspread

@@ -15,6 +15,7 @@
 #include "montecarlo/model/static_margins/static_margin_spec.hpp"
 
 #include <array>
+#include <string>
 #include <string_view>
 
 namespace wingspread {
@@ -46,6 +47,9 @@ inline constexpr std::array<std::string_view, 5> margin_kind_texts{
     "ECSS", "NASA", "NASA, one spring out", "GEVS", "AIAA"};
 /// By MarginKind.
 using Margins = std::array<double, margin_kind_names.size()>;
+
+/// The formula of a margin with its factors, "T / (1.35 ΣT_fixed + 2.5 ΣT_variable) − 1".
+[[nodiscard]] std::string formula_of(MarginKind kind, const StaticMarginSpec& spec);
 
 /// What is available, and what a standard asks for, N·m: the margin is their quotient, less 1.
 struct TorqueQuotient {

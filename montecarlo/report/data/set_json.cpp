@@ -189,6 +189,7 @@ Json requirement_json(const Verdict& verdict, const PageSource& source) {
                {"guaranteed", page_number(verdict.guaranteed_share)},
                {"observed_value", page_number(verdict.observed)},
                {"guaranteed_value", page_number(verdict.guaranteed)},
+               {"sure", page_number(verdict.confidence_alone)},
                {"margin", page_number(verdict.margin)},
                {"runs", verdict.runs},
                {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)},

@@ -241,8 +241,8 @@
 
   // "One-sided 90 % bound", if all requirements ask for the same confidence.
   function boundName(rows) {
-    const levels = new Set(rows.map((row) => row.requirement.confidence));
-    return levels.size === 1 ? `One-sided ${F.given(100 * [...levels][0])} % bound` : "One-sided bound";
+    const levels = new Set(rows.map((row) => sure(row.requirement)));
+    return levels.size === 1 ? `One-sided ${[...levels][0]} % bound` : "One-sided bound";
   }
   // What the runs say of a requirement: a quantile of a limited output, else a share of the runs.
   function quantityOf(rows) {
@@ -352,5 +352,8 @@
     ];
   }
 
-  W.verdicts = { judged, requirements, verdictOf, unitOf, guaranteed, observed, valueText, marginText, wordsOf, keyOf, shortOf, listed };
+  // The confidence of one requirement's bound and allowance, %: of a group's, more than the group's own.
+  const sure = (one) => F.given(Number((100 * (W.isNumber(one.sure) && one.sure > 0 ? one.sure : one.confidence)).toPrecision(4)));
+
+  W.verdicts = { judged, sure, requirements, verdictOf, unitOf, guaranteed, observed, valueText, marginText, wordsOf, keyOf, shortOf, listed };
 })();

@@ -192,7 +192,7 @@
     if (block.runs && limited && block.explained < 0.5)
       return `These runs do not show what would change it: a linear fit explains ${F.share(block.explained, 0)} of the spread. Ask wingspread margin.`;
     return block.runs
-      ? "No dispersed input alone is seen to do it within the values drawn; beyond them it is not known. Ask wingspread margin."
+      ? "No change of a dispersed input within the values drawn is seen to be enough; beyond them it is not known. The inputs of the runs that fail are among the causes. wingspread margin tries other springs."
       : `Too few runs to estimate what would change it: ${F.counted(draws, "dispersion")}, so at least ${F.runs(draws + 11)} with a value.`;
   }
   // The command, unfolded. `margin` judges the requirements; static margins only if the campaign asks for them.
@@ -204,7 +204,7 @@
       h("summary", `Confirm ${first ? "the first change" : "the change"} with new runs: wingspread margin`),
       h(
         "p.note",
-        `It judges all requirements${asked ? "" : ". Static margins are not among them; it prints them for the springs as they are and for the scale that it recommends"}.`,
+        `It judges all requirements of the campaign's file${asked ? "" : ". Static margins are not among them; it prints them for the springs as they are and for the scale that it recommends"}.`,
       ),
       W.command(command, "command that confirms the change"),
     );

@@ -40,7 +40,7 @@
       plain = share * set.runs;
     const why =
       one.allowed < Math.floor(plain + 1e-9)
-        ? ` (${F.given(100 * share)} % of the runs is ${F.given(Number(plain.toPrecision(3)))}; to be ${F.given(100 * one.confidence)} % sure, ${one.allowed ? `only ${F.count(one.allowed)}` : "none"} may)`
+        ? ` (${F.given(100 * share)} % of the runs is ${F.given(Number(plain.toPrecision(3)))}; to be ${W.verdicts.sure(one)} % sure, ${one.allowed ? `only ${F.count(one.allowed)}` : "none"} may)`
         : "";
     return `, where ${one.allowed ? `at most ${F.count(one.allowed)}` : "none"} may${why}`;
   }
@@ -56,14 +56,14 @@
   function quantileText(one, set) {
     if (!W.isNumber(one.observed_value)) return null;
     const level = F.given(100 * (one.upper ? one.probability : 1 - one.probability)),
-      bound = W.isNumber(one.guaranteed_value) ? `, its one-sided ${F.given(100 * one.confidence)} % bound ${W.verdicts.guaranteed(one, set)}` : "";
+      bound = W.isNumber(one.guaranteed_value) ? `, its one-sided ${W.verdicts.sure(one)} % bound ${W.verdicts.guaranteed(one, set)}` : "";
     return `The ${level} % quantile is ${W.verdicts.valueText(one.observed_value, one, set)}${bound}. `;
   }
   function finding({ requirement: one, set, at }, also) {
     const several = W.sets.length > 1,
       side = one.upper ? "above" : "below",
       limit = F.written(one.limit, W.verdicts.unitOf(one, set)),
-      name = F.nameOf(one.output);
+      name = F.nameOf(one.output).replace("of every hinge", "of the lowest hinge"); // a run breaks it by one hinge
     const runs = (one.beyond_runs || []).map((each) => each.run);
     return h(
       "li",

@@ -13,7 +13,7 @@
     const advice = W.isNumber(margin.recommended) ? `; recommended: ${F.number(margin.recommended, 4)}${others}` : "";
     const words =
       W.isNumber(low) || W.isNumber(high)
-        ? `The window is ${ends}${advice}.${margin.why_none ? ` No recommendation: ${margin.why_none}.` : ""}`
+        ? `The window is ${ends}${advice}.${margin.why_none ? ` No recommendation: ${margin.why_none}.` : ""}${margin.not_confirmed ? ` Runs of another seed do not confirm the recommendation: ${margin.not_confirmed}.` : ""}`
         : margin.why_none || "No scale meets all requirements.";
     return W.figure({
       title: "Permissible spring strength (wingspread margin)",
@@ -89,20 +89,20 @@
     });
   }
 
-  // The document of each standard, and its formula with the default factors (model/static_margins has them all).
+  // The document of each standard; the data have the formula with the campaign's factors.
   const STANDARDS = {
-    ECSS: ["ECSS-E-ST-33-01C (6 March 2009)", "0.8 T / T_min − 1, T_min = 2 (1.1 I + 1.2 S + 1.5 HM + 3 (FR + HY + HA + HD)) + 1.25 TD + TL"],
-    NASA: ["NASA-STD-5017B (6 December 2022)", "T / (1.5 ΣT_fixed + 3 ΣT_variable) − 1"],
-    "NASA, one spring out": ["NASA-STD-5017B (6 December 2022)", "(T − T_s/m) / (ΣT_fixed + ΣT_variable) − 1, m springs per hinge, T_s the largest spring torque of one hinge"],
-    GEVS: ["GEVS, GSFC-STD-7000A (22 April 2013)", "T / (1.5 ΣT_fixed + 3 ΣT_variable) − 1"],
-    AIAA: ["AIAA S-114-2005", "T / (1.5 ΣT_fixed + 3 ΣT_variable) − 1"],
+    ECSS: "ECSS-E-ST-33-01C (6 March 2009)",
+    NASA: "NASA-STD-5017B (6 December 2022)",
+    "NASA, one spring out": "NASA-STD-5017B (6 December 2022)",
+    GEVS: "GEVS, GSFC-STD-7000A (22 April 2013)",
+    AIAA: "AIAA S-114-2005",
   };
   const SYMBOLS = {
     ECSS: "I and S: inertia and springs that resist; HM, FR, HY, HA, HD: motor losses, friction, hysteresis, harness, adhesion; TD, TL: torques to deliver",
   };
-  const standard = (kind) =>
-    STANDARDS[kind]
-      ? `${STANDARDS[kind][0]}, with its default factors: static margin = ${STANDARDS[kind][1]}; T: available torque; ${SYMBOLS[kind] || "fixed: springs and inertia that resist; variable: friction, harness, hysteresis and the like"}. The campaign may replace factors. `
+  const standard = ({ kind, formula }) =>
+    STANDARDS[kind] && formula
+      ? `${STANDARDS[kind]}, with the factors of this campaign: static margin = ${formula}; T: available torque; ${SYMBOLS[kind] || "fixed: springs and inertia that resist; variable: friction, harness, hysteresis and the like"}. `
       : "";
   const listed = (names) => (names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}` : names[0]);
   // The hinges of every case with the lower of their nominal margin and its quantile over draws.
@@ -139,8 +139,8 @@
     return h(
       "p.lead.static-shortfall",
       h("b", "Static margins"),
-      ` of torque (${STANDARDS[kind] ? STANDARDS[kind][0].replace(/ \(.*/, "") : kind}) of ${F.counted(hinges.length, ...what)} are below the required ${listed([...new Set(short.map((row) => F.given(row.required)))])}`,
-      several ? ` in ${casesOf(short)}` : null,
+      ` of torque (${STANDARDS[kind] ? STANDARDS[kind].replace(/ \(.*/, "") : kind}) of ${F.counted(hinges.length, ...what)} are below the required ${listed([...new Set(short.map((row) => F.given(row.required)))])}`,
+      several ? ` in ${casesOf(short)}${hinges.length > 1 ? " (each in at least one of them)" : ""}` : null,
       nominal.length
         ? `; ${several ? `in ${casesOf(nominal)} ` : ""}also those of the nominal wing (every dispersion at its median)`
         : "; those of the nominal wing (every dispersion at its median) are not",
@@ -166,7 +166,7 @@
     );
   }
 
-  function staticMargins({ hinges, kind, draws, lower_p: share }, set) {
+  function staticMargins({ hinges, kind, formula, draws, lower_p: share }, set) {
     const { factor, unit } = F.shown("rad");
     // Mirrored hinges turn in opposite senses: their travels, from 0, coincide.
     const travel = (one) => one.angle.map((angle) => Math.abs(angle - one.angle[0]) * factor);
@@ -243,7 +243,7 @@
       ),
       h(
         "p.note",
-        standard(kind),
+        standard({ kind, formula }),
         `${kind === "NASA, one spring out" ? "It takes a spring away" : "It multiplies the resisting torques by factors"} and counts no kinetic energy, so a wing with a static margin below 0 can still deploy.`,
       ),
     ];

@@ -12,6 +12,19 @@ namespace wingspread {
 
 namespace {
 
+/// What requirements by this standard ask of a drive's margin, "root+mid" of coupled hinges; 0, the standard's, if none does.
+double required_of(const std::string& drive, const std::vector<Requirement>& requirements,
+                   MarginKind kind) {
+  double most = 0;
+  for (const Requirement& each : requirements) {
+    if (!each.static_margin || each.static_margin->kind != kind || !each.min) continue;
+    const std::string& hinge = each.static_margin->hinge;
+    if (hinge == "*" || ('+' + drive + '+').find('+' + hinge + '+') != std::string::npos)
+      most = std::max(most, *each.min);
+  }
+  return most;
+}
+
 Json curves_of(Campaign some) {
   constexpr std::int64_t most_margin_draws = 1000;
   if (!has_replicates(some.sampling)) // the draws of a design depend on their number
@@ -20,7 +33,12 @@ Json curves_of(Campaign some) {
       some.requirements, [](const Requirement& each) { return each.static_margin.has_value(); });
   const MarginKind kind =
       required == some.requirements.end() ? MarginKind::nasa : required->static_margin->kind;
-  return static_margin_curves(study_static_margins(some), kind, some.statistics.quantiles);
+  Json curves = static_margin_curves(study_static_margins(some), kind, some.statistics.quantiles);
+  if (curves.is_null()) return curves;
+  curves["formula"] = formula_of(kind, some.motorization);
+  for (Json& hinge : curves["hinges"])
+    hinge["required"] = required_of(hinge["hinge"], some.requirements, kind);
+  return curves;
 }
 
 } // namespace

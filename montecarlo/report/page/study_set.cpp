@@ -14,6 +14,7 @@
 #include "montecarlo/results/results_folder/results_folder.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -140,6 +141,22 @@ Json requirement_json(const RequirementScales& row, double confidence) {
   return json;
 }
 
+/// The requirements, with their cases, that the runs of another seed break at the recommended scale: "M-2 in ambient";
+/// null if they confirm it, or if there is none.
+Json not_confirmed(const Json& recommended) {
+  if (recommended.is_null() || !recommended.contains("confirmation")) return nullptr;
+  const Json& confirmation = recommended.at("confirmation");
+  if (confirmation.at("passes").get<bool>()) return nullptr;
+  std::vector<std::string> broken;
+  for (const Json& verdict : confirmation.at("verdicts")) {
+    if (verdict.at("verdict") == "pass") continue;
+    std::string name = verdict.value("name", verdict.at("output").get<std::string>());
+    if (verdict.contains("case")) name += " in " + verdict["case"].get<std::string>();
+    broken.push_back(std::move(name));
+  }
+  return fmt::format("not met: {}", fmt::join(broken, ", "));
+}
+
 /// @param search one search of margin.json
 Json margin_block(const Json& search, const std::vector<RequirementScales>& rows,
                   double confidence) {
@@ -161,6 +178,7 @@ Json margin_block(const Json& search, const std::vector<RequirementScales>& rows
           {"requirements", std::move(requirements)},
           {"recommended", recommended.is_null() ? Json(nullptr) : recommended.at("scale")},
           {"as_good", as_good},
+          {"not_confirmed", not_confirmed(recommended)},
           {"why_none", search.at("why_none")},
           {"window", {edge("lower"), edge("upper")}}};
 }

@@ -198,3 +198,28 @@ TEST_CASE("margins of all kinds are each by its own factors", "[motorization]") 
   CHECK(margins[3] == Approx(12 / 4.5 - 1).epsilon(1e-14));
   CHECK(margins[4] == Approx(12 / 3.5 - 1).epsilon(1e-14));
 }
+
+TEST_CASE("the formula of a margin has the campaign's factors", "[motorization]") {
+  StaticMarginSpec spec;
+  spec.nasa = nasa_development_test();
+  CHECK(formula_of(MarginKind::nasa, spec) == "T / (1.35 ΣT_fixed + 2.5 ΣT_variable) − 1");
+  spec.gevs.known = 1.75, spec.aiaa.variable = 4;
+  CHECK(formula_of(MarginKind::gevs, spec) == "T / (1.75 ΣT_fixed + 3 ΣT_variable) − 1");
+  CHECK(formula_of(MarginKind::aiaa, spec) == "T / (1.5 ΣT_fixed + 4 ΣT_variable) − 1");
+  spec.springs_per_hinge = 3;
+  CHECK(formula_of(MarginKind::nasa_one_spring_out, spec).starts_with("(T − T_s/3) / "));
+  // numbers that differ, each beside its symbol
+  spec.ecss = {.inertia = 1.01,
+               .spring = 1.02,
+               .motor = 1.03,
+               .friction = 1.04,
+               .hysteresis = 1.05,
+               .harness = 1.06,
+               .adhesion = 1.07,
+               .motorization = 2.5,
+               .acceleration = 1.08,
+               .available = 0.9};
+  CHECK(formula_of(MarginKind::ecss, spec) ==
+        "0.9 T / T_min − 1, T_min = 2.5 (1.01 I + 1.02 S + 1.03 HM + 1.04 FR + 1.05 HY + 1.06 HA + "
+        "1.07 HD) + 1.08 TD + TL");
+}

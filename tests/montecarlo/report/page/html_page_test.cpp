@@ -77,6 +77,30 @@ TEST_CASE("static margins of the page, by hand", "[page][motorization]") {
   CHECK(hinge["margin"].back() == page_number(0.2 / (3 * 0.05) - 1, 5)); // at the latch
   CHECK(hinge["least"] == hinge["margin"].back());
   CHECK(hinge["lower"].get<double>() < hinge["least"].get<double>());
+  CHECK(hinge["required"] == 0);
+  CHECK(margins["formula"] == "T / (1.5 ΣT_fixed + 3 ΣT_variable) − 1");
+}
+
+TEST_CASE("static margins of the page have the campaign's factors, and what its requirements ask",
+          "[page][motorization]") {
+  Json json = one_panel_margin(50);
+  json.erase("margin");
+  json["motorization"] = {{"nasa", {{"basis", "development_test"}}}};
+  const auto required = [&](Json requirements) {
+    json["requirements"] = std::move(requirements);
+    const Json margins = static_margins_json(campaign_of(json));
+    CHECK(margins["formula"] == "T / (1.35 ΣT_fixed + 2.5 ΣT_variable) − 1");
+    return margins["hinges"][0]["required"];
+  };
+  const auto margin_of = [](const char* hinge, double min) {
+    return Json{{"motorization", "NASA"},
+                {"hinge", hinge},
+                {"min", min},
+                {"probability", 0.9},
+                {"confidence", 0.9}};
+  };
+  CHECK(required(Json::array({margin_of("root", 0.2)})) == 0.2);
+  CHECK(required(Json::array({margin_of("*", 0.1), margin_of("root", 0.05)})) == 0.1);
 }
 
 TEST_CASE("static margins of the page are of 1000 draws, or of all of a design, by the standard "

@@ -182,4 +182,15 @@ TEST_CASE("a key that a margin study lacks is refused by its folder, but one of 
   }
   CHECK(set_of(spoil(study, {"/searches/0/recommended/as_good", "", ""}))["margin"]["as_good"]
             .is_null());
+  CHECK(set_of(study)["margin"]["not_confirmed"].is_null()); // of an older version
+  Json confirmed = study;
+  Json& runs = confirmed["searches"][0]["recommended"]["confirmation"];
+  runs = parse_json(
+      R"({ "passes": true, "verdicts": [ { "output": "deployed", "verdict": "pass" } ] })");
+  CHECK(set_of(confirmed)["margin"]["not_confirmed"].is_null());
+  runs = parse_json(R"({ "passes": false, "verdicts": [
+    { "output": "deployed", "verdict": "pass" },
+    { "name": "M-2", "output": "x", "case": "ambient", "verdict": "fail" },
+    { "output": "tip.latch_rate", "verdict": "undecided" } ] })");
+  CHECK(set_of(confirmed)["margin"]["not_confirmed"] == "not met: M-2 in ambient, tip.latch_rate");
 }
