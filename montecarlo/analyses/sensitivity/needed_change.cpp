@@ -200,10 +200,8 @@ private:
   /// The standardised normal index, of which the moved draws make a part.
   struct Index {
     double effect = 0; ///< d̄
-    double
-        own = 0,
-        shared =
-            0; ///< variance of the moved part u/φ; its covariance with the rest of the linear fit
+    double own = 0;    ///< var(u)/φ²
+    double shared = 0; ///< cov(u, r)/φ²
     bool scaled = false;
     [[nodiscard]] double variance(double t) const {
       return scaled ? std::max(0.0, 1 + t * (2 + t) * own + 2 * t * shared) : 1;

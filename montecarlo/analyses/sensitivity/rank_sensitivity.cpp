@@ -26,8 +26,8 @@ constexpr double most_explained = 0.5;
 /// quarter of the campaigns, of 20 and more in none.
 constexpr long least_beside = 16;
 /// Partial coefficients have bounds if at least n (1 − R²) of this size is left of an output's ranks. Below, the rest is
-/// of few ranks (its rms is below 0.3 √n), and nominal 90 % bounds covered 0 to 80 %. Above, wrong bounds were given in
-/// at most 12 % of the samples (README.md).
+/// of few ranks (its rms is below 0.3 √n), and nominal 90 % bounds covered 0 to 80 %. A test bounds the share of samples
+/// with wrong bounds.
 constexpr double least_unexplained = 1;
 
 std::vector<RankedColumn> ranked(const std::vector<const Column*>& columns) {
