@@ -162,12 +162,31 @@ std::vector<FitPoint> first_points(std::size_t dimensions, int count, std::uint6
   return points;
 }
 
+namespace {
+
+/// The problem of a measured time that no run reaches.
+std::optional<Problem> beyond_t_end(const FitTest& test, const Channel& channel) {
+  if (channel.column) return std::nullopt;
+  const FitValue& value = test.values[channel.value];
+  const double t_end = test.campaign.integration.t_end;
+  if (value.parameter || value.unit != "s" || value.measured <= t_end) return std::nullopt;
+  return Problem{"", fmt::format("/tests/{}/values/{}/value", channel.test, channel.value),
+                 fmt::format("{:.6g} s, beyond t_end = {:.6g} s", value.measured, t_end),
+                 "a time within the run"};
+}
+
+} // namespace
+
 std::vector<Problem> unpredictable(std::span<const FitTest> tests, TestRuns& runs,
                                    std::span<const FitPoint> points) {
   const std::vector<Prediction> tried = runs.predict(points, RunAccuracy::campaign);
   const FitData data = data_of(tests);
   std::vector<Problem> problems;
   for (const Channel& channel : data.channels) {
+    if (auto late = beyond_t_end(tests[channel.test], channel)) {
+      problems.push_back(std::move(*late));
+      continue;
+    }
     const auto compares = [&](const Prediction& prediction) {
       return std::isfinite(fit_of(data, channel, prediction).log_likelihood);
     };

@@ -44,8 +44,8 @@ struct FitMode {
 [[nodiscard]] std::vector<FitPoint> first_points(std::size_t dimensions, int count,
                                                  std::uint64_t seed);
 
-/// A problem for each channel that no run at the points predicts, or whose distance to every prediction overflows; with
-/// its pointer in the tests' file.
+/// A problem for each channel that no run at the points predicts, whose distance to every prediction overflows, or that is
+/// a time beyond t_end; with its pointer in the tests' file.
 [[nodiscard]] std::vector<Problem> unpredictable(std::span<const FitTest> tests, TestRuns& runs,
                                                  std::span<const FitPoint> points);
 

@@ -2,7 +2,9 @@
 
 #include "montecarlo/foundation/formats/number_text.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/campaign/margin_spec.hpp"
 #include "montecarlo/model/campaign/set_by_draws.hpp"
+#include "montecarlo/model/scene_file/scene_parameter.hpp"
 
 #include <fmt/format.h>
 
@@ -83,6 +85,22 @@ void change_scene(Campaign& campaign, const std::vector<std::string>& changes) {
   campaign = with_scene(campaign, changed_scene(campaign.scene, changes));
 }
 
+namespace {
+
+/// Whether one of the paths is of a spring's torque.
+bool scales_spring(const Scene& scene, const std::vector<std::string>& paths) {
+  return std::ranges::any_of(paths, [&](const std::string& path) {
+    const ParameterMatches found = resolve(scene, path);
+    return std::ranges::any_of(found.matches, [&](const ParameterMatch& match) {
+      const SceneParameter& parameter = match.parameter;
+      return parameter.owner == SceneParameter::Owner::hinge &&
+             sizes_spring({&parameter, 1}, scene, parameter.index);
+    });
+  });
+}
+
+} // namespace
+
 void override_margin(Campaign& campaign, const std::vector<std::string>& scale,
                      const std::vector<double>& range) {
   if (scale.empty() && range.empty()) return;
@@ -92,6 +110,8 @@ void override_margin(Campaign& campaign, const std::vector<std::string>& scale,
         {{"", "--range", "nothing",
           "two numbers, the scales to search from and to: --range A B, e.g. --range 0.5 2"}});
   if (!scale.empty()) given["scale"] = scale;
+  if (!scale.empty() && !scales_spring(campaign.scene, scale))
+    given.erase("cases"); // of the campaign's own springs: one that is lost
   if (!range.empty()) {
     given["range"] = range;
     given.erase("widest"); // it encloses the campaign's own range

@@ -23,7 +23,7 @@ void override_settings(const Json& given, const std::function<void(const JsonCur
 void change_scene(Campaign& campaign, const std::vector<std::string>& changes);
 
 /// Replaces "scale" and "range" of the campaign's margin, which it need not have.
-/// @param scale paths; empty: keeps the campaign's
+/// @param scale paths; empty: keeps the campaign's. If none is a spring's torque, the case of a lost spring is left out
 /// @param range lower and upper scale; empty: keeps the campaign's
 /// @throws SpecError that names the options
 void override_margin(Campaign& campaign, const std::vector<std::string>& scale,

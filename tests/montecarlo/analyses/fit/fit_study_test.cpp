@@ -230,7 +230,10 @@ TEST_CASE("numbers that no run has, or that cannot be compared, are refused with
     return Json{{"output", "root.latch_time"}, {"value", measured}, {"std", std}};
   };
   CHECK(refused(Json::array({value(2.3, 0.01)})).empty());
-  CHECK(refused(Json::array({value(230, 0.01)})).empty()); // far off, and the findings say so
+  CHECK(refused(Json::array({value(15, 0.01)})).empty()); // far off, and the findings say so
+  CHECK_THAT(
+      refused(Json::array({value(684, 0.6)})),
+      Catch::StartsWith("t.json: /tests/0/values/0/value: found 684 s, beyond t_end = 20 s"));
   const std::string large = "found numbers too large to be compared with a run by their std";
   const Json spring{{"parameter", "hinges.root.spring.scale"}, {"value", 1e300}, {"std", 0.01}};
   CHECK_THAT(refused(Json::array({value(2.3, 0.01), spring})),
@@ -241,7 +244,7 @@ TEST_CASE("numbers that no run has, or that cannot be compared, are refused with
   slow["integration"]["t_end"] = 0.5;
   const Campaign never_latches = campaign_of(slow);
   const FitSpec spec = read_fit(parse_json(R"({ "tests": [ { "name": "one", "values": [ { "output":
-        "root.latch_time", "value": 2, "std": 0.1 } ] } ], "fit": { "parameters": ["spring"] } })"),
+        "root.latch_time", "value": 0.4, "std": 0.1 } ] } ], "fit": { "parameters": ["spring"] } })"),
                                 "t.json", folder.path(), never_latches);
   CHECK_THAT(message_of([&] {
                refuse_unpredictable(never_latches, spec, {.pool = {.threads = 1}}, "t.json", never);

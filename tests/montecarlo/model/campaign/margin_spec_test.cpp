@@ -1,6 +1,8 @@
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/describe.hpp"
+#include "montecarlo/model/campaign/overrides.hpp"
 #include "montecarlo/model/scene_file/scene_json.hpp"
+#include "tests/montecarlo/margin_support.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -233,4 +235,19 @@ TEST_CASE("How static margins are judged may stand in the campaign itself, once"
         "/margin/motorization: found \"motorization\" a second time, expected the key once: here "
         "or in "
         "the campaign");
+}
+
+TEST_CASE("where --scale names no spring, the campaign's case of a lost spring is left out",
+          "[margin]") {
+  Json json = test::one_panel_margin(10);
+  json["margin"]["cases"] = {"nominal", "one_spring_out"};
+  const auto with = [&](const std::vector<std::string>& scale) {
+    Campaign campaign = campaign_of(json);
+    override_margin(campaign, scale, {0.9, 1.1});
+    return std::pair(campaign.margin->nominal, campaign.margin->one_spring_out);
+  };
+  CHECK(with({}) == std::pair(true, true));
+  CHECK(with({"hinges.root.spring.torque_latched"}) == std::pair(true, true));
+  CHECK(with({"hinges.*.spring.scale", "hinges.root.latch.damping"}) == std::pair(true, true));
+  CHECK(with({"hinges.root.latch.damping"}) == std::pair(true, false));
 }
