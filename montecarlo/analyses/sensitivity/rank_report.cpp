@@ -22,7 +22,9 @@ std::string bounds_definition(const RankSensitivity& all) {
         "jackknife over {} independent replicates, Fisher's z, Student's t, two-sided",
         all.replicates);
   std::string text = fmt::format(
-      "spearman: Fisher's z, variance (1 + r^2/2)/(n - 3); prcc: corrected "
+      "spearman: Fisher's z, variance (1 + r^2/2)/(n - 3) or that of the rows' influences on r, "
+      "the "
+      "larger; prcc: corrected "
       "for the bias of ranks, jackknife over {} parts of the runs, Fisher's z, Student's "
       "t; two-sided",
       jackknife_groups);
