@@ -94,7 +94,10 @@ const char* method_of(const RareResult& result) {
 std::string part_text(const StratumEstimate& part, double factor) {
   const RareEstimate& estimate = part.estimate;
   const bool hit = estimate.reached && estimate.probability > 0;
-  return fmt::format("{}{:.3g}", hit ? "" : estimate.reached ? "≤ " : "≲ ",
+  return fmt::format("{}{:.3g}",
+                     hit                ? ""
+                     : estimate.reached ? "≤ "
+                                        : "≲ ",
                      factor * (hit ? estimate.probability : estimate.interval.upper));
 }
 
