@@ -79,13 +79,17 @@ void check_holds(const Scene& scene, const Integration& integration, InputWarnin
           "release");
 }
 
-/// Warns of a hinge that reaches its latch while an elastic hold still holds it.
+/// Warns of a hinge that reaches its latch while an elastic hold still holds it. A hold that is due at the start holds
+/// nothing and is no release.
 void check_hold_lasts(int h, const Outcome& nominal, InputWarnings& warnings) {
   const auto latched = std::ranges::find(nominal.latches, h, &LatchEvent::hinge);
   const auto released = std::ranges::find(nominal.releases, h, &HingeEvent::hinge);
-  if (latched == nominal.latches.end() ||
-      (released != nominal.releases.end() && released->time <= latched->time))
-    return;
+  const auto is_in = [h](const std::vector<int>& hinges) {
+    return std::ranges::find(hinges, h) != hinges.end();
+  };
+  const bool holds_on = is_in(nominal.never_released) || is_in(nominal.may_release_later);
+  if (latched == nominal.latches.end()) return;
+  if (!holds_on && (released == nominal.releases.end() || released->time <= latched->time)) return;
   warnings.add(
       fmt::format("/hinges/{}/hold/stiffness", h),
       fmt::format("a hinge that latches at {:.4g} s, before its hold lets go", latched->time),

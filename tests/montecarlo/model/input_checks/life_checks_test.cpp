@@ -84,8 +84,9 @@ TEST_CASE("a hinge that latches before its elastic hold lets go is told", "[warn
   Scene scene = read_scene_file(test::three_panel_file());
   scene.hinges[1].release.emplace().time = 5;
   scene.hinges[1].hold = Hold{2000, 0};
-  const auto told = [&](double latched, double released) {
+  const auto told = [&](double latched, double released, std::vector<int> never = {}) {
     Outcome nominal;
+    nominal.never_released = std::move(never);
     if (latched > 0) nominal.latches = {{1, latched, {0, 0, 0}}};
     if (released > 0) nominal.releases = {{1, released, 0}};
     InputWarnings warnings(ScenePlace{"scene.json"});
@@ -94,7 +95,9 @@ TEST_CASE("a hinge that latches before its elastic hold lets go is told", "[warn
            warnings.list().end();
   };
   CHECK(told(4, 5));
-  CHECK(told(4, -1));
+  CHECK(told(4, -1, {1}));
+  CHECK_FALSE(told(4, -1, {0}));
+  CHECK_FALSE(told(4, -1)); // its release was due at the start: it held nothing
   CHECK_FALSE(told(6, 5));
   CHECK_FALSE(told(-1, 5));
   scene.hinges[1].hold.reset();
