@@ -59,6 +59,13 @@ TEST_CASE("A requirement may have an identifier, a source and a rationale", "[re
   CHECK(test::problems_of(given, [&](const JsonCursor& at) {
           read_requirements(at, &columns, all_columns, repeated);
         }) == "/1/id: found string \"SYS-4\" a second time, expected an identifier of its own");
+  Json named = two();
+  named[0]["name"] = named[1]["name"] = "T-1";
+  CHECK_THAT(test::problems_of(named,
+                               [&](const JsonCursor& at) {
+                                 read_requirements(at, &columns, all_columns, repeated);
+                               }),
+             Catch::StartsWith("/1/name: found \"T-1\" a second time"));
 }
 
 TEST_CASE("A requirement that is stated twice is told with both places", "[requirement]") {
