@@ -95,7 +95,7 @@ def studies(hinges):
             "levels": [{"threshold": 230 + 14 * k, "probability": 10.0 ** (-k)} for k in range(1, 6)] + [{"threshold": 300, "probability": 2.6e-6}],
             "likeliest": {"draws": [{"name": f"{hinges[0]}.spring", "value": 1.11, "z": 3.6}, {"name": f"{hinges[0]}.coulomb", "value": 0.8, "z": -1.9}]}}
     return {"static_margins": {"kind": "ECSS", "formula": "T / (1.35 ΣT_fixed + 2.5 ΣT_variable) − 1", "draws": 1000, "lower_p": 0.01, "hinges": static}, "rare": rare,
-            "margin": {"scales": scales, "requirements": rows, "recommended": 1.42, "window": [1.1, 1.58]}}
+            "margin": {"scales": scales, "requirements": rows, "recommended": 1.42, "window": [1.1, 1.58], "of_springs": True, "paths": ["hinges.*.spring.scale"]}}
 
 
 def inputs(hinges, case):

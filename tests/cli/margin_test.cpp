@@ -40,7 +40,7 @@ TEST_CASE("margin, from a requirement missed to new springs that meet it") {
   CHECK(program({"run", campaign, "--out", out + "1"}).code == 1); // missed
   const auto [code, text, error] = program({"margin", campaign, "--out", out});
   CHECK(code == 0);
-  CHECK_THAT(error, Catch::StartsWith("warning: at the recommended scale ") && // by every standard
+  CHECK_THAT(error, Catch::Contains("warning: at the recommended scale ") && // by every standard
                         Catch::Contains("static margins are below 0: ECSS margin of root -") &&
                         Catch::Contains("; AIAA margin of root -"));
   CHECK_THAT(text, Catch::StartsWith("one_panel · margin · 300 runs per scale") &&

@@ -67,6 +67,17 @@ private:
   std::vector<std::string> facts_;
 };
 
+/// A finished campaign in a folder.
+struct DoneCampaign {
+  Folder folder{};
+  std::filesystem::path path = folder.path() / "r";
+  explicit DoneCampaign(const Json& json) { (void)run_into(path, campaign_of(json)); }
+
+  [[nodiscard]] Finished program(const std::vector<std::string>& arguments) const {
+    return run_program(folder, arguments);
+  }
+};
+
 /// The block of data of a page that `report` wrote.
 [[nodiscard]] Json page_data(const std::filesystem::path& page);
 

@@ -8,21 +8,6 @@
 using namespace wingspread;
 using namespace wingspread::test;
 
-namespace {
-
-/// A finished campaign in a folder.
-struct DoneCampaign {
-  Folder folder{};
-  std::filesystem::path path = folder.path() / "r";
-  explicit DoneCampaign(const Json& json) { (void)run_into(path, campaign_of(json)); }
-
-  [[nodiscard]] Finished program(const std::vector<std::string>& arguments) const {
-    return run_program(folder, arguments);
-  }
-};
-
-} // namespace
-
 TEST_CASE("merge puts shards together, and says where the files are") {
   const Folder folder;
   const Campaign campaign = campaign_of(quick_campaign(20));

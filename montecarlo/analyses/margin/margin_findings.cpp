@@ -186,16 +186,22 @@ std::size_t most_strained(const ScaleResult& cases) {
   return static_cast<std::size_t>(std::ranges::max_element(strains) - strains.begin());
 }
 
+ScaledWords words_of(const MarginSearch& search) {
+  if (search.of_springs) return {};
+  return {"values", "lowest values", "highest values", "present values", "scale", "NEW VALUES"};
+}
+
 std::string_view rule_of(const MarginSearch& search) {
   if (search.as_good.lower == search.as_good.upper) return "least strain";
-  return *search.recommended == 1 ? "present springs" : "geometric mean";
+  return *search.recommended == 1 ? words_of(search).present : "geometric mean";
 }
 
 std::string why_this_one(const MarginSearch& search) {
   const auto [lower, upper] = search.as_good;
   if (lower == upper) return "";
   return fmt::format(". All scales seen from {} to {} are as good: {}", lower, upper,
-                     *search.recommended == 1 ? "the present springs are among them and are kept"
+                     *search.recommended == 1 ? fmt::format("the {} are among them and are kept",
+                                                            words_of(search).present)
                                               : "their geometric mean is recommended");
 }
 
@@ -221,6 +227,7 @@ std::vector<CutPeaks> cut_peaks(const MarginResult& result, const MarginSearch& 
 }
 
 std::string why_withheld(const MarginSearch& search) {
+  const std::string_view things = words_of(search).things;
   switch (search.withheld) {
   case Withheld::nothing:
     return "";
@@ -230,17 +237,19 @@ std::string why_withheld(const MarginSearch& search) {
                            ? "; at some only because t_end cut peaks: lengthen t_end"
                            : "");
   case Withheld::no_lower_edge:
-    return fmt::format("nothing fails down to {}: no edge was found, and how far down the springs "
-                       "may go is not known",
-                       search.seen.begin()->first);
+    return fmt::format(
+        "nothing fails down to {}: no edge was found, and how far down the {} may go "
+        "is not known",
+        search.seen.begin()->first, things);
   case Withheld::no_upper_edge:
     return fmt::format("nothing fails up to {}: no edge was found, for nothing that is required "
-                       "limits the springs from above",
-                       search.seen.rbegin()->first);
+                       "limits the {} from above",
+                       search.seen.rbegin()->first, things);
   case Withheld::short_of_torque:
     break;
   }
-  return "only weaker springs meet all requirements, and their static margins fall short" +
+  return fmt::format("only {} meet all requirements, and their static margins fall short",
+                     search.of_springs ? "weaker springs" : "other values") +
          (search.passed_over ? ": " + to_string(*search.passed_over) : "");
 }
 

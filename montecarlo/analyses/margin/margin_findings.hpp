@@ -74,7 +74,15 @@ concessions(const Campaign& campaign, const MarginResult& result, const MarginSe
 /// recommended". Empty if no other scale is as good. @pre a scale is recommended
 [[nodiscard]] std::string why_this_one(const MarginSearch& search);
 
-/// The rule by which the recommended scale was chosen: "least strain", "present springs" or "geometric mean".
+/// How a search's text calls what it scales.
+struct ScaledWords {
+  std::string_view things = "springs", lowest = "weakest springs", highest = "strongest springs",
+                   present = "present springs", scale = "spring scale", heading = "NEW SPRINGS";
+};
+[[nodiscard]] ScaledWords words_of(const MarginSearch& search);
+
+/// The rule by which the recommended scale was chosen: "least strain", ScaledWords::present or "geometric
+/// mean".
 [[nodiscard]] std::string_view rule_of(const MarginSearch& search);
 
 /// The cut peaks (finality.hpp) of a requirement in a case at one scale.

@@ -28,6 +28,7 @@ public:
     const Window* best = widest(windows);
     Json json{{"name", search_.name},
               {"scales", paths_of(report_.campaign.scene, search_.scaled)},
+              {"of_springs", search_.of_springs},
               {"looks", by_scale_.size()},
               {"looked_at", {by_scale_.begin()->first, by_scale_.rbegin()->first}}};
     json["window"] = best ? window(*best) : Json(nullptr);

@@ -63,6 +63,7 @@ struct ScaleRange {
 struct MarginSearch {
   std::string name; ///< the hinge, or "joint" for all parameters together
   std::vector<SceneParameter> scaled;
+  bool of_springs = true;               ///< whether a spring is among them
   std::map<double, ScaleResult> seen{}; ///< by scale
   std::optional<double> recommended{};
   ScaleRange as_good{}; ///< scales with the strain of the recommended one, which is among them

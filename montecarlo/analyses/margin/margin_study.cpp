@@ -70,14 +70,21 @@ void add_cases(const Campaign& campaign, std::size_t index, std::vector<MarginCa
 
 /// One search for all parameters, or one per hinge in the order of first mention.
 std::vector<MarginSearch> searches_of(const MarginSpec& spec, const Scene& scene) {
-  if (spec.mode == MarginMode::joint) return {{.name = "joint", .scaled = spec.scaled}};
   std::vector<MarginSearch> searches;
-  for (const SceneParameter& parameter : spec.scaled) {
-    const std::string& name = scene.hinges[parameter.index].name;
-    auto found = std::ranges::find(searches, name, &MarginSearch::name);
-    if (found == searches.end()) found = searches.insert(found, {.name = name, .scaled = {}});
-    found->scaled.push_back(parameter);
-  }
+  if (spec.mode == MarginMode::joint)
+    searches.push_back({.name = "joint", .scaled = spec.scaled});
+  else
+    for (const SceneParameter& parameter : spec.scaled) {
+      const std::string& name = scene.hinges[parameter.index].name;
+      auto found = std::ranges::find(searches, name, &MarginSearch::name);
+      if (found == searches.end()) found = searches.insert(found, {.name = name, .scaled = {}});
+      found->scaled.push_back(parameter);
+    }
+  for (MarginSearch& search : searches)
+    search.of_springs = std::ranges::any_of(search.scaled, [&](const SceneParameter& parameter) {
+      return parameter.owner == SceneParameter::Owner::hinge &&
+             sizes_spring({&parameter, 1}, scene, parameter.index);
+    });
   return searches;
 }
 

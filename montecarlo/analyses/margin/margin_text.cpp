@@ -15,7 +15,8 @@ class SearchText {
 public:
   SearchText(const MarginReport& report, const MarginSearch& search)
       : report_(report), search_(search), by_scale_(failing_by_scale(search)),
-        conditions_(condition_findings(report.campaign, report.result, search)) {}
+        conditions_(condition_findings(report.campaign, report.result, search)),
+        words_(words_of(search)) {}
 
   [[nodiscard]] std::string text() const {
     const auto windows = windows_of(by_scale_);
@@ -38,13 +39,12 @@ private:
     const std::string what = search_.name == "joint" && spec.mode == MarginMode::joint
                                  ? fmt::format("{} parameters together", search_.scaled.size())
                                  : fmt::format("hinge {} alone", search_.name);
-    std::string text = fmt::format("WINDOW of the spring scale: {}, searched from {} to {}", what,
-                                   spec.lower, spec.upper);
+    std::string text = fmt::format("WINDOW of the {}: {}, searched from {} to {}", words_.scale,
+                                   what, spec.lower, spec.upper);
     const double lowest = search_.seen.begin()->first, highest = search_.seen.rbegin()->first;
     if (lowest < spec.lower || spec.upper < highest)
-      text += fmt::format(
-          ",\n  extended to {} … {} to find the edges or to include the present springs", lowest,
-          highest);
+      text += fmt::format(",\n  extended to {} … {} to find the edges or to include the {}", lowest,
+                          highest, words_.present);
     return text;
   }
 
@@ -59,12 +59,13 @@ private:
     return verdict_of(search_.seen.at(scale), conditions_[condition].condition);
   }
 
-  [[nodiscard]] static std::string line(const char* label, double scale, std::string_view text) {
+  [[nodiscard]] static std::string line(std::string_view label, double scale,
+                                        std::string_view text) {
     return fmt::format("  {:<20}{:>8}  {}\n", label, scale, wrapped(text, 32));
   }
 
   /// A line with the name of a condition. Only the line of the first condition has the label and the scale.
-  [[nodiscard]] std::string first_or_next(bool first, const char* label, double scale,
+  [[nodiscard]] std::string first_or_next(bool first, std::string_view label, double scale,
                                           std::size_t condition) const {
     return first ? line(label, scale, name(condition))
                  : fmt::format("{:32}{}\n", "", wrapped(name(condition), 32));
@@ -79,7 +80,7 @@ private:
         seen.cut > 0 ? fmt::format("{:34}t_end cut the peak in {} of them\n", "", seen.cut) : "");
   }
 
-  [[nodiscard]] std::string edge(const char* label, const MarginEdge& edge) const {
+  [[nodiscard]] std::string edge(std::string_view label, const MarginEdge& edge) const {
     if (!edge.failing)
       return line(label, edge.passing,
                   "no edge: all requirements are met up to the end of the search");
@@ -95,9 +96,8 @@ private:
   }
 
   [[nodiscard]] std::string window(const Window& window) const {
-    return edge("weakest springs", lower_edge(search_, window)) + recommended() +
-           edge("strongest springs", upper_edge(search_, window)) + together(window) +
-           unseen(window);
+    return edge(words_.lowest, lower_edge(search_, window)) + recommended() +
+           edge(words_.highest, upper_edge(search_, window)) + together(window) + unseen(window);
   }
 
   /// The widest gap between the window's scales.
@@ -133,11 +133,12 @@ private:
     return text;
   }
 
-  /// The drawbacks of the recommended springs against the present ones.
+  /// The drawbacks of the recommended values against the present ones.
   [[nodiscard]] std::string given_up() const {
     if (!search_.recommended) return "";
     const double scale = *search_.recommended;
-    if (scale == 1) return line("drawbacks", 1, "none: the present springs are kept");
+    if (scale == 1)
+      return line("drawbacks", 1, fmt::format("none: the {} are kept", words_.present));
     std::string text;
     for (const Concession& each : concessions(report_.campaign, report_.result, search_))
       text += first_or_next(text.empty(), "drawbacks", scale, each.condition) + change(each);
@@ -179,8 +180,14 @@ private:
   [[nodiscard]] std::string confirmation() const {
     const std::string runs = fmt::format("{} runs of seed {}: ", report_.campaign.sampling.runs,
                                          report_.result.confirmation_seed);
-    if (!is_confirmed(search_)) return runs + "NOT confirmed";
-    return runs + "all requirements are met";
+    if (is_confirmed(search_)) return runs + "all requirements are met";
+    std::vector<std::string> broken;
+    for (const std::size_t condition : failing(*search_.confirmation)) {
+      const Verdict& seen = verdict_of(*search_.confirmation, conditions_[condition].condition);
+      broken.push_back(fmt::format("{} ({} runs break it, {} allowed)", name(condition),
+                                   seen.broken.size(), seen.allowed.value_or(0)));
+    }
+    return fmt::format("{}NOT confirmed: {}", runs, fmt::join(broken, "; "));
   }
 
   [[nodiscard]] std::string no_window() const {
@@ -219,10 +226,10 @@ private:
     const auto found = search_.seen.find(1);
     if (found == search_.seen.end()) return "";
     const Failing why = to_report(found->second);
-    if (why.empty()) return line("present springs", 1, "all requirements are met");
+    if (why.empty()) return line(words_.present, 1, "all requirements are met");
     std::string text;
     for (const std::size_t condition : why)
-      text += first_or_next(text.empty(), "present springs", 1, condition) + at(condition, 1);
+      text += first_or_next(text.empty(), words_.present, 1, condition) + at(condition, 1);
     return text;
   }
 
@@ -251,7 +258,7 @@ private:
 
   [[nodiscard]] std::string new_values() const {
     std::string text =
-        fmt::format("\n{:<60}{:>12}{:>14}\n", "NEW SPRINGS", "present", "recommended");
+        fmt::format("\n{:<60}{:>12}{:>14}\n", words_.heading, "present", "recommended");
     for (const SceneParameter& parameter : search_.scaled) {
       const double value = parameter.in(report_.campaign.scene);
       const std::string_view unit = unit_of(parameter);
@@ -293,6 +300,7 @@ private:
   const MarginSearch& search_;
   FailingByScale by_scale_;
   std::vector<ConditionFinding> conditions_;
+  ScaledWords words_;
 };
 
 } // namespace

@@ -13,6 +13,7 @@
 #include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 #include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
@@ -26,7 +27,7 @@ namespace wingspread {
 namespace {
 
 struct MarginOptions {
-  std::filesystem::path campaign, out;
+  std::filesystem::path campaign, out, requirements;
   SamplingOptions sampling;
   MachineOptions machine;
   std::string shard;
@@ -102,6 +103,8 @@ ShardMaker maker_of(const MarginOptions& options) {
   ShardMaker maker{"wingspread margin " + shell_word(options.campaign.string()), ""};
   if (options.sampling.runs) maker.more += fmt::format(" --runs {}", *options.sampling.runs);
   if (options.sampling.seed) maker.more += fmt::format(" --seed {}", *options.sampling.seed);
+  if (!options.requirements.empty())
+    maker.more += " --requirements " + shell_word(options.requirements.string());
   for (const std::string& path : options.scale) maker.more += " --scale " + shell_word(path);
   if (!options.range.empty())
     maker.more += fmt::format(" --range {}", fmt::join(options.range, " "));
@@ -141,11 +144,23 @@ int make_margin_shard(const Campaign& campaign, const MarginOptions& options, co
   return exit_code::done;
 }
 
+/// Prints the input checks' warnings, of the requirements that the study judges.
+void warn_of_input(Campaign campaign, const MarginOptions& options) {
+  const std::filesystem::path& other = options.requirements;
+  if (other.empty()) return print_warnings(check_input(campaign, options.campaign), false);
+  campaign.requirements.clear();
+  print_warnings(check_input(campaign, options.campaign), false);
+  campaign.requirements = read_requirements_file(other, campaign);
+  print_warnings(check_requirements_file(campaign, other), false);
+}
+
 /// @throws MissingRuns when a shard in --from is missing or not finished
 int run_margin_study(const MarginOptions& options) {
   refuse_repeated(options.from);
   Campaign campaign = read_campaign_file(options.campaign);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
+  warn_of_input(campaign, options);
+  if (!options.requirements.empty()) override_requirements(campaign, options.requirements);
   override_margin(campaign, options.scale, options.range);
   if (const auto shard = parse_shard(options.shard))
     return make_margin_shard(campaign, options, *shard);
@@ -196,6 +211,7 @@ void add_margin_options(CLI::App& command, MarginOptions& options) {
       .add_option("--range", options.range, "Search from this scale to that one, > 0, e.g. 0.8 1.5")
       ->expected(2)
       ->type_name("SCALE");
+  add_requirements_option(command, options.requirements);
   add_sampling_options(command, options.sampling);
   add_machine_options(command, options.machine);
   command.add_flag("--resume", options.resume, "Continue an interrupted study");

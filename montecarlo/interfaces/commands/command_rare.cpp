@@ -11,6 +11,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
@@ -129,7 +130,9 @@ int write_result(const RareResult& result, const RareOptions& options, const Cam
 int rare(const RareCommandOptions& given) {
   RareOptions options = given.rare;
   options.event = event_of(given);
-  Campaign campaign = chosen_case(read_campaign_file(given.campaign), given.of_case);
+  const Campaign whole = read_campaign_file(given.campaign);
+  print_warnings(check_input(whole, given.campaign), false);
+  Campaign campaign = chosen_case(whole, given.of_case);
   override_sampling(campaign, std::nullopt, given.seed);
   options.confidence = confidence_of(given.confidence, campaign.statistics);
   const auto folder = open_folder(given, options, campaign);

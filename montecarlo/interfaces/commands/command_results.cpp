@@ -8,6 +8,7 @@
 #include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 #include "montecarlo/results/results_folder/merge.hpp"
@@ -105,6 +106,7 @@ StoredCampaign as_asked(StoredCampaign stored, const AnalyzeOptions& options) {
   if (options.requirements.empty()) return stored;
   refuse_rowless(stored.folder);
   judge_by(read_requirements_file(options.requirements, stored.campaign), stored);
+  print_warnings(check_requirements_file(stored.campaign, options.requirements), false);
   return stored;
 }
 
@@ -206,8 +208,7 @@ void add_analyze_options(CLI::App& command, AnalyzeOptions& options) {
       ->delimiter(',');
   add_confidence_option(command, options.confidence);
   command.add_option("--bins", options.bins, "Bins of the histograms: from 1 to 10000, or auto");
-  command.add_option("--requirements", options.requirements,
-                     "A JSON file with an array of requirements; default: the campaign's");
+  add_requirements_option(command, options.requirements);
   command.add_option("--out", options.out,
                      "Write to this folder, new or empty, which gets a copy of the rows");
   add_display_options(command, options.display);

@@ -12,6 +12,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 
 #include <fmt/format.h>
@@ -162,8 +163,10 @@ SaltelliDesign read_given_design(const SensitivityOptions& options) {
 }
 
 SaltelliDesign new_design(const SensitivityOptions& options) {
-  SaltelliDesign design{chosen_case(read_campaign_file(options.from), options.of_case),
-                        options.samples.value_or(1000), std::nullopt};
+  const Campaign whole = read_campaign_file(options.from);
+  print_warnings(check_input(whole, options.from), false);
+  SaltelliDesign design{chosen_case(whole, options.of_case), options.samples.value_or(1000),
+                        std::nullopt};
   override_sampling(design.campaign, std::nullopt, options.seed);
   return design;
 }

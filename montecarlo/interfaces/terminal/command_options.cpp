@@ -107,6 +107,13 @@ void add_confidence_option(CLI::App& command, std::optional<double>& confidence)
           "> 0 and < 1");
 }
 
+void add_requirements_option(CLI::App& command, std::filesystem::path& file) {
+  command
+      .add_option("--requirements", file,
+                  "Other requirements: an array, a campaign, or a summary.json")
+      ->type_name("FILE");
+}
+
 double confidence_of(const std::optional<double>& given, const StatisticsSpec& own) {
   StatisticsSpec spec = own;
   Json settings = Json::object();

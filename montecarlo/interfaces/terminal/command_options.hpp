@@ -46,6 +46,8 @@ void add_shard_option(CLI::App& command, std::string& shard, const char* descrip
 
 /// Adds --confidence.
 void add_confidence_option(CLI::App& command, std::optional<double>& confidence);
+/// Adds --requirements: a file for read_requirements_file.
+void add_requirements_option(CLI::App& command, std::filesystem::path& file);
 /// @return the given confidence, or the campaign's own
 /// @throws SpecError unless it is > 0 and < 1
 [[nodiscard]] double confidence_of(const std::optional<double>& given, const StatisticsSpec& own);

@@ -386,12 +386,28 @@ void read_analysis(const JsonCursor& at, Campaign& campaign) {
   object.refuse_others();
 }
 
+std::vector<std::string> keys_of_requirements(const Json& document) {
+  constexpr const char* list = "requirements";
+  if (!document.is_object()) return {};
+  const bool analyzed = document.contains(analyzed_key);
+  const Json& holder = analyzed ? document[analyzed_key] : document;
+  if (!holder.is_object() || !holder.contains(list)) return {};
+  return analyzed ? std::vector<std::string>{analyzed_key, list} : std::vector<std::string>{list};
+}
+
+void override_requirements(Campaign& campaign, const std::filesystem::path& path) {
+  campaign.requirements = read_requirements_file(path, campaign);
+  campaign.resolved = write_campaign(campaign, Json(campaign.resolved.at("dispersions")));
+}
+
 std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
                                                 const Campaign& campaign) {
   const Json document = parse_json_file(path);
   std::vector<Problem> problems;
   std::vector<Requirement> requirements;
-  guarantee_reader(campaign).read(JsonCursor(document, path.string(), problems), requirements);
+  JsonCursor list(document, path.string(), problems);
+  for (const std::string& key : keys_of_requirements(document)) list = list.member(key);
+  guarantee_reader(campaign).read(list, requirements);
   if (!problems.empty()) throw SpecError(std::move(problems));
   return requirements;
 }

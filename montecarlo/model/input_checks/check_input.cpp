@@ -93,7 +93,8 @@ std::vector<InputWarning> check_input(const Scene& scene, const Integration& int
 }
 
 std::vector<InputWarning> check_input(const Campaign& campaign, const std::filesystem::path& file) {
-  InputWarnings scene(scene_place(file)), rest({file.string()});
+  InputWarnings scene(scene_place(file)), rest({file.string()}),
+      judged({file.string(), "/requirements"});
   check_numbers(written_scene(campaign), scene);
   const Outcome nominal = check_motion(nominal_scene(campaign), campaign.integration, scene);
   check_cases(campaign, scene, rest);
@@ -101,10 +102,21 @@ std::vector<InputWarning> check_input(const Campaign& campaign, const std::files
   check_spread(campaign, rest);
   check_correlations(campaign, rest);
   check_outputs(campaign, rest);
-  check_requirements(campaign, nominal, rest);
+  check_requirements(campaign, nominal, judged);
   std::vector<InputWarning> all = scene.list();
-  all.insert(all.end(), rest.list().begin(), rest.list().end());
+  for (const InputWarnings* more : {&rest, &judged})
+    all.insert(all.end(), more->list().begin(), more->list().end());
   return all;
+}
+
+std::vector<InputWarning> check_requirements_file(const Campaign& campaign,
+                                                  const std::filesystem::path& file) {
+  std::string place;
+  for (const std::string& key : keys_of_requirements(parse_json_file(file))) place += "/" + key;
+  InputWarnings warnings({file.string(), place});
+  const Outcome nominal = deployment_alone(nominal_scene(campaign), campaign.integration);
+  check_requirements(campaign, nominal, warnings);
+  return warnings.list();
 }
 
 } // namespace wingspread

@@ -24,4 +24,8 @@ check_input(const Scene& scene, const Integration& integration, const std::files
 [[nodiscard]] std::vector<InputWarning> check_input(const Campaign& campaign,
                                                     const std::filesystem::path& file);
 
+/// Checks the campaign's requirements, which are those of this file (read_requirements_file).
+[[nodiscard]] std::vector<InputWarning> check_requirements_file(const Campaign& campaign,
+                                                                const std::filesystem::path& file);
+
 } // namespace wingspread

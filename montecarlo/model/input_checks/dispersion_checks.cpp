@@ -273,7 +273,7 @@ bool looks_converted(double limit, double nominal, const std::string& unit) {
 void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& nominal,
                        InputWarnings& warnings) {
   const Requirement& own = campaign.requirements[k];
-  const std::string at = fmt::format("/requirements/{}", k);
+  const std::string at = fmt::format("/{}", k);
   const std::string key = own.max ? "/max" : "/min";
   const double limit = own.max ? *own.max : own.min.value_or(0);
   const std::string unit = parse_output_name(own.output).unit;

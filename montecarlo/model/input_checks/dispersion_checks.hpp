@@ -35,7 +35,8 @@ void check_outputs(const Campaign& campaign, InputWarnings& warnings);
 /// negative limit of a magnitude, a limit on an angle or a rate that is in degrees or has been converted twice (by
 /// about 57.3 from the nominal value), and a limit on a peak while the base's rate grows (no peak is then proven
 /// final).
-/// @param nominal the nominal deployment
+/// @param nominal  the nominal deployment
+/// @param warnings with the list of requirements as its place
 void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings);
 
 } // namespace wingspread

@@ -153,9 +153,10 @@ Json margin_command(const PageSource& source, const LeverChange& each) {
   const double beyond = std::max(0.05, 1 + 2 * t), before = std::max(0.05, 1 - t / 2);
   std::vector<std::string> paths;
   for (const std::string& path : each.lever.paths) paths.push_back(shell_word(path));
-  return fmt::format("wingspread margin {} --scale {} --range {:.3g} {:.3g} --out results/margin",
-                     shell_word((source.made_from / campaign_file).string()), fmt::join(paths, " "),
-                     std::min(beyond, before), std::max(beyond, before));
+  return fmt::format("wingspread margin {}{} --scale {} --range {:.3g} {:.3g} --out results/margin",
+                     shell_word((source.made_from / campaign_file).string()),
+                     requirements_option(source), fmt::join(paths, " "), std::min(beyond, before),
+                     std::max(beyond, before));
 }
 
 Json lever_json(const PageSource& source, const LeverChange& each) {

@@ -3,6 +3,7 @@
 #include "distributions/prepared_distribution.hpp"
 #include "montecarlo/model/campaign/describe.hpp"
 #include "montecarlo/model/campaign/plain_words.hpp"
+#include "montecarlo/model/scene_file/scene_json.hpp"
 #include "montecarlo/model/scene_file/scene_parameter.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 
@@ -10,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 
 namespace wingspread {
 namespace {
@@ -40,6 +42,45 @@ Json scene_json(const PageSource& source, std::size_t most) {
                     {"case_value", in_case == value ? Json(nullptr) : page_number(in_case)}});
   }
   return json;
+}
+
+/// The columns of a scene's tables, with their SI units.
+constexpr std::array<std::pair<const char*, const char*>, 8> table_columns{
+    {{"angle", "rad"},
+     {"torque", "N·m"},
+     {"deploying", "N·m"},
+     {"stowing", "N·m"},
+     {"time", "s"},
+     {"rate", "rad/s"},
+     {"travel", "rad"},
+     {"travel_of_second", "rad"}}};
+
+/// The columns of an object that is a table; else empty.
+Json columns_of(const Json& object) {
+  Json columns = Json::array();
+  for (const auto& [name, unit] : table_columns)
+    if (const auto found = object.find(name); found != object.end() && found->is_array())
+      columns.push_back({{"name", name},
+                         {"unit", unit},
+                         {"values", page_numbers(found->get<std::vector<double>>())}});
+  return columns;
+}
+
+/// Adds the tables below a value of the scene.
+/// @param path of the value, with names in place of indices
+void add_scene_tables(const Json& value, const std::string& path, std::size_t most, Json& tables) {
+  if (tables.size() >= most || !value.is_structured()) return;
+  if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      if (value[i].is_object())
+        add_scene_tables(value[i], path + "." + value[i].value("name", std::to_string(i)), most,
+                         tables);
+    return;
+  }
+  if (Json columns = columns_of(value); !columns.empty())
+    tables.push_back({{"path", path}, {"columns", std::move(columns)}});
+  for (const auto& [key, below] : value.items())
+    add_scene_tables(below, path.empty() ? key : path + "." + key, most, tables);
 }
 
 /// The tables of a draw, with their values at its median.
@@ -125,12 +166,16 @@ Json settings_json(const Campaign& campaign) {
 } // namespace
 
 Json inputs_json(const PageSource& source, const PageDetail& detail) {
+  constexpr std::size_t most_tables = 100;
   const Campaign& campaign = source.stored.campaign;
   Json dispersions = Json::array();
   for (std::size_t i = 0; i < campaign.dispersions.size(); ++i)
     dispersions.push_back(
         dispersion_json(campaign, campaign.dispersions[i], source.before_case.dispersions[i]));
+  Json tables = Json::array();
+  add_scene_tables(write_scene(campaign.scene), "", most_tables, tables);
   return {{"scene", scene_json(source, detail.parameters)},
+          {"tables", std::move(tables)},
           {"dispersions", std::move(dispersions)},
           {"settings", settings_json(campaign)}};
 }

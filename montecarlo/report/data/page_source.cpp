@@ -1,5 +1,6 @@
 #include "montecarlo/report/data/page_source.hpp"
 
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/results/streaming/streaming_folder.hpp"
 #include "montecarlo/results/streaming/streaming_summary.hpp"
 
@@ -46,6 +47,11 @@ std::optional<JudgedRun> worst_kept(const StreamingStatistics& statistics,
 
 } // namespace
 
+std::string requirements_option(const PageSource& source) {
+  if (!source.stored.own_requirements) return "";
+  return " --requirements " + shell_word((source.stored.folder / summary_file).string());
+}
+
 BrokenRuns broken_runs_of(const PageSource& source, const Verdict& verdict, std::size_t most) {
   BrokenRuns broken = broken_runs(verdict, source.results, most);
   if (source.has_rows()) return broken;
@@ -61,6 +67,7 @@ std::unique_ptr<PageSource> read_page_source(StoredCampaign stored, const std::s
   auto source = std::make_unique<PageSource>();
   source->label = label;
   source->before_case = before_case ? *before_case : stored.campaign;
+  if (stored.own_requirements) source->before_case.requirements = stored.campaign.requirements;
   source->stored = std::move(stored);
   source->made_from = source->stored.folder;
   if (is_streaming_folder(source->stored.folder))

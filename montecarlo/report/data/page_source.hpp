@@ -36,6 +36,10 @@ struct PageSource {
   [[nodiscard]] bool has_rows() const { return !streaming; }
 };
 
+/// The option " --requirements FILE" of commands that judge as the last `analyze` of the folder did; empty if it judged
+/// by the campaign's own requirements.
+[[nodiscard]] std::string requirements_option(const PageSource& source);
+
 /// As broken_runs (broken_runs.hpp); also works for a folder without rows.
 [[nodiscard]] BrokenRuns broken_runs_of(const PageSource& source, const Verdict& verdict,
                                         std::size_t most);

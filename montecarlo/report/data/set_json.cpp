@@ -34,6 +34,13 @@ std::string made_by(const PageSource& source) {
   return text + " --out again";
 }
 
+/// The command that judges the rows of made_by's command by the requirements on the page; empty if they are the
+/// campaign's own.
+std::string judged_by(const PageSource& source) {
+  const std::string option = requirements_option(source);
+  return option.empty() ? "" : "wingspread analyze again" + option;
+}
+
 Json identity_json(const PageSource& source) {
   const StoredCampaign& stored = source.stored;
   const Campaign& campaign = stored.campaign;
@@ -57,7 +64,8 @@ Json identity_json(const PageSource& source) {
           {"confidence", source.summary.confidence},
           {"looks", source.summary.interim.count()},
           {"replicates", source.replication.replicates},
-          {"made_by", made_by(source)}};
+          {"made_by", made_by(source)},
+          {"judged_by", judged_by(source)}};
 }
 
 Json statuses_json(const Summary& summary) {
@@ -158,6 +166,20 @@ Json broken_json(const Verdict& verdict, const PageSource& source) {
   return json;
 }
 
+constexpr std::array verdict_words{"passed", "failed", "open"}; // in the order of Decision
+
+/// What the requirements show together.
+Json together_json(const Summary& summary) {
+  Json groups = Json::array();
+  for (const GroupVerdict& group : judge_groups(summary.requirements))
+    groups.push_back({{"group", group.name},
+                      {"confidence", group.confidence},
+                      {"requirements", group.members},
+                      {"passed", group.passed},
+                      {"verdict", verdict_words[static_cast<std::size_t>(group.decision)]}});
+  return {{"groups", std::move(groups)}, {"confidence", joint_confidence(summary.requirements)}};
+}
+
 /// A requirement without its verdict.
 Json asked_json(const Requirement& requirement) {
   const bool limited = requirement.max || requirement.min;
@@ -181,9 +203,8 @@ Json asked_json(const Requirement& requirement) {
 }
 
 Json requirement_json(const Verdict& verdict, const PageSource& source) {
-  constexpr std::array words{"passed", "failed", "open"}; // in the order of Decision
   Json json = asked_json(verdict.requirement);
-  json.update({{"verdict", words[static_cast<std::size_t>(verdict.decision)]},
+  json.update({{"verdict", verdict_words[static_cast<std::size_t>(verdict.decision)]},
                {"disproved", verdict.disproved},
                {"observed", page_number(verdict.share)},
                {"guaranteed", page_number(verdict.guaranteed_share)},
@@ -263,6 +284,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["latch_jumps"] = latch_jumps_json(summary);
   json["accuracy"] = accuracy_json(summary);
   json["requirements"] = requirements_json(source);
+  json["together"] = together_json(summary);
   json["unjudged"] = unjudged_json(source);
   json["outputs"] = outputs_json(source, detail, threads);
   json["correlations"] = correlations_json(source, detail);

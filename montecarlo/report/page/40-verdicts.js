@@ -321,6 +321,25 @@
     );
   }
 
+  // What the requirements of each set show together, as the terminal's table says it.
+  function together() {
+    const lines = W.sets.flatMap(function (set) {
+      const { groups = [], confidence = null } = set.together || {},
+        all = set.requirements || [],
+        where = W.sets.length > 1 ? `${set.label}: ` : "",
+        passing = all.filter((one) => verdictOf(one.verdict) === "passed").length;
+      return [
+        ...groups.map((one) =>
+          h("li", `${where}group ${one.group}: `, W.verdictBadge(one.verdict, true), ` ${one.passed} of ${one.requirements} pass, joint confidence ${F.given(100 * one.confidence)} %`),
+        ),
+        passing > 1
+          ? h("li", `${where}joint confidence of all ${all.length} requirements: ${confidence > 0 ? `at least ${F.given(Number((100 * confidence).toPrecision(10)))} %` : "no guarantee"}`)
+          : null,
+      ].filter(Boolean);
+    });
+    return lines.length ? h("ul.together", lines) : null;
+  }
+
   function requirements() {
     const rows = judged();
     if (!rows.length) return [headline(rows), W.staticShortfall()];
@@ -344,6 +363,7 @@
       W.findings(rows),
       several ? h("h3", "The worst case of each requirement") : null,
       requirementTable(shown),
+      together(),
       h(
         "p.note",
         "“99 % at 90 %”: 99 % of all deployments must keep the limit, and the runs must show it with a confidence of 90 %. So fewer runs may break it than 1 % of them. Pass: the runs show it. Fail: there are enough runs, but too many break it; “disproved”: they show, with the same confidence, that fewer deployments keep the limit. Undecided: too few runs. ● Quantile (or share) of these runs. ┃ Its one-sided bound over all deployments, at the required confidence. Shaded: where the requirement passes; each picture has a scale of its own. Distance to the limit: from the one-sided bound, positive where the requirement passes; of a share in percentage points.",

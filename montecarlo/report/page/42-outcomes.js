@@ -268,7 +268,10 @@
     return h(
       "div.again",
       h("h3", "Reproduce"),
-      made.map((set) => W.command(set.made_by, `command of ${set.label}`)),
+      made.map((set) => [
+        W.command(set.made_by, `command of ${set.label}`),
+        set.judged_by ? W.command(set.judged_by, `command that judges ${set.label}`) : null,
+      ]),
       W.command(W.data.command, "command of this report"),
       h(
         "p.note",

@@ -65,7 +65,7 @@
     return h(
       "p.needed",
       `All requirements pass with the inputs of ${found.label} scaled ${W.isNumber(low) ? `from ${F.number(low, 4)}` : "below"} ${W.isNumber(high) ? `to ${F.number(high, 4)}` : "upwards"}: `,
-      h("a", { href: "#why" }, "permissible spring strength"),
+      h("a", { href: "#why" }, found.margin.of_springs ? "permissible spring strength" : "permissible scale"),
       ".",
     );
   }
@@ -204,7 +204,7 @@
       h("summary", `Confirm ${first ? "the first change" : "the change"} with new runs: wingspread margin`),
       h(
         "p.note",
-        `It judges all requirements of the campaign's file${asked ? "" : ". Static margins are not among them; it prints them for the springs as they are and for the scale that it recommends"}.`,
+        `It judges all ${W.sets.some((set) => set.judged_by) ? "requirements on this page" : "requirements of the campaign's file"}${asked ? "" : ". Static margins are not among them; it prints them for the springs as they are and for the scale that it recommends"}.`,
       ),
       W.command(command, "command that confirms the change"),
     );

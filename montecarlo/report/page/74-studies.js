@@ -4,6 +4,7 @@
   const W = window.wingspread;
   const { h, number, format: F, marks: M } = W;
 
+  const permissible = (margin) => (margin.of_springs ? "Permissible spring strength" : "Permissible scale");
   function marginWindow(margin) {
     const [low, high] = margin.window || [null, null],
       { scales, requirements } = margin;
@@ -16,10 +17,10 @@
         ? `The window is ${ends}${advice}.${margin.why_none ? ` No recommendation: ${margin.why_none}.` : ""}${margin.not_confirmed ? ` Runs of another seed do not confirm the recommendation: ${margin.not_confirmed}.` : ""}`
         : margin.why_none || "No scale meets all requirements.";
     return W.figure({
-      title: "Permissible spring strength (wingspread margin)",
+      title: `${permissible(margin)} (wingspread margin)`,
       class: "margin",
       note: words,
-      description: `Share of runs that meet each requirement against the springs' scale. ${words}`,
+      description: `Share of runs that meet each requirement against the scale${margin.of_springs ? " of the springs" : ""}. ${words}`,
       table: () => ({
         columns: ["scale", ...requirements.flatMap((one) => [one.text, "lower", "upper", "verdict"])],
         rows: scales.map((scale, at) => [
@@ -51,7 +52,7 @@
           });
         }
         M.axes(svg, box, x, axis, {
-          xText: "scale of the springs",
+          xText: margin.of_springs ? "scale of the springs" : `scale of ${margin.paths.length === 1 ? margin.paths[0] : "the values"}`,
           yText: "share of runs that meet the requirement, logarithmic in 1 - share",
           yValues: SHARES.map((share) => nines.invert(y(share))),
           yFormat: (_, at) => `${Number((100 * SHARES[at]).toPrecision(4))} %`,
@@ -356,7 +357,7 @@
     };
     for (const set of sets) {
       if (W.studySets.includes(set) && W.effectOutputs(set).length) add("sobol", "Sensitivity", set, indices(set));
-      if (set.margin && (set.margin.scales || []).length) add("margin", "Permissible spring strength", set, marginWindow(set.margin));
+      if (set.margin && (set.margin.scales || []).length) add("margin", permissible(set.margin), set, marginWindow(set.margin));
       if (!found.has("static") && set.static_margins && (set.static_margins.hinges || []).length)
         add("static", "Static margins", set, staticMargins(set.static_margins, set));
       if (set.rare) add("rare", "Rare events", set, rareEvent(set.rare));

@@ -109,6 +109,24 @@
       ),
     );
   }
+  function sceneTables(set) {
+    const rows = (set.inputs.tables || []).flatMap((table) =>
+      table.columns.map((column, at) => [
+        at ? "" : h("code", table.path),
+        column.name.replace(/_/g, " "),
+        F.unit(column.unit),
+        h("span.law", column.values.map((value) => F.number(value, 5)).join(" · ")),
+      ]),
+    );
+    return rows.length
+      ? h(
+          "details",
+          { open: rows.length <= 30 },
+          h("summary", `Tables of the scene: ${F.count(set.inputs.tables.length)}`),
+          W.table(`Tables of the scene of ${set.label}, before dispersion`, ["Table", "Column", "Unit", "Values"], rows, { class: "scene-tables" }),
+        )
+      : null;
+  }
   function dispersions(set) {
     const rows = (set.inputs.dispersions || []).map((one) => [
       h("span", one.words && one.words !== one.draw ? [one.words, " ", h("small.faint", one.draw)] : one.draw),
@@ -174,6 +192,7 @@
       tables(set),
       W.sets.length > 1 ? h("h3", set.label) : null,
       scene(set),
+      sceneTables(set),
       dispersions(set),
       h("div.narrow", settings(set)),
     );

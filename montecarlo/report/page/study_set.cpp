@@ -45,13 +45,15 @@ Json empty_set(const std::filesystem::path& folder, const std::string& label, co
             {"confidence", 0.95},
             {"looks", 1},
             {"replicates", 0},
-            {"made_by", ""}};
+            {"made_by", ""},
+            {"judged_by", ""}};
   for (const char* list : {"statuses", "reasons", "orders", "warnings", "requirements", "outputs",
                            "scatters", "motions", "wing_orders"})
     json[list] = Json::array();
   json["order_kinds"] = json["without_latch"] = 0;
-  for (const char* block : {"accuracy", "correlations", "sensitivity", "wing", "envelopes",
-                            "static_margins", "modes", "margin", "rare", "kernel", "fit"})
+  for (const char* block :
+       {"accuracy", "correlations", "sensitivity", "wing", "envelopes", "static_margins", "modes",
+        "margin", "rare", "kernel", "fit", "together"})
     json[block] = nullptr;
   json["inputs"] = {
       {"scene", Json::array()}, {"dispersions", Json::array()}, {"settings", Json::array()}};
@@ -180,6 +182,8 @@ Json margin_block(const Json& search, const std::vector<RequirementScales>& rows
           {"as_good", as_good},
           {"not_confirmed", not_confirmed(recommended)},
           {"why_none", search.at("why_none")},
+          {"of_springs", search.value("of_springs", true)},
+          {"paths", search.value("scales", Json::array())},
           {"window", {edge("lower"), edge("upper")}}};
 }
 

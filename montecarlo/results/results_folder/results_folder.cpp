@@ -22,9 +22,6 @@
 namespace wingspread {
 namespace {
 
-/// The key of summary.json with the statistics and requirements of the last `analyze`.
-constexpr const char* analyzed_key = "analyzed";
-
 std::filesystem::path refuse_missing(const std::filesystem::path& folder) {
   std::filesystem::path path = folder / campaign_file;
   if (!std::filesystem::is_directory(folder))

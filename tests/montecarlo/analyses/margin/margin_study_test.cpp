@@ -132,6 +132,7 @@ TEST_CASE("hinge by hinge, each has a window of its own", "[margin]") {
   CHECK(result.searches[2].name == "mid");
   CHECK(result.searches[0].scaled.size() == 2);
   CHECK(result.searches[2].scaled.size() == 1);
+  for (const MarginSearch& search : result.searches) CHECK(search.of_springs);
   // the same at 1, where nothing is scaled, and not elsewhere
   const auto guaranteed = [&](std::size_t k, double scale) {
     return result.searches[k].seen.at(scale)[0].verdicts[0].guaranteed;
@@ -139,6 +140,20 @@ TEST_CASE("hinge by hinge, each has a window of its own", "[margin]") {
   CHECK(guaranteed(0, 1) == guaranteed(1, 1));
   CHECK(guaranteed(0, 1.5) != guaranteed(1, 1.5));
   CHECK(guaranteed(1, 1.5) < guaranteed(1, 1)); // a stronger root is sooner there
+}
+
+TEST_CASE("a search knows whether it scales springs", "[margin]") {
+  Json json = quick_campaign(10);
+  json["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.5, "confidence": 0.5 }])");
+  const auto of_springs = [&](const Json& paths) {
+    json["margin"] = {{"scale", paths}, {"range", {0.9, 1.1}}, {"points", 3}};
+    return margin_of(campaign_of(json)).searches.front().of_springs;
+  };
+  CHECK(of_springs({"hinges.*.spring.scale"}));
+  CHECK(of_springs({"hinges.root.friction.scale", "hinges.tip.spring.torque_latched"}));
+  CHECK_FALSE(of_springs({"hinges.*.friction.scale"}));
+  CHECK_FALSE(of_springs({"bodies.*.mass"}));
 }
 
 TEST_CASE("a campaign without a margin, requirements or runs enough is refused, all at once",

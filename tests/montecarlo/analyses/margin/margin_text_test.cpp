@@ -153,7 +153,43 @@ TEST_CASE("the text of a margin says what is recommended, and what it costs", "[
     cases[0].verdicts[1].requirement.min = -std::numbers::pi / 3;
   CHECK(prints(text_of(), "with a value: -28.648 now, -42.972 recommended"));
   search.confirmation = search.seen.at(1.75);
-  CHECK(prints(text_of(), "1000 runs of seed 99: NOT confirmed"));
+  // the requirement that breaks, with its runs
+  CHECK(prints(text_of(), "1000 runs of seed 99: NOT confirmed: " +
+                              condition_findings(campaign, result, search)[1].requirement +
+                              " (40 runs break it, 12 allowed)"));
+}
+
+TEST_CASE("the text of a margin speaks of springs only where springs are scaled", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(runs_of_window));
+  MarginResult result = made_up_window(campaign);
+  MarginSearch& search = result.searches[0];
+  const auto spoken = [&] {
+    std::string all;
+    const auto add = [&] {
+      all +=
+          margin_text({campaign, result, {}}) + why_withheld(search) + std::string(rule_of(search));
+    };
+    search.confirmation = search.seen.at(1);
+    for (const double scale : {1.0, 1.5})
+      search.recommended = scale, search.as_good = {1, 1.5}, add();
+    search.recommended.reset();
+    for (const Withheld why : {Withheld::no_window, Withheld::no_lower_edge,
+                               Withheld::no_upper_edge, Withheld::short_of_torque})
+      search.withheld = why, search.recommended = 1, add();
+    // the parameters' paths are not words of ours
+    for (const char* path :
+         {"hinges.root.spring.torque_stowed", "hinges.root.spring.torque_latched"})
+      for (std::size_t at = all.find(path); at != std::string::npos; at = all.find(path))
+        all.erase(at, std::string_view(path).size());
+    return all;
+  };
+  CHECK(spoken().find("springs") != std::string::npos);
+  search.of_springs = false;
+  const std::string text = spoken();
+  CHECK(text.find("spring") == std::string::npos);
+  CHECK(text.find("SPRING") == std::string::npos);
+  for (const char* words : {"lowest values", "highest values", "present values", "NEW VALUES"})
+    CHECK(text.find(words) != std::string::npos);
 }
 
 TEST_CASE(

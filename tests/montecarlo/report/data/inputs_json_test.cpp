@@ -1,3 +1,4 @@
+#include "montecarlo/model/scene_file/scene_json.hpp"
 #include "montecarlo/report/data/inputs_json.hpp"
 #include "tests/montecarlo/report/data/page_support.hpp"
 
@@ -101,4 +102,40 @@ TEST_CASE("inputs have words for dispersions, and what a draw does through its t
     CHECK(table["value"] == Json{2.0, 1.0, 0.5});
     CHECK(table["of_median"].get<double>() == Approx(factor));
   }
+}
+
+TEST_CASE("inputs have every table of the scene with its numbers and units", "[page]") {
+  Json json = quick_campaign(5);
+  json["scene"] = parse_json_file(three_panel_file());
+  json["scene"]["hinges"][1]["spring"] = parse_json(R"({ "measured": {
+    "angle": [-3.2, -1.5, 0, 0.1], "deploying": [2, 1.5, 1, 1], "stowing": [3, 2, 1.25, 1.25] } })");
+  json["scene"]["hinges"][2]["harness"] =
+      parse_json(R"({ "table": { "angle": [3.2, 0, -0.1], "torque": [0.125, 0.25, 0.25] } })");
+  json["scene"]["base"]["motion"] = "prescribed";
+  json["scene"]["base"]["table"] = parse_json(R"({ "time": [1, 2], "rate": [0, 0.5] })");
+  json["dispersions"] = parse_json(R"([ { "name": "scale", "to": ["hinges.root.spring.scale"],
+    "apply": "set", "distribution": { "type": "uniform", "lower": 0.9, "upper": 1.1 } } ])");
+  const Campaign campaign = campaign_of(json);
+  const Json written = write_scene(campaign.scene);
+  const Json inputs = inputs_json(*source_of(campaign, rows_of(RunPlan(campaign), {0, 5})), {});
+  std::map<std::string, std::vector<std::string>> found;
+  for (const Json& table : inputs["tables"])
+    for (const Json& column : table["columns"])
+      found[table["path"]].push_back(column["name"].get<std::string>() + " " +
+                                     column["unit"].get<std::string>() + " " +
+                                     column["values"].dump());
+  const std::string mid = json["scene"]["hinges"][1]["name"],
+                    tip = json["scene"]["hinges"][2]["name"];
+  const auto row = [](const char* name_and_unit, const Json& values) {
+    return std::string(name_and_unit) + " " + values.dump();
+  };
+  const Json& spring = written["hinges"][1]["spring"]["measured"];
+  const Json& harness = written["hinges"][2]["harness"]["table"];
+  CHECK(found == std::map<std::string, std::vector<std::string>>{
+                     {"base.table", {row("time s", {1.0, 2.0}), row("rate rad/s", {0.0, 0.5})}},
+                     {"hinges." + mid + ".spring.measured",
+                      {row("angle rad", spring["angle"]), row("deploying N·m", spring["deploying"]),
+                       row("stowing N·m", spring["stowing"])}},
+                     {"hinges." + tip + ".harness.table",
+                      {row("angle rad", harness["angle"]), row("torque N·m", harness["torque"])}}});
 }

@@ -194,3 +194,26 @@ TEST_CASE("the page has the warnings of the input checks", "[page]") {
   for (const InputWarning& each : warnings)
     CHECK(said().find("input: " + each.pointer + ": ") != std::string::npos);
 }
+
+TEST_CASE("the page has what requirements show together, and how they were judged", "[page]") {
+  Json json = quick_campaign(60);
+  json["requirements"] = parse_json(R"([
+    { "output": "deployed", "probability": 0.8, "confidence": 0.8 },
+    { "output": "root.latch_time", "max": 20, "probability": 0.8, "confidence": 0.9, "group": "times" },
+    { "output": "mid.latch_time", "max": 0.1, "probability": 0.8, "confidence": 0.9, "group": "times" } ])");
+  const auto source = made(json);
+  const Json set = set_json(*source, {}, 1), &together = set["together"];
+  REQUIRE(together["groups"].size() == 1);
+  const GroupVerdict group = judge_groups(source->summary.requirements).front();
+  CHECK((group.members == 2 && group.passed == 1));
+  CHECK(together["groups"][0] == Json{{"group", "times"},
+                                      {"confidence", 0.9},
+                                      {"requirements", 2},
+                                      {"passed", 1},
+                                      {"verdict", "failed"}});
+  CHECK(together["confidence"] == joint_confidence(source->summary.requirements));
+  CHECK(set["judged_by"] == "");
+  judge_by(source->stored.campaign.requirements, source->stored);
+  CHECK(set_json(*source, {}, 1)["judged_by"] ==
+        "wingspread analyze again --requirements results/set/summary.json");
+}

@@ -1,0 +1,123 @@
+// Requirements from a file of their own: the same in every command, with the warnings that they deserve.
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// A margin study over the seed wing's springs, few runs, without requirements.
+Json margin_campaign() {
+  Json json = quick_campaign(40);
+  json["margin"] = parse_json(
+      R"({ "scale": ["hinges.*.spring.scale"], "range": [0.5, 2], "points": 3, "tolerance": 0.5 })");
+  return json;
+}
+
+const Json late = parse_json(R"([
+  { "name": "L-1", "output": "root.latch_time", "max": 6, "probability": 0.8, "confidence": 0.9 } ])");
+
+/// The warnings of a command, without those of its results.
+std::vector<std::string> warnings_of(const std::string& error) {
+  std::vector<std::string> lines;
+  for (std::size_t at = error.find("warning: "); at != std::string::npos;
+       at = error.find("warning: ", at + 1))
+    lines.push_back(error.substr(at, error.find('\n', at) - at));
+  return lines;
+}
+
+} // namespace
+
+TEST_CASE("margin judges the requirements of a file as if they were the campaign's") {
+  const Folder folder;
+  const auto written = [&](const std::string& name, const Json& json) {
+    return folder.write(name.c_str(), json.dump());
+  };
+  Json own = margin_campaign();
+  const std::string bare = written("bare.json", own);
+  own["requirements"] = late;
+  const std::string file = written("own.json", own);
+  const auto margin = [&](const std::string& campaign, const std::string& requirements) {
+    const std::filesystem::path out = folder.path() / ("m" + requirements);
+    std::vector<std::string> command{"margin", campaign, "--out", out};
+    if (!requirements.empty())
+      command.insert(command.end(), {"--requirements", (folder.path() / requirements).string()});
+    CHECK(run_program(folder, command).code <= 1);
+    return parse_json_file(out / "margin.json");
+  };
+  const Json expected = margin(file, "");
+  written("list.json", late);
+  CHECK(margin(bare, "list.json") == expected);
+  CHECK(margin(bare, "own.json") == expected);
+  REQUIRE(run_program(folder, {"run", bare, "--out", folder.path() / "r"}).code == 0);
+  REQUIRE(run_program(folder, {"analyze", folder.path() / "r", "--requirements",
+                               folder.path() / "list.json"})
+              .code == 0);
+  std::filesystem::copy(folder.path() / "r" / summary_file, folder.path() / "summary.json");
+  CHECK(margin(bare, "summary.json") == expected);
+  CHECK(run_program(folder, {"margin", bare, "--out", folder.path() / "none"}).code == 2);
+}
+
+TEST_CASE("the report of rejudged runs prints commands that judge by its requirements") {
+  Json json = margin_campaign();
+  json.erase("margin");
+  json["requirements"] = parse_json(
+      R"([{ "name": "D-1", "output": "deployed", "probability": 0.8, "confidence": 0.9 }])");
+  const DoneCampaign done(json);
+  const std::string page = done.folder.path() / "page.html";
+  const auto set = [&] {
+    REQUIRE(done.program({"report", done.path, "--out", page}).code == 0);
+    return page_data(page)["sets"][0];
+  };
+  CHECK(set()["judged_by"] == "");
+  const std::string file = done.folder.write("late.json", late.dump());
+  REQUIRE(done.program({"analyze", done.path, "--requirements", file}).code == 0);
+  std::string command = set()["judged_by"];
+  CHECK(command ==
+        "wingspread analyze again --requirements " + (done.path / summary_file).string());
+  // made_by, then judged_by, give the same verdicts
+  const std::filesystem::path again = done.folder.path() / "again";
+  REQUIRE(done.program({"run", done.path / "campaign.json", "--out", again}).code == 0);
+  REQUIRE(done.program({"analyze", again, "--requirements", done.path / summary_file}).code == 0);
+  CHECK(parse_json_file(again / summary_file)["requirements"] ==
+        parse_json_file(done.path / summary_file)["requirements"]);
+}
+
+TEST_CASE("analyze warns of a limit that looks like degrees, at its place in the file") {
+  const DoneCampaign done(quick_campaign(20));
+  Json odd = late;
+  odd[0]["output"] = "root.latch_rate", odd[0]["max"] = 150, odd[0]["abs"] = true;
+  const auto analyzed = [&](const std::string& name, const Json& json) {
+    const std::string file = done.folder.write(name.c_str(), json.dump());
+    const auto warned =
+        warnings_of(done.program({"analyze", done.path, "--requirements", file}).error);
+    REQUIRE(warned.size() == 1);
+    CHECK_THAT(warned.front(), HasFacts({file, "150", "57.3"}));
+    return warned.front();
+  };
+  CHECK_THAT(analyzed("list.json", odd), HasFacts({": /0/max: "}));
+  CHECK_THAT(analyzed("campaign.json", {{"requirements", odd}}),
+             HasFacts({": /requirements/0/max: "}));
+}
+
+TEST_CASE("every command that runs a campaign warns of its input as run does") {
+  const Folder folder;
+  Json json = margin_campaign();
+  json["scene"]["hinges"][1]["latch"]["stiffness"] = 0;
+  json["requirements"] = late;
+  const std::string file = folder.write("c.json", json.dump());
+  const std::string place = "/scene/hinges/1/latch/stiffness";
+  const auto warned = [&](std::vector<std::string> command) {
+    const auto all = warnings_of(run_program(folder, command).error);
+    return std::ranges::count_if(
+        all, [&](const std::string& line) { return line.find(place) != std::string::npos; });
+  };
+  const auto out = [&](const char* name) { return (folder.path() / name).string(); };
+  CHECK(warned({"run", file, "--out", out("r")}) == 1);
+  CHECK(warned({"margin", file, "--out", out("m")}) == 1);
+  CHECK(warned({"sensitivity", file, "--samples", "4", "--out", out("s")}) == 1);
+  CHECK(warned({"rare", file, "--output", "root.latch_time", "--above", "5", "--samples", "100",
+                "--repeats", "1"}) == 1);
+}
