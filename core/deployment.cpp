@@ -164,7 +164,7 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
     return without_joints(
         made, run(made.scene, integration, goal, without_joints(scene.hinges.size(), observer)));
   }
-  if (integration.smoothing && has_latch_that_may_miss(scene)) {
+  if (integration.smoothing && hinge_with_event_latch(scene)) {
     Outcome out; // status failed
     out.reason = needs_event_latches;
     return out;

@@ -52,9 +52,11 @@ void name_held_hinges(const Scene& scene, Outcome& outcome) {
   }
 }
 
-bool has_latch_that_may_miss(const Scene& scene) {
-  return std::any_of(scene.hinges.begin(), scene.hinges.end(),
-                     [](const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); });
+const Hinge* hinge_with_event_latch(const Scene& scene) {
+  const auto found = std::find_if(scene.hinges.begin(), scene.hinges.end(), [](const Hinge& hinge) {
+    return hinge.latch && (hinge.latch->can_miss() || hinge.latch->backlash > 0);
+  });
+  return found == scene.hinges.end() ? nullptr : &*found;
 }
 
 } // namespace wingspread

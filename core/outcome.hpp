@@ -167,10 +167,11 @@ struct Outcome {
 /// Says in words which hinges were never released, of a run that stalled for that.
 void name_held_hinges(const Scene& scene, Outcome& outcome);
 
-/// Whether a latch of the scene may miss or let go. A smoothed latch does neither: such a run fails with this reason.
-[[nodiscard]] bool has_latch_that_may_miss(const Scene& scene);
+/// The first hinge with a latch that may miss, let go or rattle; null without one. A smoothed latch does none of these:
+/// such a run fails with the reason `needs_event_latches`.
+[[nodiscard]] const Hinge* hinge_with_event_latch(const Scene& scene);
 inline constexpr const char* needs_event_latches =
-    "a latch with a capture rate or a holding moment needs event latches";
+    "a latch with a capture rate, a holding moment or backlash needs event latches";
 
 /// Names the methods of an outcome's phases, each once, in order of first use: "dopri5, rosenbrock_w".
 [[nodiscard]] std::string methods_used(const Outcome& outcome);

@@ -5,8 +5,9 @@
 /// of the linear model M ü + C u̇ + K u = 0 (rest_model.hpp). ζ is exact where v is a mode of C too, as for one hinge or
 /// damping in proportion to stiffness; elsewhere it is the usual modal damping, which leaves out C's coupling of modes.
 ///
-/// Small swings have no friction but the viscous one, no power-law damper (its damping depends on the swing), no
-/// backlash, no stop, and no air. A prescribed base stands still at its initial angle; its constant acceleration acts.
+/// A stop that the wing presses at rest is a spring and damper like its latch (stop.hpp; damping k c δ with δ at rest);
+/// a stop that it does not reach counts for nothing. Small swings have no friction but the viscous one, no power-law
+/// damper (its damping depends on the swing), no backlash, and no air. A prescribed base stands still at its initial angle; its constant acceleration acts.
 /// A motor has the last rate w of its command. Within its torque limit T it is a damper of its gain c about that rate,
 /// beyond it a constant torque:
 ///

@@ -191,6 +191,11 @@ private:
       m_.moment(i - 1) += curves_moment(real, phi);
       if (real.spring.curve) k -= real.spring.weight * slope(*real.spring.curve, phi);
       if (real.harness.curve) k -= real.harness.weight * slope(*real.harness.curve, phi);
+      if (!is_bounded_) // bounds hold where no stop is touched (RestModel::room)
+        for_pressed_stops(i, [&](const StopTerms<double>& stop, double depth) {
+          k += stop.stiffness;
+          m_.moment(i - 1) += stop.sense * stop.stiffness * depth;
+        });
     }
     for (const LoopTerms<double>& loop : wing_.loops) {
       const LoopState<double> at = state_of(loop);
@@ -204,6 +209,16 @@ private:
     for (int k = 1; k <= n_; ++k) // the push turns body k, and with it what it hangs on
       for (int i = k; i != 0; i = wing_.tree.parent_of(i))
         residual_(i - 1) += dot(turned(Y_[k]), scaled(-1.0, push_));
+  }
+
+  /// Calls take(stop, depth > 0) for the stops that hinge i presses at rest.
+  void for_pressed_stops(int i, auto&& take) const {
+    const RealHingeTerms<double>& real = wing_.real[i];
+    for (const StopTerms<double>* stop : {&real.stop, &real.far_stop}) {
+      const double depth =
+          stop->present ? stop->sense * (stop->contact_angle - m_.angles(i - 1)) : 0;
+      if (depth > 0) take(*stop, depth);
+    }
   }
 
   [[nodiscard]] LoopState<double> state_of(const LoopTerms<double>& loop) const {
@@ -233,10 +248,15 @@ private:
     }
   }
 
-  /// Adds k c |e*|, the damping at rest of a latch that damps by k c |e|. Off rest | |e* + u| − |e*| | ≤ |u|, on either
+  /// Adds k c δ*, the damping at rest of a stop, to the linear model, and
+  /// k c |e*|, the damping at rest of a latch that damps by k c |e|. Off rest | |e* + u| − |e*| | ≤ |u|, on either
   /// side of e = 0: f is at most k c |u| |v|.
   void add_dissipation() {
     for (int i = 1; i < static_cast<int>(wing_.real.size()); ++i) {
+      if (!is_bounded_)
+        for_pressed_stops(i, [&](const StopTerms<double>& stop, double depth) {
+          m_.damping(i - 1, i - 1) += stop.stiffness * stop.dissipation * depth;
+        });
       const LatchDissipationTerms<double>& latch = wing_.real[i].dissipation;
       if (!latch.present) continue;
       m_.damping(i - 1, i - 1) += latch.strength * std::abs(m_.angles(i - 1) - latch.latched);

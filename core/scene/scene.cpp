@@ -196,7 +196,7 @@ void inspect(const Body& body, const Flexible& flexible, const Owner& owner, Ins
   if (body.mass > 0 && body.inertia > 0)
     check.require(can_be_cut(body), body.inertia, owner, "inertia",
                   "about mass·length²/12, the inertia of a uniform panel of the plate's length, "
-                  "not below 0.65 of it");
+                  "at least some 0.65 of it (more with many joints, less with few)");
 }
 
 void inspect(const Body& body, Inspector& check) {

@@ -188,6 +188,19 @@ TEST_CASE("report refuses what is no results folder, with its place", "[report]"
   CHECK(done.program(many).code != 0);
 }
 
+TEST_CASE("a damaged summary is refused with the command that writes it again", "[report]") {
+  const Folder folder;
+  const std::string file = folder.write("c.json", quick_campaign(10).dump()),
+                    out = folder.path() / "r";
+  REQUIRE(run_program(folder, {"run", file, "--out", out}).code == 0);
+  std::filesystem::resize_file(out + "/summary.json", 100);
+  const auto refused = run_program(folder, {"report", out, "--out", folder.path() / "page.html"});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.error, HasFacts({out + "/summary.json", "wingspread analyze " + out}));
+  CHECK(run_program(folder, {"analyze", out}).code == 0);
+  CHECK(run_program(folder, {"report", out, "--out", folder.path() / "page.html"}).code == 0);
+}
+
 TEST_CASE("report shows a single run", "[report]") {
   const Done single(full_campaign(1));
   CHECK(single.program({"report", single.path}).code == 0);

@@ -202,6 +202,32 @@ TEST_CASE("check says what a file holds, or all that is wrong with it") {
                      "size\n");
 }
 
+TEST_CASE("smoothed latches are refused where they would leave something out, with the place") {
+  const Folder folder;
+  const std::vector<std::pair<const char*, double>> laws{
+      {"capture_rate", 5}, {"holding_moment", 50}, {"backlash", 0.01}};
+  for (const auto& [key, value] : laws) {
+    Json campaign = quick_campaign(5);
+    campaign["scene"] = parse_json_file(three_panel_file());
+    campaign["scene"]["hinges"][1]["latch"][key] = value;
+    const std::string scene = folder.write("s.json", campaign["scene"].dump());
+    const std::string path = "hinges.mid.latch." + std::string(key);
+    const auto simulated = run_program(folder, {"simulate", scene, "--latch", "smoothed:1e-3"});
+    CHECK((simulated.code == 2 && simulated.out.empty()));
+    CHECK_THAT(simulated.error, HasFacts({"--latch: ", path, "event"}));
+    campaign["integration"]["latch"] = {{"smoothed", 1e-3}};
+    const std::string file = folder.write("c.json", campaign.dump());
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"check", file},
+                                                    {"run", file, "--out", folder.path() / "r"},
+                                                    {"simulate", file}}) {
+      const auto refused = run_program(folder, command);
+      CHECK(refused.code == 2);
+      CHECK_THAT(refused.error, HasFacts({file, "/integration/latch: ", path, "event"}));
+    }
+    CHECK(run_program(folder, {"simulate", file, "--latch", "event", "--t-end", "1"}).code == 2);
+  }
+}
+
 TEST_CASE("sample prints the draws that the runs apply") {
   const Folder folder;
   const std::string file = folder.write("campaign.json", quick_campaign(5).dump());

@@ -34,6 +34,29 @@ class Manners(unittest.TestCase):
         self.assertEqual(process.returncode, -signal.SIGINT)
         self.assertTrue(said.rstrip().endswith("KeyboardInterrupt"))
 
+    def test_ctrl_c_ends_a_long_trajectory(self):
+        script = ("import sys, wingspread\n"
+                  "print('begun', flush=True)\n"
+                  "wingspread.simulate(sys.argv[1], dt=1e-6, t_end=90)")
+        with subprocess.Popen([sys.executable, "-c", script, SCENE], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as process:
+            self.assertEqual(process.stdout.readline(), "begun\n")
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            _, said = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertTrue(said.rstrip().endswith("KeyboardInterrupt"))
+
+    def test_a_fork_computes_what_its_parent_does(self):
+        script = ("import os, sys, numpy, wingspread\n"
+                  "model = wingspread.Model(sys.argv[1], ['hinges.*.spring.scale'])\n"
+                  "x = numpy.linspace(0.8, 1.2, 40)[:, None]\n"
+                  "y = model(x, threads=2)\n"
+                  "child = os.fork()\n"
+                  "if child == 0: os._exit(0 if numpy.array_equal(model(x, threads=2), y, equal_nan=True) else 1)\n"
+                  "sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))")
+        self.assertEqual(subprocess.run([sys.executable, "-c", script, SCENE], timeout=60, check=False).returncode, 0)
+
     def test_others_run_while_it_computes(self):
         model = wingspread.Model(SCENE, ["hinges.*.spring.scale"])
         for rows in (200, 2000):  # in this thread, and in one of its own

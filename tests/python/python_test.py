@@ -308,6 +308,41 @@ class Errors(InFolder):
         self.assertTrue(all(warning.category is wingspread.Notice for warning in caught))
         self.assertEqual({warning.filename for warning in caught}, {__file__})
 
+    def test_every_call_that_reads_a_wing_warns_of_it_at_its_callers_line(self):
+        heavy = scene()
+        heavy["bodies"][0]["mass"] = 40000
+        file = self.folder / "heavy.json"
+        file.write_text(json.dumps(heavy))
+        said = [line[len("warning: "):] for line in program("simulate", file, "--json").stderr.splitlines()]
+        self.assertGreater(len(said), 0)
+        spring = ["hinges.*.spring.scale"]
+        for call in (lambda: wingspread.simulate(file), lambda: wingspread.Model(file, spring),
+                     lambda: wingspread.evaluate(file, spring, [[1]])):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                call()
+            self.assertEqual([str(warning.message) for warning in caught], said)
+            self.assertEqual({(warning.category, warning.filename) for warning in caught}, {(wingspread.Notice, __file__)})
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            wingspread.simulate(SCENE)
+
+    def test_arguments_that_another_type_would_hide_are_refused(self):
+        spring = ["hinges.*.spring.scale"]
+        model = wingspread.Model(SCENE, spring)
+        table = wingspread.run(small(), runs=2)
+        for make, place in [(lambda: wingspread.Model(SCENE, spring[0]), "--paths: found 'hinges"),
+                            (lambda: wingspread.Model(SCENE, spring, "deployment_time"), "--outputs: found 'deployment_time'"),
+                            (lambda: table.numbers("run"), "--columns: found 'run'"),
+                            (lambda: model(np.ma.masked_array([[1.0]], [[True]])), "--x: found a masked array"),
+                            (lambda: wingspread.simulate(SCENE, set=["a=1"]), "--set: found"),
+                            (lambda: wingspread.simulate(SCENE, set={"hinges.root.spring.scale": [1]}), "--set: found"),
+                            (lambda: wingspread.simulate(SCENE, dt=1e-9), "--dt: found 1e-09, expected at least")]:
+            with self.assertRaises(wingspread.SpecError) as raised:
+                make()
+            self.assertIn(place, str(raised.exception))
+        self.assertEqual(table.numbers([]).shape, (2, 0))
+
 
 if __name__ == "__main__":
     unittest.main()

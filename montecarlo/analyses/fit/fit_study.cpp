@@ -25,7 +25,6 @@ constexpr double independent_moves = 0.8; // heuristic: the others reach what th
 constexpr long runs_of_a_sample = 400;
 constexpr std::size_t predicted_rows = 400; // for bands and p-values: 10 rows in each 2.5 % tail
 constexpr int temperings = 2;               // the mode moves little when the likelihood is tempered
-constexpr std::size_t prior_points = 20000; // quantiles that give a prior's mean and deviation
 constexpr int least_tried = 16; // points of the prior that show whether a number can be predicted
 
 std::size_t walkers_for(std::size_t dimensions) {
@@ -73,17 +72,9 @@ private:
 /// 0.02, of a normal one cut at its mean 0.019. Heuristic: laws that fade out towards 0 have far more.
 constexpr double most_of_cut = 0.05;
 
-LawMoments moments_of(const PreparedDistribution& law) {
-  std::vector<double> values;
-  for (std::size_t k = 0; k < prior_points; ++k)
-    values.push_back(law.quantile((static_cast<double>(k) + 0.5) / prior_points));
-  const Moments found = moments(values);
-  return {found.mean, found.std};
-}
-
 LawMoments prior_moments(const FitParameter& parameter, const Campaign& campaign) {
   if (parameter.kind != FitParameter::Kind::dispersion) return {0, parameter.std};
-  return moments_of(PreparedDistribution(campaign.dispersions[parameter.dispersion].distribution));
+  return moments_of(campaign.dispersions[parameter.dispersion].distribution);
 }
 
 /// The limit of the prior at which the posterior's values lie, if any; none where a prior of one limit fades out.
@@ -114,11 +105,12 @@ std::vector<std::size_t> held_dispersions(const Campaign& campaign, const FitSpe
   return held;
 }
 
-/// The spec with the held dispersions fitted too, if they have a continuous law.
+/// The spec with the held dispersions fitted too, with normal laws in the tests' campaigns.
+/// @param campaign with_normal_laws of the campaign
 FitSpec with_held(FitSpec spec, const Campaign& campaign, const std::vector<std::size_t>& held) {
+  for (FitTest& test : spec.tests) test.campaign = with_normal_laws(std::move(test.campaign), held);
   for (const std::size_t i : held)
-    if (std::visit([]<class L>(const L&) { return Continuous<L>; },
-                   campaign.dispersions[i].distribution.law))
+    if (std::holds_alternative<Normal>(campaign.dispersions[i].distribution.law))
       spec.parameters.push_back(i);
   std::ranges::sort(spec.parameters);
   return spec;
@@ -262,14 +254,15 @@ private:
     const std::vector<std::size_t> held = held_dispersions(campaign_, spec_);
     for (const std::size_t i : held) {
       const PreparedDistribution law(campaign_.dispersions[i].distribution);
-      const LawMoments prior = moments_of(law);
+      const LawMoments prior = moments_of(campaign_.dispersions[i].distribution);
       result_.held.push_back(
           {campaign_.dispersions[i].name, law.quantile(0.5), prior.mean, prior.standard_deviation});
     }
-    const FitSpec all = with_held(spec_, campaign_, held);
+    const Campaign linear = with_normal_laws(campaign_, held);
+    const FitSpec all = with_held(spec_, linear, held);
     if (all.parameters.size() == spec_.parameters.size()) return;
-    const ParameterSpace space(campaign_, all);
-    TestRuns runs(spec_.tests, all.parameters, space, *evaluator_);
+    const ParameterSpace space(linear, all);
+    TestRuns runs(all.tests, all.parameters, space, *evaluator_);
     FitPoint at = FitPoint::Zero(static_cast<Eigen::Index>(space.size()));
     std::vector<std::size_t> fitted; // indices in `space` of the parameters of space_
     for (std::size_t k = 0; k < space_.size(); ++k) {
@@ -374,6 +367,11 @@ void refuse_unpredictable(const Campaign& campaign, const FitSpec& spec, const F
                           const std::string& file, const std::atomic<bool>& stop) {
   const auto evaluator = evaluator_of(options.pool, stop);
   const ParameterSpace space(campaign, spec);
+  if (const long least = least_evaluations(walkers_for(space.size()));
+      options.most_runs > 0 && options.most_runs < least)
+    throw SpecError(
+        {{"", "--runs", std::to_string(options.most_runs),
+          fmt::format("at least {}, which the first diagnosis of the chains takes", least)}});
   TestRuns runs(spec.tests, spec.parameters, space, *evaluator);
   std::vector<Problem> problems = unpredictable(
       spec.tests, runs,

@@ -2,8 +2,11 @@
 
 #include "distributions/prepared_distribution.hpp"
 #include "montecarlo/engine/runs/run_plan.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/model/campaign/distribution_json.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wingspread {
 namespace {
@@ -14,13 +17,12 @@ bool is_own(const FitTest& test, std::size_t dispersion) {
   return std::ranges::find(test.own, dispersion) != test.own.end();
 }
 
-/// Replaces `rows` in the campaign's JSON by constants, because other processes rebuild the campaign from this JSON.
-/// Other dispersions that are not fitted may keep their laws: place() puts them at their medians.
+/// Replaces `rows` in the campaign's JSON by a dispersion for each column, because other processes rebuild the campaign
+/// from this JSON.
 void without_rows(Campaign& campaign) {
-  const auto median_of = [&](const std::string& name) {
-    return std::get<Constant>(
-               std::ranges::find(campaign.dispersions, name, &Dispersion::name)->distribution.law)
-        .value;
+  const auto law_of = [&](const std::string& name) {
+    return write_distribution(
+        std::ranges::find(campaign.dispersions, name, &Dispersion::name)->distribution);
   };
   Json list = Json::array();
   for (const Json& entry : campaign.resolved.at("dispersions")) {
@@ -35,7 +37,7 @@ void without_rows(Campaign& campaign) {
       if (column["to"].is_null()) column.erase("to");
       if (!column.contains("through") && !column.contains("apply")) column["apply"] = rows["apply"];
       column["name"] = name;
-      column["distribution"] = {{"type", "constant"}, {"value", median_of(name)}};
+      column["distribution"] = law_of(name);
       list.push_back(std::move(column));
     }
   }
@@ -91,6 +93,34 @@ double ParameterSpace::column_offset(std::size_t test, std::size_t column,
     if (list_[k].kind == Kind::column_offset && list_[k].test == test && list_[k].column == column)
       return list_[k].std * at[static_cast<Eigen::Index>(k)];
   return 0;
+}
+
+LawMoments moments_of(const Distribution& distribution) {
+  constexpr std::size_t points = 20000; // quantiles of a truncated law
+  if (!distribution.truncate) return moments(distribution.law);
+  const PreparedDistribution law(distribution);
+  std::vector<double> values;
+  for (std::size_t k = 0; k < points; ++k)
+    values.push_back(law.quantile((static_cast<double>(k) + 0.5) / points));
+  const Moments found = moments(values);
+  return {found.mean, found.std};
+}
+
+Campaign with_normal_laws(Campaign campaign, const std::vector<std::size_t>& held) {
+  for (const std::size_t i : held) {
+    Dispersion& dispersion = campaign.dispersions[i];
+    const double std = moments_of(dispersion.distribution).standard_deviation;
+    if (!(std > 0) || !std::isfinite(std)) continue;
+    const double median = PreparedDistribution(dispersion.distribution).quantile(0.5);
+    dispersion.distribution = {Normal{median, std}, std::nullopt};
+  }
+  for (Dispersion& dispersion : campaign.dispersions) dispersion.rows.clear();
+  without_rows(campaign);
+  for (Json& entry : campaign.resolved.at("dispersions"))
+    for (const std::size_t i : held)
+      if (entry.at("name") == campaign.dispersions[i].name)
+        entry["distribution"] = write_distribution(campaign.dispersions[i].distribution);
+  return campaign;
 }
 
 Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted) {

@@ -55,6 +55,13 @@ private:
   std::size_t dispersions_ = 0;
 };
 
+/// The moments of a law, also of a truncated one.
+[[nodiscard]] LawMoments moments_of(const Distribution& distribution);
+
+/// The campaign in which these dispersions have normal laws with their own medians and standard deviations, each column
+/// of `rows` for itself: near u = 0 a unit of u is then a standard deviation of the law, whatever the law is.
+[[nodiscard]] Campaign with_normal_laws(Campaign campaign, const std::vector<std::size_t>& held);
+
 /// The campaign in which only fitted dispersions vary: all others have their medians.
 [[nodiscard]] Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted);
 

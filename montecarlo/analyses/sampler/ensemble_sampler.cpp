@@ -195,6 +195,10 @@ double StudentMixture::log_density(const Eigen::VectorXd& at) const {
   return largest + std::log(sum);
 }
 
+long least_evaluations(std::size_t walkers) {
+  return static_cast<long>(walkers) * (first_check + 1); // the walkers' first points too
+}
+
 Ensemble run_ensemble(const LogDensity& density, const StudentMixture& proposal,
                       const EnsembleOptions& options,
                       const std::function<void(const EnsembleState&)>& report_progress) {

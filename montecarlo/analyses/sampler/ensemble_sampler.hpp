@@ -79,6 +79,9 @@ struct Ensemble {
   std::vector<std::vector<Eigen::VectorXd>> chains; ///< by walker, without the first quarter
 };
 
+/// Evaluations up to the first diagnosis: no run of the sampler makes fewer.
+[[nodiscard]] long least_evaluations(std::size_t walkers);
+
 /// Moves the walkers until ESS and R̂ are reached, or the evaluations are used up. Pure if the density is:
 /// interruption, threads and lanes change nothing.
 /// @param report_progress called after each diagnosis

@@ -136,6 +136,9 @@ Json parse_json(const std::string& text, const std::string& file) {
   DocumentBuilder builder(text, file);
   (void)Json::sax_parse(text, &builder); // false with problems
   if (!builder.problems.empty()) throw SpecError(std::move(builder.problems));
+  if (const std::size_t nul = text.find('\0'); nul != std::string::npos) // to the parser, the end
+    throw SpecError(
+        {{file, "", fmt::format("{}: a NUL byte", place_in(text, nul + 1)), "JSON text"}});
   return std::move(builder.document);
 }
 

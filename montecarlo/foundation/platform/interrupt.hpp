@@ -1,13 +1,12 @@
 /// Ctrl-C and SIGTERM as a flag, so that finished work is kept.
 #pragma once
 
+#include "montecarlo/foundation/platform/stopped.hpp"
+
 #include <atomic>
 #include <signal.h>
 
 namespace wingspread {
-
-/// Thrown when a computation is stopped before its result is complete.
-struct Stopped {};
 
 /// The exit status of a program ended by a signal.
 inline constexpr int interrupted_status = 130;

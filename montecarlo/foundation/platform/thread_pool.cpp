@@ -5,6 +5,8 @@
 #include <exception>
 #include <mutex>
 #include <omp.h>
+#include <thread>
+#include <unistd.h>
 
 // GCC's OpenMP runtime synchronises with futexes, which the thread sanitizer does not see. It would report races at the
 // start and at the end of the threads, so release() and acquire() announce both to the sanitizer. One store comes too
@@ -69,12 +71,24 @@ namespace {
   acquire();
 }
 
+/// Whether this process is a copy, by fork, of one that had used threads here. OpenMP's threads, which wait for the next
+/// work of the thread that started them, do not exist in the copy, and work for them would wait for ever. A new thread
+/// starts new ones.
+bool is_forked() {
+  static const pid_t first = getpid();
+  return getpid() != first;
+}
+
 } // namespace
 
 void run_on_threads(int threads, const std::function<void()>& work,
                     const std::function<void()>& on_exception) {
   SharedWork shared_work{work, on_exception};
-  start_and_join(thread_count(threads), shared_work);
+  const int count = thread_count(threads);
+  if (count > 1 && is_forked())
+    std::thread([&] { start_and_join(count, shared_work); }).join();
+  else
+    start_and_join(count, shared_work);
   if (shared_work.first) std::rethrow_exception(shared_work.first);
 }
 

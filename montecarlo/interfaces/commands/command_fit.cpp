@@ -80,6 +80,7 @@ int fit(const FitCommandOptions& given) {
   override_sampling(campaign, std::nullopt, given.seed);
   const FitSpec spec = read_fit_file(given.tests, campaign);
   FitOptions options{.pool = pool_of(given.machine)};
+  options.most_runs = given.runs.value_or(0);
   const Interrupt interrupt;
   if (!can_predict(campaign, spec, options, given.tests.string(), interrupt.flag()))
     return exit_code::interrupted;
@@ -88,7 +89,6 @@ int fit(const FitCommandOptions& given) {
     warn_of_limits(show_finished(given.out / fit_json_file, given.json));
     return exit_of(true);
   }
-  options.most_runs = given.runs.value_or(0);
   options.confidence = campaign.statistics.confidence;
   try {
     FitResult result;

@@ -5,11 +5,12 @@ include(GNUInstallDirs)
 
 # Copies of the public headers that include each other as <wingspread/NAME>.
 set(public_include ${PROJECT_BINARY_DIR}/include)
-foreach(header interfaces/library/wingspread.hpp foundation/formats/spec_error.hpp foundation/formats/machine_error.hpp)
+foreach(header interfaces/library/wingspread.hpp foundation/formats/spec_error.hpp foundation/formats/machine_error.hpp
+        foundation/platform/stopped.hpp)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${header})
   cmake_path(GET header FILENAME name)
   file(READ ${header} text)
-  string(REGEX REPLACE "#include \"montecarlo/foundation/formats/([a-z_]+\\.hpp)\"" "#include <wingspread/\\1>" text "${text}")
+  string(REGEX REPLACE "#include \"montecarlo/foundation/[a-z]+/([a-z_]+\\.hpp)\"" "#include <wingspread/\\1>" text "${text}")
   file(CONFIGURE OUTPUT ${public_include}/wingspread/${name} CONTENT "${text}" @ONLY)
 endforeach()
 

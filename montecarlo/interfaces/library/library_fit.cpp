@@ -26,6 +26,9 @@ Fit fit_of(const FitResult& result, std::string json) {
 } // namespace
 
 Fit fit(const Input& input, const Input& tests, const FitRequest& request) {
+  check_threads(request.threads);
+  if (request.runs < 0)
+    throw SpecError({{"", "--runs", std::to_string(request.runs), "an integer, at least 1, or 0"}});
   Campaign campaign = read_campaign_input(input);
   override_sampling(campaign, std::nullopt, request.seed);
   const FitSpec spec = read_tests(tests, campaign);

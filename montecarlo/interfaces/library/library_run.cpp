@@ -19,9 +19,7 @@ void check_options(const RunOptions& options) {
   if (options.runs && (*options.runs < 1 || *options.runs > most_runs))
     problems.push_back({"", "--runs", std::to_string(*options.runs),
                         fmt::format("an integer from 1 to {}", most_runs)});
-  if (options.threads < 0 || options.threads > most_threads)
-    problems.push_back({"", "--threads", std::to_string(options.threads),
-                        fmt::format("an integer from 1 to {}, or 0", most_threads)});
+  if (const auto problem = problem_of_threads(options.threads)) problems.push_back(*problem);
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 

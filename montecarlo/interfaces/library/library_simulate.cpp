@@ -50,9 +50,9 @@ Input from_text(std::string json, std::filesystem::path directory) {
 }
 
 Outcome simulate(const Input& input, const Settings& settings, std::optional<double> interval,
-                 bool check) {
+                 bool check, const std::atomic<bool>* stop) {
   const Task task = task_of(read_input(input), settings);
-  if (interval && *interval != 0) check_interval(*interval);
+  if (interval && *interval != 0) check_interval(*interval, task.integration.t_end);
   Goal goal;
   goal.to_t_end = true;
   goal.sample_interval = interval.value_or(0);
@@ -61,11 +61,15 @@ Outcome simulate(const Input& input, const Settings& settings, std::optional<dou
     for (const std::string& column : trajectory_columns(task.scene))
       trajectory.push_back({column, {}});
   const auto keep = [&](const Sample& sample) {
+    if (stop && *stop) throw Stopped();
     auto series = trajectory.begin();
     take_sample(sample, task.scene.base.motion,
                 [&](double value) { (series++)->values.push_back(value); });
   };
-  const Observer observer = interval ? Observer(keep) : Observer();
+  const auto watch = [&](const Sample& /*sample*/) {
+    if (stop && *stop) throw Stopped();
+  };
+  const Observer observer = interval ? Observer(keep) : stop ? Observer(watch) : Observer();
   const wingspread::Outcome outcome =
       Deployment().run(task.scene, task.integration, goal, observer);
   Outcome plain = plain_outcome(task.scene, outcome);
@@ -76,6 +80,7 @@ Outcome simulate(const Input& input, const Settings& settings, std::optional<dou
     plain.json = json_text(json);
   }
   plain.trajectory = std::move(trajectory);
+  plain.notices = notices_of(task, input.file);
   return plain;
 }
 

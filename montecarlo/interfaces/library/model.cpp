@@ -72,7 +72,7 @@ struct Model::Prepared {
   Task task;
   std::vector<std::vector<SceneParameter>> parameters; ///< by column of x
   std::vector<OutputColumn> columns;                   ///< of y
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs, notices;
   std::vector<double> nominal;
   Goal goal;
 
@@ -100,8 +100,11 @@ Model::Model(const Input& input, const std::vector<std::string>& paths,
   prepared->goal = goal_of(families_of(prepared->columns));
   for (const auto& parameters : prepared->parameters)
     prepared->nominal.push_back(parameters.front().in(scene));
+  prepared->notices = notices_of(prepared->task, input.file);
   prepared_ = std::move(prepared);
 }
+
+const std::vector<std::string>& Model::notices() const { return prepared_->notices; }
 
 std::size_t Model::parameters() const { return prepared_->parameters.size(); }
 
@@ -115,6 +118,7 @@ bool Model::evaluate(std::span<const double> x, std::span<double> y, int threads
   const std::size_t d = parameters(), m = outputs().size();
   const auto rows = static_cast<long>(x.size() / d);
   assert(x.size() % d == 0 && y.size() == static_cast<std::size_t>(rows) * m);
+  check_threads(threads);
   if (rows == 0) return true;
   std::atomic<long> begun = 0, ended = 0;
   std::atomic<bool> broken = false;

@@ -1,8 +1,11 @@
 #include "montecarlo/interfaces/library/single_run.hpp"
 
 #include "montecarlo/foundation/formats/number_text.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/campaign/campaign_settings.hpp"
 #include "montecarlo/model/campaign/overrides.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 
 #include <fmt/format.h>
@@ -69,6 +72,10 @@ Task task_of(std::variant<Scene, Campaign> input, const api::Settings& settings)
     task.scene = changed_scene(std::get<Scene>(std::move(input)), settings.set);
   }
   apply_settings(settings, task.integration);
+  if (const std::string found = beyond_smoothed_latches(task.scene);
+      task.integration.smoothing && !found.empty())
+    throw SpecError(
+        {{"", settings.latch ? "--latch" : "/integration/latch", found, expected_event_latches}});
   return task;
 }
 
@@ -77,9 +84,31 @@ std::optional<RunCheck> check_of(const Task& task, const Goal& goal, const Outco
   return check_run(task.scene, task.integration, goal, outcome);
 }
 
-void check_interval(double interval) {
+void check_interval(double interval, double t_end) {
+  constexpr double most_rows = 1e8; // some 10 GB of them
   if (!(interval > 0) || !std::isfinite(interval))
     throw SpecError({{"", "--dt", fmt::format("{}", interval), "a number, s, > 0"}});
+  if (t_end / interval > most_rows)
+    throw SpecError({{"", "--dt", fmt::format("{:g}", interval),
+                      fmt::format("at least {:g}, which gives {:g} rows up to t_end = {} s",
+                                  t_end / most_rows, most_rows, t_end)}});
+}
+
+std::optional<Problem> problem_of_threads(int threads) {
+  if (threads >= 0 && threads <= most_threads) return std::nullopt;
+  return Problem{"", "--threads", std::to_string(threads),
+                 fmt::format("an integer from 1 to {}, or 0", most_threads)};
+}
+
+void check_threads(int threads) {
+  if (const auto problem = problem_of_threads(threads)) throw SpecError({*problem});
+}
+
+std::vector<std::string> notices_of(const Task& task, const std::filesystem::path& file) {
+  std::vector<std::string> notices;
+  for (const InputWarning& warning : check_input(task.scene, task.integration, file))
+    notices.push_back(to_string(warning));
+  return notices;
 }
 
 } // namespace wingspread

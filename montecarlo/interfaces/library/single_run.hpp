@@ -35,7 +35,17 @@ struct Task {
 /// Returns an error text, or an empty text if the argument is "event" or "smoothed:EPS".
 [[nodiscard]] std::string refuse_latch(const std::string& text);
 
-/// @throws SpecError unless the interval of a trajectory, s, is a number > 0
-void check_interval(double interval);
+/// @throws SpecError unless the interval of a trajectory, s, is a number > 0 that gives at most 10⁸ rows up to t_end
+void check_interval(double interval, double t_end);
+
+/// The problem of a number of threads that is not allowed; 0: all processors.
+[[nodiscard]] std::optional<Problem> problem_of_threads(int threads);
+/// @throws SpecError with that problem
+void check_threads(int threads);
+
+/// The warnings of the input checks, as `wingspread simulate` prints them.
+/// @param file of the input; empty: a text
+[[nodiscard]] std::vector<std::string> notices_of(const Task& task,
+                                                  const std::filesystem::path& file);
 
 } // namespace wingspread

@@ -10,13 +10,14 @@
 ///
 /// All numbers are in SI units and radians. The same seed gives the same bits as the program, with any number of
 /// threads. Errors: wingspread::SpecError for wrong input, wingspread::MachineError if the machine lacks memory, disk
-/// space or a permission. Both have the text that the program prints. A run that fails is a row of the table, not an
+/// space or a permission, wingspread::Stopped after a stop. The first two have the text that the program prints. A run that fails is a row of the table, not an
 /// error. Every function may be called from any thread, and from several threads at once; each call has a thread pool
 /// of its own.
 #pragma once
 
 #include "montecarlo/foundation/formats/machine_error.hpp"
 #include "montecarlo/foundation/formats/spec_error.hpp"
+#include "montecarlo/foundation/platform/stopped.hpp"
 
 #include <atomic>
 #include <cstddef>
@@ -80,14 +81,18 @@ struct Outcome {
   std::string json; ///< the whole outcome, as `wingspread simulate --json` prints it
   /// The columns of `wingspread simulate --out`, `t` first; empty without an interval.
   std::vector<Series> trajectory;
+  std::vector<std::string>
+      notices; ///< the warnings of the input checks, as `wingspread simulate` prints them
 };
 
 /// Simulates one deployment of a scene, or of a campaign's nominal scene, to its t_end.
-/// @param interval between rows of the trajectory, s; 0: a row at every step; none: no trajectory
+/// @param interval between rows of the trajectory, s, at most 10⁸ of them; 0: a row at every step; none: no trajectory
 /// @param check repeats the run by another method at a tighter tolerance: `check` in the outcome's JSON
-/// @throws SpecError, MachineError
+/// @param stop once true, the run ends at its next row
+/// @throws SpecError, MachineError; Stopped after a stop
 [[nodiscard]] Outcome simulate(const Input& input, const Settings& settings = {},
-                               std::optional<double> interval = {}, bool check = false);
+                               std::optional<double> interval = {}, bool check = false,
+                               const std::atomic<bool>* stop = nullptr);
 
 /// Replacements for settings of the campaign: the options of `wingspread run`.
 struct RunOptions {
@@ -170,7 +175,7 @@ struct Fit {
 
 /// Fits parameters to tests.
 /// @param tests the tests' JSON; files named in it are relative to its directory
-/// @throws SpecError, MachineError; wingspread::Stopped after a stop
+/// @throws SpecError, MachineError; Stopped after a stop
 [[nodiscard]] Fit fit(const Input& campaign, const Input& tests, const FitRequest& request = {});
 
 /// A wing as a function y(x) of some of its parameters: for optimisers, designs of experiments and surrogates.
@@ -187,6 +192,8 @@ public:
   [[nodiscard]] std::size_t parameters() const;
   /// The names of the components of y.
   [[nodiscard]] const std::vector<std::string>& outputs() const;
+  /// The warnings of the input checks on the nominal wing.
+  [[nodiscard]] const std::vector<std::string>& notices() const;
   /// The nominal x, SI; for a path with several parameters the value of the first one.
   [[nodiscard]] const std::vector<double>& nominal() const;
 
@@ -195,7 +202,9 @@ public:
   /// @param x n rows of parameters, row by row, SI
   /// @param y n rows of outputs, which are set; NaN for a missing value, or if the parameters are unphysical
   /// @pre x.size() == n · parameters() and y.size() == n · outputs().size()
+  /// @param threads 0: all processors
   /// @return false if `stop` ended the call before the last row
+  /// @throws SpecError for a wrong number of threads
   bool evaluate(std::span<const double> x, std::span<double> y, int threads = 0,
                 const std::atomic<bool>* stop = nullptr) const;
 

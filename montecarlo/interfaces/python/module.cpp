@@ -72,13 +72,14 @@ Table run_it(const Input& input, std::optional<std::int64_t> runs,
 
 py::tuple simulate_it(const Input& input, const Settings& settings, std::optional<double> interval,
                       bool check) {
-  const Outcome outcome = run_interruptibly(
-      [&](const std::atomic<bool>&) { return simulate(input, settings, interval, check); });
+  const Outcome outcome = run_interruptibly([&](const std::atomic<bool>& stop) {
+    return simulate(input, settings, interval, check, &stop);
+  });
   py::dict trajectory;
   for (const Series& series : outcome.trajectory)
     trajectory[py::str(series.name)] =
         py::array_t<double>(static_cast<py::ssize_t>(series.values.size()), series.values.data());
-  return py::make_tuple(outcome.json, trajectory);
+  return py::make_tuple(outcome.json, trajectory, outcome.notices);
 }
 
 py::tuple fit_it(const Input& campaign, const Input& tests, const std::filesystem::path& out,
@@ -183,13 +184,15 @@ PYBIND11_MODULE(_native, module) {
            py::arg("input"), py::arg("paths"), py::arg("outputs"), py::arg("settings"))
       .def_property_readonly("outputs", &Model::outputs)
       .def_property_readonly("nominal", &Model::nominal)
+      .def_property_readonly("notices", &Model::notices)
       .def("evaluate", &evaluate_it, py::arg("x"), py::arg("threads"),
            "Returns a row of outputs for each row of parameters");
 
   module.def("run", &run_it, py::arg("input"), py::arg("runs"), py::arg("seed"), py::arg("threads"),
              py::arg("of_case"), py::arg("set"), "Makes a campaign's runs");
   module.def("simulate", &simulate_it, py::arg("input"), py::arg("settings"), py::arg("interval"),
-             py::arg("check"), "Returns the outcome as JSON, and the trajectory's columns");
+             py::arg("check"),
+             "Returns the outcome as JSON, the trajectory's columns, and the input's warnings");
   module.def("fit", &fit_it, py::arg("campaign"), py::arg("tests"), py::arg("out"), py::arg("seed"),
              py::arg("runs"), py::arg("threads"), "Returns fit.json and the posterior's columns");
   module.def("read", &read, py::arg("folder"), py::arg("of_case"),

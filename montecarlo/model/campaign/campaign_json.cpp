@@ -196,6 +196,9 @@ private:
     read_part("sampling", read_sampling, campaign_.sampling);
     std::size_t before = problems_.size();
     if (const auto at = object_.find("integration")) read_integration(*at, campaign_.integration);
+    if (!was_run_ && scene_ && campaign_.integration.smoothing)
+      if (const std::string found = beyond_smoothed_latches(*scene_); !found.empty())
+        object_.at().member("integration").member("latch").refuse(found, expected_event_latches);
     if (!was_run_ && problems_.size() == before) t_end_ = campaign_.integration.t_end;
     before = problems_.size();
     if (scene_) campaign_.outputs = default_outputs(*scene_);

@@ -1,5 +1,6 @@
 #include "montecarlo/model/campaign/campaign_settings.hpp"
 
+#include "core/outcome.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
 
 #include <fmt/format.h>
@@ -148,6 +149,15 @@ void read_sampling(const JsonCursor& at, Sampling& sampling) {
   sampling.extended_from.clear();
   if (const auto extended = object.find("extended_from")) read_extended_from(*extended, sampling);
   object.refuse_others();
+}
+
+std::string beyond_smoothed_latches(const Scene& scene) {
+  const Hinge* hinge = hinge_with_event_latch(scene);
+  if (!hinge) return "";
+  return fmt::format("a smoothed latch, and hinges.{}.latch.{}", hinge->name,
+                     hinge->latch->capture_rate     ? "capture_rate"
+                     : hinge->latch->holding_moment ? "holding_moment"
+                                                    : "backlash");
 }
 
 void read_integration(const JsonCursor& at, Integration& integration) {

@@ -105,7 +105,7 @@ Outcome integrate(const Scene& scene, const Integration& how, const Goal& goal,
                     ", expected " + fault.expected;
     return out;
   }
-  if (how.smoothing && has_latch_that_may_miss(scene)) {
+  if (how.smoothing && hinge_with_event_latch(scene)) {
     out.reason = needs_event_latches; // status failed
     return out;
   }

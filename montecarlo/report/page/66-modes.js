@@ -112,6 +112,7 @@
         `Small vibrations of the deployed nominal wing${W.sets.length > 1 ? ` of ${set.label}` : ""} with all latches engaged, without Coulomb friction, backlash and air. `,
         `The pictures move once in ${SECONDS} seconds, whatever the mode's frequency. A mode has a shape and no size of its own.`,
       ),
+      (modes.notes || []).map((note) => h("p.note", `${note}.`)),
       h("p.controls", player.button),
       h(
         "div.stills",

@@ -4,6 +4,7 @@
 #include "montecarlo/model/input_checks/placement.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/wing_json.hpp"
+#include "montecarlo/report/text/modes_report.hpp"
 
 #include <utility>
 #include <vector>
@@ -56,6 +57,7 @@ Json modes_json(const Scene& scene) {
   }
   return {{"wing", wing_json(modes->wing.scene)},
           {"rest", page_numbers(modes->rest)},
+          {"notes", modes_notes(*modes)},
           {"modes", std::move(list)}};
 }
 

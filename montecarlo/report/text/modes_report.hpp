@@ -5,14 +5,19 @@
 #include "montecarlo/foundation/formats/json.hpp"
 
 #include <string>
+#include <vector>
 
 namespace wingspread {
 
-/// A table of all modes. Joints of flexible bodies are left out.
+/// What a reader must know of the rest: stops that are pressed or touched there, hinges that rest far from their latched
+/// angle. Empty for an ordinary latched wing.
+[[nodiscard]] std::vector<std::string> modes_notes(const WingModes& modes);
+
+/// A table of all modes, and the notes. Joints of flexible bodies are left out.
 [[nodiscard]] std::string modes_text(const WingModes& modes);
 
-/// { "modes": [ { "frequency": Hz, "damping_ratio", "shape": { HINGE: angle } } ], "rest": { HINGE: rad } }, lowest
-/// first. Shapes include the joints of flexible bodies, and on a free base "base".
+/// { "modes": [ { "frequency": Hz, "damping_ratio", "shape": { HINGE: angle } } ], "rest": { HINGE: rad },
+/// "notes": [ … ] }, lowest first. Shapes include the joints of flexible bodies, and on a free base "base".
 [[nodiscard]] Json modes_json(const WingModes& modes);
 
 } // namespace wingspread

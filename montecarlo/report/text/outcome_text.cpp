@@ -105,11 +105,13 @@ std::string final_state(const Scene& scene, const Outcome& outcome) {
   const bool watched = !outcome.overtravel.empty(), known = outcome.status != Status::failed;
   std::string text = fmt::format("\n{:<24}{:>14}{:>16}{}\n", "END", "angle, deg", "rate, rad/s",
                                  watched ? "  beyond stowed, deg" : "");
-  for (std::size_t i = 0; i < scene.hinges.size(); ++i)
+  for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
+    const bool judged = watched && !scene.hinges[i].joint;
     text += fmt::format(
         "  {:<22}{:>14}{:>16.6g}{}\n", scene.hinges[i].name, degrees_text(final.angles[i]),
         final.rates[i],
-        watched ? fmt::format("{:>20}", known ? degrees_text(outcome.overtravel[i]) : "–") : "");
+        judged ? fmt::format("{:>20}", known ? degrees_text(outcome.overtravel[i]) : "–") : "");
+  }
   if (scene.base.motion != BaseMotion::fixed)
     text += fmt::format("  {:<22}{:>14}{:>16.6g}\n", "base", degrees_text(final.base_angle),
                         final.base_rate);
@@ -136,7 +138,7 @@ bool dissipates(const Hinge& hinge) {
   const auto rubs = [](const std::optional<Stop>& stop) { return stop && stop->dissipation > 0; };
   return hinge.friction.coulomb > 0 || hinge.friction.viscous > 0 || hinge.damper ||
          (hinge.spring.table && hinge.spring.table->both_ways()) || rubs(hinge.stop) ||
-         rubs(hinge.far_stop) || (hinge.hold && hinge.hold->damping > 0) || damping > 0;
+         rubs(hinge.far_stop) || hinge.hold || damping > 0; // a hold that lets go takes its strain
 }
 
 bool dissipates(const Scene& scene) {
@@ -179,7 +181,7 @@ std::string effort(const Scene& scene, const Outcome& outcome) {
 } // namespace
 
 std::string outcome_text(const Scene& scene, const Outcome& outcome) {
-  if (outcome.status == Status::invalid) return ending(scene, outcome);
+  if (outcome.final.angles.empty()) return ending(scene, outcome); // it did not begin
   return ending(scene, outcome) + hinge_events("RELEASE", scene, outcome.releases) +
          latches(scene, outcome) + hinge_events("PASSED, TOO FAST", scene, outcome.missed) +
          hinge_events("LET GO", scene, outcome.let_go) + peaks(scene, outcome) +

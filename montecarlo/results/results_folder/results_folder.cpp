@@ -105,6 +105,19 @@ StoredCampaign read_campaign_of(const std::filesystem::path& folder, bool may_be
   return stored;
 }
 
+/// @throws SpecError that says how the file is made again
+Json parse_summary(const std::filesystem::path& path) {
+  try {
+    return parse_json_file(path);
+  } catch (const SpecError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems)
+      problem.expected += fmt::format("; wingspread analyze {} writes the file again",
+                                      shell_word(path.parent_path().string()));
+    throw SpecError(std::move(problems));
+  }
+}
+
 } // namespace
 
 std::string campaign_text(const Campaign& campaign, const Stamp& stamp) {
@@ -122,7 +135,7 @@ void judge_by(std::vector<Requirement> requirements, StoredCampaign& stored) {
 StoredCampaign as_analyzed(StoredCampaign stored) {
   const std::filesystem::path path = stored.folder / summary_file;
   if (!std::filesystem::exists(path)) return stored;
-  const Json summary = parse_json_file(path);
+  const Json summary = parse_summary(path);
   const auto asked = summary.find(analyzed_key);
   if (asked == summary.end()) return stored;
   std::vector<Problem> problems;

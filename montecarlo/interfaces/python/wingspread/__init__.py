@@ -24,6 +24,7 @@ import json
 import numbers
 import operator
 import os
+import sys
 import typing
 import warnings
 
@@ -132,7 +133,10 @@ class Table(typing.Mapping[str, npt.NDArray[typing.Any]]):
 
     def numbers(self, columns: typing.Sequence[str]) -> Floats:
         """Returns a copy of several columns of numbers as one array[run, column]."""
-        return np.column_stack([self._native.numbers(column) for column in columns])
+        names = _names("columns", columns)
+        if not names:
+            return np.empty((self.size, 0))
+        return np.column_stack([self._native.numbers(column) for column in names])
 
 
 def run(campaign: Source, *, runs: int | None = None, seed: int | None = None, threads: int = 0, case: str = "",
@@ -144,8 +148,7 @@ def run(campaign: Source, *, runs: int | None = None, seed: int | None = None, t
     """
     table = _native.run(_input_of(campaign), _whole("runs", runs, 1, _MOST_RUNS), _whole("seed", seed, 0, _MOST_SEED),
                         _whole("threads", threads, 0, _MOST_THREADS), case, _changes_of(set))
-    for notice in table.notices:
-        warnings.warn(notice, Notice, stacklevel=2)
+    _warn(table.notices)
     return Table(table)
 
 
@@ -187,7 +190,9 @@ def simulate(scene: Source, *, set: Changes | None = None, case: str = "", dt: f
     interval = _number("dt", dt)
     if interval is not None and not 0 < interval < float("inf"):
         raise _wrong("dt", dt, "a number, s, > 0")
-    outcome, trajectory = _native.simulate(_input_of(scene), settings, 0.0 if interval is None else interval, check)
+    outcome, trajectory, notices = _native.simulate(_input_of(scene), settings, 0.0 if interval is None else interval,
+                                                    check)
+    _warn(notices)
     return Simulation(json.loads(outcome), trajectory)
 
 
@@ -203,7 +208,8 @@ class Model:
                  step: float | None = None, rtol: float | None = None, atol: float | None = None,
                  t_end: float | None = None) -> None:
         settings = _settings(set, case, method, latch, step, rtol, atol, t_end)
-        self._native = _native.Model(_input_of(scene), list(paths), list(outputs), settings)
+        self._native = _native.Model(_input_of(scene), _names("paths", paths), _names("outputs", outputs), settings)
+        _warn(self._native.notices)
 
     @property
     def outputs(self) -> list[str]:
@@ -221,6 +227,8 @@ class Model:
         x: parameters in SI units, shape (n, d). Returns outputs, shape (n, m); NaN for a missing value, or if the
         parameters are unphysical. threads: 0 for all processors.
         """
+        if np.ma.isMaskedArray(x):
+            raise _wrong("x", "a masked array", "numbers without a mask")
         return self._native.evaluate(np.asarray(x, dtype=float), _whole("threads", threads, 0, _MOST_THREADS))
 
 
@@ -285,6 +293,22 @@ def _number(argument: str, value: float | None) -> float | None:
     raise _wrong(argument, value, "a number, in SI units")
 
 
+def _names(argument: str, value: typing.Sequence[str]) -> list[str]:
+    """Returns a list of texts; a single text would count as its letters."""
+    if isinstance(value, str) or not all(isinstance(each, str) for each in value):
+        raise _wrong(argument, value, "a list of texts")
+    return list(value)
+
+
+def _warn(notices: typing.Iterable[str]) -> None:
+    """Warns the caller of the module."""
+    depth = 2
+    while sys._getframe(depth - 1).f_globals is globals():
+        depth += 1
+    for notice in notices:
+        warnings.warn(notice, Notice, stacklevel=depth)
+
+
 def _plain(value: typing.Any) -> typing.Any:
     """Converts numpy's numbers and arrays for JSON."""
     if isinstance(value, (np.ndarray, np.generic)):
@@ -293,5 +317,7 @@ def _plain(value: typing.Any) -> typing.Any:
 
 
 def _changes_of(changes: Changes | None) -> list[str]:
-    return [f"{path}={value if isinstance(value, str) else repr(float(value))}"
+    if changes is not None and not isinstance(changes, collections.abc.Mapping):
+        raise _wrong("set", changes, "a dictionary of values by path")
+    return [f"{path}={value if isinstance(value, str) else repr(_number('set', value))}"
             for path, value in (changes or {}).items()]

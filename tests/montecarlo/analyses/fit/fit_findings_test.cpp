@@ -233,3 +233,43 @@ TEST_CASE("the findings name the laws of cases that the written campaign does no
   REQUIRE_FALSE(fit_findings(result, spec).empty());
   CHECK(fit_findings(result, spec).back().ends_with("in every case: cold: friction"));
 }
+
+// To first order the spring moves by 0.15 of what the friction is off, whatever the friction's law.
+TEST_CASE("what is held widens by the standard deviation of its law, whatever the law") {
+  const Folder folder;
+  const double half = 0.2 * std::sqrt(3.0);
+  const std::vector<std::pair<Json, double>> laws{
+      {{{"type", "uniform"}, {"lower", 1 - half}, {"upper", 1 + half}}, 0.2},
+      {{{"type", "discrete"}, {"values", {0.8, 1.2}}, {"weights", {1, 1}}}, 0.2},
+      {{{"type", "discrete"}, {"values", {1, 2}}, {"weights", {0.99, 0.01}}}, std::sqrt(0.0099)},
+      {{{"type", "empirical"}, {"values", {0.8, 0.8, 1.2, 1.2}}}, 0.2},
+      {{{"type", "triangular"}, {"lower", 0.5}, {"mode", 1}, {"upper", 1.5}},
+       0.5 / std::sqrt(6.0)}};
+  for (const auto& [law, std] : laws) {
+    Json json = panel_campaign(0.5, 0.2);
+    for (Json& each : json["dispersions"])
+      if (each["name"] == "friction") each["distribution"] = law;
+    const Campaign campaign = campaign_of(json);
+    const FitSpec spec = read_fit(parse_json(R"({ "tests": [ { "name": "timer",
+        "values": [ { "output": "root.latch_time", "value": 2.3, "std": "1 ms" } ] } ],
+      "fit": { "parameters": ["spring"], "samples": 100, "starts": 2 } })"),
+                                  "", folder.path(), campaign);
+    const FitResult result = fitted(campaign, spec);
+    CAPTURE(law.dump());
+    REQUIRE(result.held.size() == 1);
+    CHECK(result.held[0].prior_std == Approx(std).epsilon(1e-9));
+    const FittedParameter& spring = result.parameters[0];
+    CHECK(spring.widening * spring.std == Approx(std::hypot(spring.std, 0.15 * std)).epsilon(0.02));
+  }
+}
+
+TEST_CASE("a prior's moments are those of its law, also where it is cut") {
+  CHECK(moments_of({Normal{3, 0.03}, std::nullopt}).standard_deviation == 0.03);
+  const LawMoments wide = moments_of({Lognormal{0, 1}, std::nullopt});
+  CHECK(wide.mean == Approx(std::exp(0.5)).epsilon(1e-12));
+  CHECK(wide.standard_deviation ==
+        Approx(std::sqrt((std::exp(1) - 1) * std::exp(1))).epsilon(1e-12));
+  const LawMoments half = moments_of({Normal{0, 1}, Truncation{0}});
+  CHECK(half.mean == Approx(std::sqrt(2 / std::numbers::pi)).epsilon(1e-3));
+  CHECK(half.standard_deviation == Approx(std::sqrt(1 - 2 / std::numbers::pi)).epsilon(1e-3));
+}

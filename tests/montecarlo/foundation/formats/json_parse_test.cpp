@@ -87,3 +87,19 @@ TEST_CASE("A file that cannot be read is a problem of its own", "[json_parse]") 
   CHECK(test::message_of([&] { return parse_json_file(folder); }) ==
         folder + ": found no file that can be read, expected a JSON file");
 }
+
+TEST_CASE("A NUL byte behind a document does not end it", "[json_parse]") {
+  const auto message_of = [](const std::string& text) {
+    try {
+      (void)parse_json(text, "f.json");
+    } catch (const SpecError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const char* rest : {"", "{ garbage", "\n"}) {
+    const std::string text = std::string("{\n}") + '\0' + rest;
+    CHECK(message_of(text) == "f.json: found line 2, column 2: a NUL byte, expected JSON text");
+  }
+  CHECK(message_of("{\n}").empty());
+}

@@ -233,9 +233,13 @@ TEST_CASE(
   CHECK(kept.posterior[0].values == fit.posterior[0].values);
   CHECK(read_text(folder.path() / "f" / "fit.json") == kept.json);
   CHECK(fit_with({.seed = 9}).posterior[0].values != fit.posterior[0].values);
-  CHECK_FALSE(fit_with({.runs = 1}).finished);
+  CHECK_FALSE(fit_with({.runs = 2080}).finished);
   const std::atomic<bool> now = true;
   CHECK_THROWS_AS(fit_with({.stop = &now}), wingspread::Stopped);
+  CHECK_THROWS_AS(fit_with({.stop = &now}), std::exception); // caught by who knows no more of it
+  CHECK_THROWS_AS(fit_with({.runs = -5}), SpecError);
+  CHECK_THROWS_AS(fit_with({.runs = 50}), SpecError); // fewer than the sampler makes
+  CHECK_THROWS_AS(fit_with({.threads = -5}), SpecError);
 }
 
 TEST_CASE("what the library is asked and cannot do is refused with every problem") {
@@ -265,6 +269,15 @@ TEST_CASE("what the library is asked and cannot do is refused with every problem
                  return api::run(as_input(quick_campaign(5)), {.runs = 0, .threads = threads});
                }),
                !Catch::Contains("--threads"));
+  const std::vector<double> x{1};
+  std::vector<double> y(1);
+  const api::Model one(input, {"hinges.*.spring.scale"}, {"root.latch_time"});
+  CHECK_THAT(message_of([&] { return one.evaluate(x, y, -3); }),
+             Catch::StartsWith("--threads: found -3"));
+  CHECK_THAT(message_of([&] { return api::simulate(input, {.t_end = 1}, 1e-9); }),
+             Catch::StartsWith("--dt: found 1e-09") && Catch::Contains("1e-08"));
+  const std::atomic<bool> now = true;
+  CHECK_THROWS_AS(api::simulate(input, {}, {}, false, &now), Stopped);
   CHECK_THAT(message_of([&] { return api::simulate(input, {.latch = "soft"}); }),
              Catch::StartsWith("--latch: found soft") && Catch::Contains("smoothed:EPS"));
   CHECK(message_of([&] {

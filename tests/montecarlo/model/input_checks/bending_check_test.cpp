@@ -48,3 +48,19 @@ TEST_CASE("a bending panel with one joint, or with more inertia than a uniform o
   rigid.bodies[0].flexible.reset();
   CHECK(warnings_of(rigid).empty());
 }
+
+TEST_CASE(
+    "a bending panel with less inertia than a uniform one is warned of it, and not of its joints",
+    "[input_checks]") {
+  for (const int joints : {4, 8, 32}) {
+    const std::string text = warnings_of(bending_scene(joints, 0.8 * 3 / 1.12)); // 0.8 of a rod
+    CAPTURE(text);
+    CHECK(text.starts_with("/bodies/0/inertia: "));
+    CHECK(text.find("joints: ") == std::string::npos);
+    // the limit of many joints, whatever the panel's own number
+    Body body = bending_scene(64, 0.8 * 3 / 1.12).bodies[0];
+    const double stated = std::stod(text.substr(text.find("vibrates at ") + 12));
+    CHECK(stated == Approx(clamped_frequency(body)).epsilon(5e-3));
+    CHECK(stated > 1.05 * 1.5);
+  }
+}

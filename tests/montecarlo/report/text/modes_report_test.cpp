@@ -3,6 +3,7 @@
 #include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <sstream>
 
@@ -65,4 +66,37 @@ TEST_CASE("Every number of the modes' text is the mode's") {
       CHECK(std::stod(word.substr(equals + 1)) == Approx(shape[h]).margin(5.1e-4));
     }
   }
+}
+
+TEST_CASE("Modes are told with the stops that the wing presses or touches, and a rest far away") {
+  Scene scene = oracle::latching_panel();
+  Hinge& hinge = scene.hinges[0];
+  const double sense = hinge.latched > hinge.stowed ? 1 : -1;
+  hinge.friction = {};
+  hinge.spring = {.torque_stowed = 4, .torque_latched = 4};
+  hinge.latch = Latch{600, 0.5};
+  const auto notes = [&] {
+    const std::optional<WingModes> modes = natural_modes(scene);
+    REQUIRE(modes);
+    const Json json = modes_json(*modes)["notes"];
+    const std::string text = modes_text(*modes);
+    CHECK(std::count(text.begin(), text.end(), '\n') >= 2 + std::ssize(json));
+    CHECK((text.find("note: ") != std::string::npos) == !json.empty());
+    return json.get<std::vector<std::string>>();
+  };
+  CHECK(notes().empty());
+  hinge.far_stop = Stop{800, 0, 0.02};
+  CHECK(notes().empty());
+  hinge.far_stop->gap = 0.002; // pressed by 0.002 rad: (4 + 1.6)/1400 - 0.002
+  REQUIRE(notes().size() == 1);
+  CHECK_THAT(notes()[0], Catch::Contains(hinge.name) && Catch::Contains("1.6 N·m"));
+  hinge.far_stop->gap = 0, hinge.spring = {};
+  REQUIRE(notes().size() == 1);
+  CHECK_THAT(notes()[0], Catch::Contains("latched side begins"));
+  hinge.far_stop.reset(), hinge.latch.reset();
+  hinge.spring = {.torque_stowed = 1,
+                  .torque_latched = 0.5}; // 0 as far again beyond the latched angle
+  REQUIRE(notes().size() == 1);
+  CHECK_THAT(notes()[0], Catch::Contains(fmt::format("{:.4g} rad from",
+                                                     sense * (hinge.latched - hinge.stowed))));
 }
