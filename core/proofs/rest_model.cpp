@@ -68,13 +68,11 @@ private:
 
   void resize() {
     m_.parents.resize(n_);
-    for (Eigen::VectorXd* v : {&m_.angles, &m_.weight, &m_.moment, &m_.room, &residual_})
-      v->setZero(n_);
+    for (auto* v : {&m_.angles, &m_.weight, &m_.moment, &m_.room, &residual_}) v->setZero(n_);
     for (Eigen::MatrixXd* v : {&m_.mass, &m_.stiffness, &m_.damping}) v->setZero(n_, n_);
     for (Eigen::MatrixXd* v : {&m_.lever_x, &m_.lever_y}) v->setZero(n_, n_ + 1);
     m_.turns.setZero(n_ + 1, n_);
-    for (Eigen::VectorXd* v : {&m_.pushed, &m_.push_cosine, &m_.push_sine, &m_.dragged})
-      v->setZero(n_ + 1);
+    for (auto* v : {&m_.pushed, &m_.push_cosine, &m_.push_sine, &m_.dragged}) v->setZero(n_ + 1);
     m_.remainders.assign(n_, {});
     m_.loops.clear(), m_.pairs.clear();
     const bool driven = wing_.base.motion == BaseMotion::prescribed;
@@ -192,7 +190,7 @@ private:
       if (real.spring.curve) k -= real.spring.weight * slope(*real.spring.curve, phi);
       if (real.harness.curve) k -= real.harness.weight * slope(*real.harness.curve, phi);
       if (!is_bounded_) // bounds hold where no stop is touched (RestModel::room)
-        for_pressed_stops(i, [&](const StopTerms<double>& stop, double depth) {
+        for_pressed_stops(i, [&](const auto& stop, double depth) {
           k += stop.stiffness;
           m_.moment(i - 1) += stop.sense * stop.stiffness * depth;
         });
@@ -235,8 +233,7 @@ private:
 
   void add_damping(const double* rates) {
     for (int i = 1; i <= n_; ++i) {
-      double& own = m_.damping(i - 1, i - 1);
-      own = law(i).damping + m_.remainders[i - 1].motor.taken;
+      double& own = m_.damping(i - 1, i - 1) = law(i).damping + m_.remainders[i - 1].motor.taken;
       if (wing_.real.empty() || !wing_.real[i].has_damper) continue;
       if (!damper_acts_at_rest(wing_.real[i], m_.angles(i - 1))) continue;
       RestModel::Remainder& left = m_.remainders[i - 1];
@@ -248,13 +245,12 @@ private:
     }
   }
 
-  /// Adds k c δ*, the damping at rest of a stop, to the linear model, and
-  /// k c |e*|, the damping at rest of a latch that damps by k c |e|. Off rest | |e* + u| − |e*| | ≤ |u|, on either
-  /// side of e = 0: f is at most k c |u| |v|.
+  /// Adds k c |e*|, the damping at rest of a latch that damps by k c |e|, and to the linear model k c δ* of a stop. Off
+  /// rest | |e* + u| − |e*| | ≤ |u|, on either side of e = 0: f is at most k c |u| |v|.
   void add_dissipation() {
     for (int i = 1; i < static_cast<int>(wing_.real.size()); ++i) {
       if (!is_bounded_)
-        for_pressed_stops(i, [&](const StopTerms<double>& stop, double depth) {
+        for_pressed_stops(i, [&](const auto& stop, double depth) {
           m_.damping(i - 1, i - 1) += stop.stiffness * stop.dissipation * depth;
         });
       const LatchDissipationTerms<double>& latch = wing_.real[i].dissipation;
@@ -289,7 +285,6 @@ private:
   // ---- masses
 
   [[nodiscard]] bool is_free() const { return wing_.base.motion == BaseMotion::free; }
-
   /// (1), S and M_0.
   void find_masses() {
     Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n_ + 1, n_ + 1); // in absolute rates

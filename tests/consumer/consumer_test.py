@@ -48,7 +48,7 @@ class Consumer(unittest.TestCase):
     def test_headers_are_few_and_include_nothing_but_the_standard_library(self):
         headers = sorted((self.folder / "prefix/include").rglob("*.*"))
         self.assertEqual([header.name for header in headers],
-                         ["machine_error.hpp", "spec_error.hpp", "wingspread.hpp"])
+                         ["machine_error.hpp", "spec_error.hpp", "stopped.hpp", "wingspread.hpp"])
         for header in headers:
             for name in re.findall(r"#include (.*)", header.read_text()):
                 self.assertRegex(name, r"^<(wingspread/[a-z_]+\.hpp|[a-z_]+)>$")

@@ -334,7 +334,7 @@ class Errors(InFolder):
         for make, place in [(lambda: wingspread.Model(SCENE, spring[0]), "--paths: found 'hinges"),
                             (lambda: wingspread.Model(SCENE, spring, "deployment_time"), "--outputs: found 'deployment_time'"),
                             (lambda: table.numbers("run"), "--columns: found 'run'"),
-                            (lambda: model(np.ma.masked_array([[1.0]], [[True]])), "--x: found a masked array"),
+                            (lambda: model(np.ma.masked_array([[1.0]], [[True]])), "--x: found 'a masked array'"),
                             (lambda: wingspread.simulate(SCENE, set=["a=1"]), "--set: found"),
                             (lambda: wingspread.simulate(SCENE, set={"hinges.root.spring.scale": [1]}), "--set: found"),
                             (lambda: wingspread.simulate(SCENE, dt=1e-9), "--dt: found 1e-09, expected at least")]:

@@ -5,7 +5,6 @@
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/model/campaign/set_by_draws.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,6 @@
 #include "montecarlo/analyses/fit/proposal.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
-#include "montecarlo/model/campaign/set_by_draws.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
 
 #include <fmt/format.h>

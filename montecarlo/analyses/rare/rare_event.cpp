@@ -4,7 +4,6 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
-#include "montecarlo/model/campaign/set_by_draws.hpp"
 
 #include <algorithm>
 #include <cmath>

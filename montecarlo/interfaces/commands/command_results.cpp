@@ -8,6 +8,7 @@
 #include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/campaign/guarantees.hpp"
 #include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"

@@ -3,7 +3,6 @@
 #include "core/scene/curve.hpp"
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/random_stream.hpp"
-#include "montecarlo/model/campaign/set_by_draws.hpp"
 
 #include <fmt/format.h>
 

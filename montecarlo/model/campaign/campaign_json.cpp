@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json_reader.hpp"
 #include "montecarlo/model/campaign/distribution_json.hpp"
+#include "montecarlo/model/campaign/guarantees.hpp"
 #include "montecarlo/model/campaign/wanted_correlations.hpp"
 #include "montecarlo/model/scene_file/scene_json.hpp"
 
@@ -23,63 +24,10 @@ void refuse_dimensions(const JsonCursor& at, const Sampling& sampling, const Coo
               fmt::format("up to {} with the design \"sobol\"", most_sobol_dimensions));
 }
 
-/// Refuses a part whose statistics hold for independent draws only, with a design whose draws depend on each other.
-void refuse_dependent_draws(const JsonCursor& at, const char* what, DesignKind design) {
-  if (design == DesignKind::random) return;
-  at.refuse(fmt::format("{} with the design \"{}\"", what,
-                        design_names[static_cast<std::size_t>(design)]),
-            "the design \"random\": these statistics hold for independent draws only");
-}
-
 /// Refuses goals to stop at in an extended campaign: they need interim analyses that are fixed before the first run.
 void refuse_extended_rule(const JsonCursor& at) {
   at.refuse("goals to stop at", "no goals: they need interim analyses that are fixed before the "
                                 "first run, and the campaign was extended");
-}
-
-std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs) {
-  std::vector<std::string> names;
-  for (OutputColumn& column : output_columns(scene, outputs))
-    names.push_back(std::move(column.name));
-  return names;
-}
-
-/// Reads requirements and goals to stop at. Both name outputs of the campaign and need independent draws.
-/// @param scene null if the scene or the outputs have problems: then unknown outputs are not reported
-class GuaranteeReader {
-public:
-  /// @param t_end end of the runs; nothing: limits on times are not checked
-  GuaranteeReader(const Scene* scene, const Outputs& outputs, DesignKind design,
-                  std::optional<double> t_end)
-      : scene_(scene), design_(design), t_end_(t_end) {
-    if (!scene_) return;
-    names_ = output_names(*scene, outputs);
-    all_names_ = output_names(*scene, all_outputs());
-  }
-  void read(const JsonCursor& at, std::vector<Requirement>& requirements) const {
-    read_requirements(at, scene_ ? &names_ : nullptr, all_names_, requirements, scene_);
-    if (t_end_) refuse_late_limits(at, requirements, *t_end_);
-    if (!requirements.empty()) refuse_dependent_draws(at, "requirements", design_);
-  }
-  /// @param requirements the campaign's; null if they have problems
-  void read(const JsonCursor& at, const std::vector<Requirement>* requirements,
-            StoppingRule& until) const {
-    std::vector<std::string> names;
-    if (requirements)
-      for (const Requirement& requirement : *requirements) names.push_back(name_of(requirement));
-    read_stopping_rule(at, scene_ ? &names_ : nullptr, requirements ? &names : nullptr, until);
-    if (!until.empty()) refuse_dependent_draws(at, "goals to stop at", design_);
-  }
-
-private:
-  const Scene* scene_;
-  DesignKind design_;
-  std::optional<double> t_end_;
-  std::vector<std::string> names_, all_names_;
-};
-
-GuaranteeReader guarantee_reader(const Campaign& campaign) {
-  return {&campaign.scene, campaign.outputs, campaign.sampling.design, campaign.integration.t_end};
 }
 
 /// Reads a scene inside the campaign, or from the file that the campaign names.
@@ -389,30 +337,9 @@ void read_analysis(const JsonCursor& at, Campaign& campaign) {
   object.refuse_others();
 }
 
-std::vector<std::string> keys_of_requirements(const Json& document) {
-  constexpr const char* list = "requirements";
-  if (!document.is_object()) return {};
-  const bool analyzed = document.contains(analyzed_key);
-  const Json& holder = analyzed ? document[analyzed_key] : document;
-  if (!holder.is_object() || !holder.contains(list)) return {};
-  return analyzed ? std::vector<std::string>{analyzed_key, list} : std::vector<std::string>{list};
-}
-
 void override_requirements(Campaign& campaign, const std::filesystem::path& path) {
   campaign.requirements = read_requirements_file(path, campaign);
   campaign.resolved = write_campaign(campaign, Json(campaign.resolved.at("dispersions")));
-}
-
-std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
-                                                const Campaign& campaign) {
-  const Json document = parse_json_file(path);
-  std::vector<Problem> problems;
-  std::vector<Requirement> requirements;
-  JsonCursor list(document, path.string(), problems);
-  for (const std::string& key : keys_of_requirements(document)) list = list.member(key);
-  guarantee_reader(campaign).read(list, requirements);
-  if (!problems.empty()) throw SpecError(std::move(problems));
-  return requirements;
 }
 
 } // namespace wingspread

@@ -64,19 +64,8 @@ void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from)
 /// depends on the order of keys. Notes problems.
 void override_stopping(Campaign& campaign, const JsonCursor& at);
 
-/// The key of a summary under which it has the requirements and statistics of the last `analyze`.
-inline constexpr const char* analyzed_key = "analyzed";
-
-/// The keys that lead to the requirements in a document for read_requirements_file; none if it is an array.
-[[nodiscard]] std::vector<std::string> keys_of_requirements(const Json& document);
-
 /// Replaces the requirements by those of a file (read_requirements_file), also in `resolved`.
 /// @throws SpecError with all problems
 void override_requirements(Campaign& campaign, const std::filesystem::path& path);
-
-/// Reads requirements for this campaign from a file: an array, a campaign, or the summary.json of an analysis.
-/// @throws SpecError with all problems
-[[nodiscard]] std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
-                                                              const Campaign& campaign);
 
 } // namespace wingspread

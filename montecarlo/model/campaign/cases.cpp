@@ -2,7 +2,6 @@
 
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/model/campaign/distribution_json.hpp"
-#include "montecarlo/model/campaign/set_by_draws.hpp"
 
 #include <fmt/format.h>
 

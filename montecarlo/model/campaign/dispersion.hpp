@@ -2,12 +2,14 @@
 #pragma once
 
 #include "core/scene/curve.hpp"
-#include "distributions/distribution.hpp"
+#include "distributions/prepared_distribution.hpp"
 #include "montecarlo/foundation/formats/json_reader.hpp"
 #include "montecarlo/model/scene_file/scene_parameter.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -79,5 +81,29 @@ struct SharedTarget {
 };
 [[nodiscard]] std::vector<SharedTarget> shared_targets(std::span<const Dispersion> dispersions,
                                                        const Scene& scene);
+
+/// Maps each parameter that a dispersion sets (not scales or adds to) to the dispersion's name.
+inline std::map<SceneParameter, std::string> set_by_draws(std::span<const Dispersion> dispersions) {
+  std::map<SceneParameter, std::string> writers;
+  for (const Dispersion& dispersion : dispersions)
+    for_each_effect(dispersion, [&](Apply how, const auto& targets, const Curve*) {
+      for (const SceneParameter& target : targets)
+        if (how == Apply::set) writers.emplace(target, dispersion.name);
+    });
+  return writers;
+}
+
+/// Whether a law has more than one value.
+inline bool varies(const Distribution& distribution) {
+  constexpr double tail = 1e-12; // beyond any campaign's number of runs
+  const PreparedDistribution law(distribution);
+  return law.quantile(tail) != law.quantile_complement(tail);
+}
+
+/// Whether draws differ: without it all runs are one and the same.
+inline bool vary(std::span<const Dispersion> dispersions) {
+  return std::ranges::any_of(
+      dispersions, [](const Dispersion& dispersion) { return varies(dispersion.distribution); });
+}
 
 } // namespace wingspread

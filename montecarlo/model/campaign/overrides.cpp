@@ -3,7 +3,6 @@
 #include "montecarlo/foundation/formats/number_text.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/margin_spec.hpp"
-#include "montecarlo/model/campaign/set_by_draws.hpp"
 #include "montecarlo/model/scene_file/scene_parameter.hpp"
 
 #include <fmt/format.h>

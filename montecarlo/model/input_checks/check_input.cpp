@@ -2,6 +2,7 @@
 
 #include "montecarlo/foundation/formats/json_parse.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/campaign/guarantees.hpp"
 #include "montecarlo/model/input_checks/bending_check.hpp"
 #include "montecarlo/model/input_checks/clearance_check.hpp"
 #include "montecarlo/model/input_checks/damper_check.hpp"

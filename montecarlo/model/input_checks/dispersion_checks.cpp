@@ -3,7 +3,6 @@
 #include "core/scene/scene.hpp"
 #include "distributions/prepared_distribution.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
-#include "montecarlo/model/campaign/set_by_draws.hpp"
 
 #include <fmt/format.h>
 

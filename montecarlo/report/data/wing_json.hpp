@@ -1,4 +1,4 @@
-/// The wing to scale: WING of page/DATA.md.
+/// The wing to scale: WING of page/DATA.md. And what its modes leave open, in words.
 ///
 /// A scene has the positions of a body's hinges and its plate, but no outline. A body is drawn as a panel from its own
 /// hinge to the next. Its thickness is the hinges' offset from its middle. The last panel of a wing is symmetric about
@@ -8,11 +8,13 @@
 /// o = o_p + R(θ_p) joint_in_parent, θ = θ_p + φ.
 #pragma once
 
+#include "core/proofs/natural_modes.hpp"
 #include "core/scene/scene.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
 
 #include <Eigen/Core>
 
+#include <string>
 #include <vector>
 
 namespace wingspread {
@@ -30,5 +32,9 @@ struct BodyOutline {
 
 /// @param scene the scene of the nominal wing
 [[nodiscard]] Json wing_json(const Scene& scene);
+
+/// What a reader must know of the rest: stops that are pressed or touched there, hinges that rest far from their latched
+/// angle. Empty for an ordinary latched wing.
+[[nodiscard]] std::vector<std::string> modes_notes(const WingModes& modes);
 
 } // namespace wingspread

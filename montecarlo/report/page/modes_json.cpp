@@ -4,7 +4,6 @@
 #include "montecarlo/model/input_checks/placement.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/wing_json.hpp"
-#include "montecarlo/report/text/modes_report.hpp"
 
 #include <utility>
 #include <vector>

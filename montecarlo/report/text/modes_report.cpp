@@ -1,6 +1,7 @@
 #include "montecarlo/report/text/modes_report.hpp"
 
 #include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/report/data/wing_json.hpp"
 
 #include <fmt/format.h>
 
@@ -35,50 +36,7 @@ Json angles_by_hinge(const Scene& scene, const std::vector<double>& values) {
   return json;
 }
 
-/// A stop of a hinge at rest.
-struct StopAtRest {
-  double depth;  ///< δ, rad; < 0: the way to it
-  double moment; ///< N·m
-};
-StopAtRest stop_at_rest(const Stop& stop, double way_to_its_side) {
-  const double depth = way_to_its_side - stop.gap;
-  return {depth, depth > 0 ? stop.stiffness * depth : 0};
-}
-
-/// What small swings about this hinge's rest are, and are not.
-std::vector<std::string> notes_of(const Hinge& hinge, double rest) {
-  constexpr double touching = 1e-9; // rad
-  constexpr double far = 0.1; // rad. Heuristic: a latch or a stop that holds the hinge yields less
-  std::vector<std::string> notes;
-  const double sense = hinge.latched > hinge.stowed ? 1 : -1;
-  const auto look_at = [&](const std::optional<Stop>& stop, double way, const char* side) {
-    if (!stop) return;
-    const auto [depth, moment] = stop_at_rest(*stop, way);
-    if (moment > 0)
-      notes.push_back(fmt::format("{} presses its stop at the {} side with {:.4g} N·m at rest",
-                                  hinge.name, side, moment));
-    else if (std::abs(depth) <= touching)
-      notes.push_back(fmt::format("{} rests where its stop at the {} side begins: the modes are "
-                                  "those of swings away from it, towards it is stiffer",
-                                  hinge.name, side));
-  };
-  look_at(hinge.stop, sense * (hinge.stowed - rest), "stowed");
-  look_at(hinge.far_stop, sense * (rest - hinge.latched), "latched");
-  if (!hinge.joint && std::abs(rest - hinge.latched) > far && std::abs(rest - hinge.stowed) > far)
-    notes.push_back(fmt::format("{} rests at {:.4g} rad, {:.4g} rad from its latched angle",
-                                hinge.name, rest, std::abs(rest - hinge.latched)));
-  return notes;
-}
-
 } // namespace
-
-std::vector<std::string> modes_notes(const WingModes& modes) {
-  std::vector<std::string> notes;
-  for (std::size_t h = 0; h < named_hinges(modes); ++h)
-    for (std::string& each : notes_of(modes.wing.scene.hinges[h], modes.rest[h]))
-      notes.push_back(std::move(each));
-  return notes;
-}
 
 std::string modes_text(const WingModes& modes) {
   std::string text = "mode  frequency, Hz  damping ratio  shape: angles of the hinges\n";

@@ -5,13 +5,8 @@
 #include "montecarlo/foundation/formats/json.hpp"
 
 #include <string>
-#include <vector>
 
 namespace wingspread {
-
-/// What a reader must know of the rest: stops that are pressed or touched there, hinges that rest far from their latched
-/// angle. Empty for an ordinary latched wing.
-[[nodiscard]] std::vector<std::string> modes_notes(const WingModes& modes);
 
 /// A table of all modes, and the notes. Joints of flexible bodies are left out.
 [[nodiscard]] std::string modes_text(const WingModes& modes);

@@ -1,7 +1,5 @@
 #include "montecarlo/results/summary/judge_campaign.hpp"
 
-#include "montecarlo/model/campaign/set_by_draws.hpp"
-
 #include <algorithm>
 #include <cassert>
 

@@ -1,3 +1,4 @@
+#include "montecarlo/model/campaign/guarantees.hpp"
 #include "montecarlo/results/results_folder/replay.hpp"
 #include "montecarlo/results/results_folder/results_folder.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
