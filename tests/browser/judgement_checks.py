@@ -207,3 +207,33 @@ class JudgementChecks:
         self.assertEqual(self.table("Identifier, source and rationale of each requirement")[:1], traced)
         self.run_script("W.set().inputs.scene = []; W.inputs()")
         self.assertIn("The folder does not contain its campaign's inputs.", self.one("#inputs").text)
+
+    def test_what_requirements_show_together_and_by_which_commands(self):
+        self.open(pages.made_up("plain"))
+        wanted = {"groups": [{"group": "strength <b>", "confidence": 0.9, "requirements": 3, "passed": 2, "verdict": "failed"}], "confidence": 0.875}
+        self.run_script("W.sets[0].together = arguments[0]; W.sets[0].judged_by = 'wingspread analyze again --requirements a/summary.json'; W.outcomes()", wanted)
+        passing = self.run_script("return W.sets[0].requirements.filter(one => one.verdict === 'passed').length")
+        lines = self.run_script("return [...document.querySelectorAll('ul.together li')].map(e => e.textContent)")
+        self.assertGreater(passing, 1)
+        self.assertEqual(len(lines), 2)
+        for fact in ("group strength <b>", "2 of 3 pass", "joint confidence 90 %"):
+            self.assertIn(fact, lines[0])
+        self.assertIn("at least 87.5 %", lines[1])
+        commands = self.run_script("return [...document.querySelectorAll('.again .command code')].map(e => e.textContent)")
+        self.assertEqual(commands[1], "wingspread analyze again --requirements a/summary.json")
+        self.run_script("W.sets[0].together.confidence = -0.1; W.sets[0].together.groups = []; W.outcomes()")
+        self.assertIn("no guarantee", self.run_script("return document.querySelector('ul.together').textContent"))
+
+    def test_the_scenes_tables_and_the_notes_of_its_modes(self):
+        self.open(pages.made_up("plain"))
+        table = {"path": "hinges.root.spring.measured", "columns": [{"name": "angle", "unit": "rad", "values": [-1.5, 0, 0.25]}, {"name": "deploying", "unit": "N·m", "values": [2, 1.5, 1]}]}
+        self.run_script("W.set().inputs.tables = [arguments[0]]; W.inputs()", table)
+        rows = self.run_script("return [...document.querySelectorAll('table.scene-tables tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))")
+        self.assertEqual([row[0] for row in rows], ["hinges.root.spring.measured", ""])
+        for row, column in zip(rows, table["columns"], strict=True):
+            self.assertEqual((row[1], row[2].replace("\u2009", "")), (column["name"], column["unit"]))
+            self.assertEqual([float(cell.replace("\u2212", "-")) for cell in row[3].split(" · ")], column["values"])
+        self.run_script("W.set().inputs.tables = []; W.inputs()")
+        self.assertEqual(self.run_script("return document.querySelectorAll('table.scene-tables').length"), 0)
+        self.run_script("W.set().modes = { wing: W.set().wing, rest: [0, 0, 0], notes: ['root presses its stop'], modes: [{ frequency: 1, damping_ratio: 0, shape: [1, 0, 0], base: null }] }; W.modes()")
+        self.assertIn("root presses its stop.", self.one("#modes").text)

@@ -117,8 +117,10 @@ TEST_CASE("rare says how likely, by which levels, and whether counting would hav
   CHECK_THAT(none.error, HasFacts({"--isa scalar --lanes 8", "processor", "scalar (1)"}));
   const Json found = parse_json(one.out);
   CHECK(found["event"] == "root.latch_time > 6");
-  CHECK(found["beyond"] ==
-        parse_json(R"({ "output": "root.latch_time", "above": true, "limit": 6, "unit": "s" })"));
+  CHECK(
+      found["beyond"] ==
+      parse_json(
+          R"({ "output": "root.latch_time", "above": true, "abs": false, "limit": 6, "unit": "s" })"));
   CHECK(found["case"].is_null());
   CHECK(found["repeats"].size() == 2);
   CHECK(found["lower"] <= found["probability"]);

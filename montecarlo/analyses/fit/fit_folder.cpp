@@ -77,6 +77,7 @@ void FitFolder::write(FitResult& result, const Campaign& campaign, const FitSpec
     const auto path = folder_ / campaign_file;
     write_file(folder_ / posterior_file, posterior_csv(result));
     write_file(path, json_text(predicting_campaign(campaign, fitted)));
+    result.beside_cases = !campaign.cases.empty();
     result.prediction = predicted_outputs(campaign, read_campaign_file(path), pool, stop);
   }
   write_file(folder_ / fit_json_file, json_text(fit_json(result, spec, about_)));

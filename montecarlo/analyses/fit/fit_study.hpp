@@ -116,6 +116,7 @@ struct FitResult {
   std::vector<std::vector<double>> rows; ///< posterior.csv: common parameters
   std::vector<CandidateGain> candidates;
   std::vector<PredictedOutput> prediction;
+  bool beside_cases = false; ///< the campaign has cases, and the prediction is of none of them
   std::vector<std::string> lost_laws; ///< of cases, for fitted dispersions; see lost_laws()
 };
 

@@ -72,7 +72,8 @@ double remaining_travel(const Scene& scene, const Outcome& outcome) {
 
 std::string describe(const RareEvent& event) {
   if (event.output.empty()) return "not deployed";
-  return fmt::format("{} {} {:.6g}", event.output, event.above ? '>' : '<', event.limit);
+  const char* bar = event.absolute ? "|" : "";
+  return fmt::format("{0}{1}{0} {2} {3:.6g}", bar, event.output, event.above ? '>' : '<', event.limit);
 }
 
 double level_of(const RareEvent& event, double g) {
@@ -100,7 +101,7 @@ LimitState::LimitState(const Campaign& campaign, RareEvent event)
 }
 
 Measure LimitState::measure() const {
-  const Json event{{"output", event_.output}, {"limit", event_.limit}, {"above", event_.above}};
+  const Json event{{"output", event_.output}, {"limit", event_.limit}, {"above", event_.above}, {"abs", event_.absolute}};
   return {"g", goal_,
           [this](const Scene& scene, const Outcome& outcome) { return of(scene, outcome); },
           event.dump()};
@@ -109,7 +110,7 @@ Measure LimitState::measure() const {
 Measure measure_of_recipe(const Campaign& campaign, const std::string& recipe) {
   const Json json = parse_json(recipe, "");
   const RareEvent event{json.at("output").get<std::string>(), json.at("limit").get<double>(),
-                        json.at("above").get<bool>()};
+                        json.at("above").get<bool>(), json.at("abs").get<bool>()};
   const auto state = std::make_shared<const LimitState>(campaign, event);
   Measure measure = state->measure();
   measure.of = [state](const Scene& scene, const Outcome& outcome) {
@@ -132,7 +133,8 @@ double LimitState::of_deployed(const Scene& scene, const Outcome& outcome) const
 double LimitState::of(const Scene& scene, const Outcome& outcome) const {
   if (column_) {
     if (is_cut(peak(), peaks_final_of(outcome))) return std::numeric_limits<double>::quiet_NaN();
-    const double value = output_of(*column_, outcome);
+    const double signed_value = output_of(*column_, outcome);
+    const double value = event_.absolute ? std::abs(signed_value) : signed_value;
     return event_.above ? event_.limit - value : value - event_.limit;
   }
   return outcome.status == Status::deployed ? of_deployed(scene, outcome)

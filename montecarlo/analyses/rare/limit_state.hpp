@@ -37,9 +37,10 @@ struct RareEvent {
   std::string output; ///< its name; empty: the event is "not deployed"
   double limit = 0;   ///< limit of the output, in its unit
   bool above = true;  ///< the event is a value above the limit; false: below
+  bool absolute = false; ///< the value's magnitude counts
 };
 
-/// "root.peak_moment > 400", or "not deployed".
+/// "root.peak_moment > 400", "|root.latch_rate| > 5" or "not deployed".
 [[nodiscard]] std::string describe(const RareEvent& event);
 
 /// The output's value at this g; g itself for "not deployed".

@@ -249,6 +249,7 @@ Json event_json(const RareEvent& event) {
   if (event.output.empty()) return nullptr;
   return {{"output", event.output},
           {"above", event.above},
+          {"abs", event.absolute},
           {"limit", json_number(event.limit)},
           {"unit", unit_of(event)}};
 }

@@ -34,7 +34,7 @@ struct RareCommandOptions {
   std::optional<double> confidence;
   RareOptions rare;
   MachineOptions machine;
-  bool resume = false, json = false;
+  bool resume = false, json = false, absolute = false;
 };
 
 /// The limit in the output's unit. @throws SpecError when it is neither a finite number nor a quantity of the output's
@@ -61,7 +61,10 @@ RareEvent event_of(const RareCommandOptions& options) {
                                                 : "two limits"),
                       "an output with either --above or --below; or none of the "
                       "three, and the event is that the wing does not deploy"}});
-  return {options.output, limits == 0 ? 0 : limit_of(options), !options.above.empty()};
+  if (options.absolute && limits == 0)
+    throw SpecError({{"", "--abs", "--abs without --output", "an output and its limit"}});
+  return {options.output, limits == 0 ? 0 : limit_of(options), !options.above.empty(),
+          options.absolute};
 }
 
 std::string refuse_odd_samples(const std::string& text) {
@@ -169,6 +172,7 @@ void add_rare_options(CLI::App& command, RareCommandOptions& options) {
       .add_option("--below", options.below,
                   "The event: a value below X, in SI units or with its unit: \"5 deg/s\"")
       ->type_name("X");
+  command.add_flag("--abs", options.absolute, "The limit is on the value's magnitude");
   within(command.add_option("--samples", options.rare.samples,
                             "Runs of a level, a multiple of 10; default: 2000"),
          100, most_samples)

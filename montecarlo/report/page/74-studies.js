@@ -253,7 +253,7 @@
   function rareEvent(rare) {
     const beyond = rare.beyond,
       { factor, unit } = F.shown(beyond ? beyond.unit : ""),
-      event = beyond ? `${F.nameOf(beyond.output)} ${beyond.above ? ">" : "<"} ${F.written(beyond.limit, beyond.unit)}` : rare.text,
+      event = beyond ? `${beyond.abs ? `|${F.nameOf(beyond.output)}|` : F.nameOf(beyond.output)} ${beyond.above ? ">" : "<"} ${F.written(beyond.limit, beyond.unit)}` : rare.text,
       bounds = W.isNumber(rare.confidence) ? `${F.given(100 * rare.confidence)} % bounds` : "bounds";
     const drawn = (rare.levels || [])
         .filter((one) => W.isNumber(one.threshold) && one.probability > 0)

@@ -274,6 +274,25 @@ TEST_CASE("an interruption ends it, and bad events are refused") {
   CHECK_THROWS_WITH(estimate(json, {}), Catch::Contains("none with a latch"));
   CHECK(describe(RareEvent{}) == "not deployed");
   CHECK(describe(RareEvent{"root.peak_moment", 400, true}) == "root.peak_moment > 400");
+  CHECK(describe(RareEvent{"root.latch_rate", 5, true, true}) == "|root.latch_rate| > 5");
+}
+
+TEST_CASE("a limit on a magnitude is that on the side to which the hinge turns") {
+  const Campaign campaign = campaign_of(one_panel(3));
+  const double rate =
+      Deployment().run(nominal_scene(campaign), campaign.integration, {}).latches.at(0).rates.at(0);
+  REQUIRE(rate != 0);
+  const auto found = [&](const RareEvent& event) {
+    return estimate(one_panel(3), {.event = event, .samples = 200, .repeats = 2}).estimate;
+  };
+  // about half of the runs latch faster than the nominal one
+  const auto signed_one = found({"root.latch_rate", rate, rate > 0});
+  const auto magnitude = found({"root.latch_rate", std::abs(rate), true, true});
+  CHECK((signed_one.probability > 0.1 && signed_one.probability < 0.9));
+  CHECK(magnitude.probability == signed_one.probability);
+  CHECK(magnitude.evaluations == signed_one.evaluations);
+  const auto slower = found({"root.latch_rate", std::abs(rate), false, true});
+  CHECK(slower.probability == Approx(1 - magnitude.probability).margin(0.05));
 }
 
 TEST_CASE("the progress of subset simulations never runs backwards nor beyond the end") {

@@ -88,7 +88,8 @@ TEST_CASE("a design's own points go with the chunks of runs", "[parallel]") {
 
 TEST_CASE("a rare event is estimated by several ranks as by one", "[parallel]") {
   const Campaign campaign = campaign_of(quick_campaign(1));
-  for (const RareEvent& event : {RareEvent{"deployment_time", 7.125, true}, RareEvent{}}) {
+  for (const RareEvent& event : {RareEvent{"deployment_time", 7.125, true},
+                                 RareEvent{"mid.latch_rate", 0.5, true, true}, RareEvent{}}) {
     const RareOptions options{.event = event, .samples = 200, .repeats = 1};
     ThreadEvaluator threads({.threads = 2}, never);
     const RareResult expected =
