@@ -79,3 +79,19 @@ TEST_CASE("check names each case whose nominal wing does not deploy, and how it 
   campaign["integration"]["t_end"] = 1;
   CHECK_THAT(checked(campaign).error, HasFacts({"note: ", "does not deploy", "timed out"}));
 }
+
+TEST_CASE("the pages quote the program's own error") {
+  const Folder folder;
+  Json scene = parse_json_file(three_panel_file());
+  Json& latch = scene["hinges"][0]["latch"];
+  latch["stifness"] = 1;
+  const std::string file = folder.write("scene.json", scene.dump());
+  std::string said = run_program(folder, {"check", file}).error;
+  REQUIRE(said.starts_with("error: " + file));
+  said.replace(7, file.size(), "scene.json");
+  for (const char* page : {"README.md", "montecarlo/README.md"}) {
+    CAPTURE(page);
+    const std::string text = read_text(std::filesystem::path(source_folder) / page).value();
+    CHECK(text.find("    " + said) != std::string::npos); // the whole line
+  }
+}
