@@ -1,0 +1,33 @@
+"""What is shown of several things that a set may have: influences by either coefficient, the orders that are not listed."""
+
+import pages
+
+
+class CauseChecks:
+    """For a Page with MarkChecks."""
+
+    def test_an_influence_is_told_if_either_coefficient_shows_it(self):
+        self.open(pages.made_up("plain"))
+        bounds = {True: (0.1, 0.7), False: (-0.1, 0.7)}
+        for sign, words in ((1, "increases most with a"), (-1, "decreases most with a")):
+            for spearman in (True, False):
+                for partial in (True, False):
+                    effect = {"output": "root.peak_moment", "draw": "a"}
+                    for key, shown in (("spearman", spearman), ("prcc", partial)):
+                        ends = sorted(sign * end for end in bounds[shown])
+                        effect.update({key: sign * 0.4, f"{key}_lower": ends[0], f"{key}_upper": ends[1]})
+                    text = self.run_script("""Object.assign(W.set().sensitivity, { kind: 'rank', effects: [arguments[0]], idle: [] }); W.set().inputs.dispersions = [];
+                        W.choose('output', 'root.peak_moment'); W.why(); return [...document.querySelectorAll('#why p.effects')].map(one => one.textContent).join('')""", effect)
+                    self.assertEqual(words in text, spearman or partial, (effect, text))
+
+    def test_orders_that_are_not_listed_are_counted_without_those_that_are(self):
+        self.open(pages.made_up("plain"))
+        for named in (1, 3):
+            for without in (False, True):
+                for more in (1, 4):
+                    orders = [{"order": ">".join("ab"[: 1 + at % 2]) + "c" * at, "count": 50 - at} for at in range(named)] + [{"order": "others", "count": 9}]
+                    orders += [{"order": "no latch", "count": 7}] if without else []
+                    self.run_script("Object.assign(W.set(), { orders: arguments[0], wing_orders: [], without_latch: 0, order_kinds: arguments[1] }); W.outcomes()", orders, named + more)
+                    cells = [row[0] for row in self.table("Latch orders")]
+                    self.assertEqual(cells[named], "one other order" if more == 1 else f"{more} other orders")
+                    self.assertEqual(len(cells), named + 1 + without)
