@@ -1,4 +1,8 @@
-"""What is shown of several things that a set may have: influences by either coefficient, the orders that are not listed."""
+"""What is shown of several things that a set may have: influences by either coefficient, the orders that are not listed, the spread inside cases."""
+
+import math
+import re
+import statistics
 
 import pages
 
@@ -31,3 +35,13 @@ class CauseChecks:
                     cells = [row[0] for row in self.table("Latch orders")]
                     self.assertEqual(cells[named], "one other order" if more == 1 else f"{more} other orders")
                     self.assertEqual(len(cells), named + 1 + without)
+
+    def test_cases_of_different_spread_are_pooled_by_their_variances(self):
+        self.open(pages.made_up("cases"))
+        for means, spreads in (((10, 20, 60), (1, 2, 20)), ((100, 101, 103), (0.5, 8, 3))):
+            text = self.run_script("""const [means, stds] = arguments, name = 'root.peak_moment';
+                W.sets.forEach((set, at) => Object.assign(set.outputs.find(one => one.name === name), { mean: means[at], std: stds[at] })); return W.caseEffect(W.sets[0], name)""", means, spreads)
+            between, inside = statistics.pvariance(means), statistics.mean(one**2 for one in spreads)
+            share, pooled = re.search(r"weight, ([\d.]+) % lies between the cases.*pooled over the cases, is ([\d.]+) ", text).groups()
+            self.assertAlmostEqual(float(share), 100 * between / (between + inside), delta=0.06, msg=text)
+            self.assertAlmostEqual(float(pooled), math.sqrt(inside), delta=0.006 * math.sqrt(inside), msg=text)
