@@ -45,3 +45,15 @@ class CauseChecks:
             share, pooled = re.search(r"weight, ([\d.]+) % lies between the cases.*pooled over the cases, is ([\d.]+) ", text).groups()
             self.assertAlmostEqual(float(share), 100 * between / (between + inside), delta=0.06, msg=text)
             self.assertAlmostEqual(float(pooled), math.sqrt(inside), delta=0.006 * math.sqrt(inside), msg=text)
+
+    def test_folders_are_said_to_have_cases_only_if_each_has_all_of_them(self):
+        self.open(pages.made_up("cases"))
+        for labels in ("A cold|B hot", "A cold|A hot|B cold", "A cold|A hot|B cold|B hot", "A cold|A hot|B cold|C hot"):
+            folders, cases = (sorted({label.split()[k] for label in labels.split("|")}) for k in (0, 1))
+            extent = self.run_script("""const first = W.sets[0]; W.sets.length = 0;
+                arguments[0].forEach(([folder, one]) => W.sets.push({ ...first, case: one, label: `${folder} · ${one}` }));
+                W.subtitle(); return document.querySelector('#subtitle .facts').textContent""", [label.split() for label in labels.split("|")])
+            whole = labels.count("|") + 1 == len(folders) * len(cases)
+            self.assertEqual(f"{len(folders)} folders ({', '.join(folders)}) of {len(cases)} cases" in extent, whole, extent)
+            if not whole:
+                self.assertIn(f"{labels.count('|') + 1} cases: {labels.replace(' ', ' · ').replace('|', ', ')}", extent)
