@@ -21,6 +21,7 @@ try:
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
     import pages
+    from cause_checks import CauseChecks
     from change_checks import ChangeChecks
     from data_checks import DataChecks
     from finding_checks import FindingChecks
@@ -94,7 +95,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(StudyPageChecks, JudgementChecks, ShapeChecks, WordChecks, PartChecks, FitPageChecks, RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
+class Quick(CauseChecks, StudyPageChecks, JudgementChecks, ShapeChecks, WordChecks, PartChecks, FitPageChecks, RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")

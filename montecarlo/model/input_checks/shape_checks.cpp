@@ -39,6 +39,20 @@ std::size_t hinge_of(const Scene& scene, int body) {
                                   scene.hinges.begin());
 }
 
+/// Whether a body is another one or is carried by it.
+bool is_carried_by(const Scene& scene, int body, int other) {
+  while (body != other && body != base_index) body = scene.hinges[hinge_of(scene, body)].parent;
+  return body == other;
+}
+
+/// The hinge whose angle moves one of two bodies against the other: that of the outer one, wherever it stands in the
+/// file; of bodies beside each other the later hinge.
+std::size_t hinge_between(const Scene& scene, int a, int b) {
+  if (is_carried_by(scene, a, b)) return hinge_of(scene, a);
+  if (is_carried_by(scene, b, a)) return hinge_of(scene, b);
+  return std::max(hinge_of(scene, a), hinge_of(scene, b));
+}
+
 /// Whether the body is modelled without thickness: its hinge points lie on an axis of its frame.
 bool is_thin(const Scene& scene, int body) {
   Eigen::Vector2d beyond{0, 0};
@@ -52,9 +66,8 @@ bool is_thin(const Scene& scene, int body) {
 void check_stowed(const Scene& scene, const Arms& arms, InputWarnings& warnings) {
   const std::vector<Placement> bodies = place_bodies(scene, stowed_angles(scene));
   const auto tell = [&](int a, int b, const char* what) {
-    const std::size_t h = std::max(hinge_of(scene, a), hinge_of(scene, b));
     warnings.add(
-        fmt::format("/hinges/{}/angle/stowed", h),
+        fmt::format("/hinges/{}/angle/stowed", hinge_between(scene, a, b)),
         fmt::format("{} and {} {} when stowed", scene.bodies[a].name, scene.bodies[b].name, what),
         "bodies side by side (`wingspread check` prints where they are)");
   };

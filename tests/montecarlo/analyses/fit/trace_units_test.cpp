@@ -1,0 +1,36 @@
+#include "montecarlo/analyses/fit/fit_spec.hpp"
+#include "tests/montecarlo/analyses/fit/fit_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <numbers>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("a trace whose numbers are in another unit is refused with the factor between them") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign());
+  const auto refusal = [&](double factor, double std) {
+    std::string text = "t,th\n";
+    for (int k = 0; k <= 80; ++k)
+      text += csv_cell(0.02 * k) + "," + csv_cell(factor * panel_angle(0.02 * k, 1.03, 0.8)) + "\n";
+    folder.write("t1.csv", text);
+    Json tests =
+        parse_json(R"({ "tests": [ { "name": "one", "trace": { "file": "t1.csv", "time": "t",
+      "columns": { "root.angle": { "column": "th" } } } } ], "fit": { "parameters": ["spring", "friction"] } })");
+    tests["tests"][0]["trace"]["columns"]["root.angle"]["std"] = std;
+    return message_of([&] { return read_fit(tests, "t", folder.path(), campaign); });
+  };
+  CHECK(refusal(1, 0.01).empty());
+  constexpr double degrees = 180 / std::numbers::pi;
+  for (const auto& [factor, printed, is_angle] :
+       {std::tuple(degrees, "57.3", true), std::tuple(1 / degrees, "0.0175", true),
+        std::tuple(1e3, "1e+03", false), std::tuple(1e-3, "0.001", false)}) {
+    const std::string told = refusal(factor, 0.01);
+    CAPTURE(factor, told);
+    CHECK_THAT(told, Catch::Contains("/columns/root.angle: found numbers " + std::string(printed) +
+                                     " times those of the motion"));
+    CHECK((told.find("\"deg\"") != std::string::npos) == is_angle);
+  }
+}
