@@ -223,6 +223,11 @@ class JudgementChecks:
         self.assertEqual(commands[1], "wingspread analyze again --requirements a/summary.json")
         self.run_script("W.sets[0].together.confidence = -0.1; W.sets[0].together.groups = []; W.outcomes()")
         self.assertIn("no guarantee", self.run_script("return document.querySelector('ul.together').textContent"))
+        self.open(pages.made_up("cases"))
+        self.run_script("for (const set of W.sets) set.together = arguments[0]; W.sets[1].together = { ...arguments[0], groups: [] }; W.outcomes()", wanted)
+        labels = self.run_script("return W.sets.map(set => set.label)")
+        group = next(line for line in self.run_script("return [...document.querySelectorAll('ul.together li')].map(e => e.textContent)") if "group" in line)
+        self.assertEqual([label in group.split("group")[0] for label in labels], [at != 1 for at in range(len(labels))])
 
     def test_the_scenes_tables_and_the_notes_of_its_modes(self):
         self.open(pages.made_up("plain"))
@@ -231,8 +236,10 @@ class JudgementChecks:
         rows = self.run_script("return [...document.querySelectorAll('table.scene-tables tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))")
         self.assertEqual([row[0] for row in rows], ["hinges.root.spring.measured", ""])
         for row, column in zip(rows, table["columns"], strict=True):
-            self.assertEqual((row[1], row[2].replace("\u2009", "")), (column["name"], column["unit"]))
-            self.assertEqual([float(cell.replace("\u2212", "-")) for cell in row[3].split(" · ")], column["values"])
+            factor, unit = (DEGREES, "deg") if column["unit"] == "rad" else (1, column["unit"])
+            self.assertEqual((row[1], row[2]), (column["name"], unit))
+            for cell, value in zip(row[3].split(" · "), column["values"], strict=True):
+                self.assertAlmostEqual(float(cell.replace("\u2212", "-")), factor * value, delta=1e-4 * abs(factor * value))
         self.run_script("W.set().inputs.tables = []; W.inputs()")
         self.assertEqual(self.run_script("return document.querySelectorAll('table.scene-tables').length"), 0)
         self.run_script("W.set().modes = { wing: W.set().wing, rest: [0, 0, 0], notes: ['root presses its stop'], modes: [{ frequency: 1, damping_ratio: 0, shape: [1, 0, 0], base: null }] }; W.modes()")

@@ -321,23 +321,27 @@
     );
   }
 
-  // What the requirements of each set show together, as the terminal's table says it.
+  // What the requirements of each set show together, as the terminal's table says it; of sets that show the same, once.
   function together() {
-    const lines = W.sets.flatMap(function (set) {
+    const found = new Map();
+    for (const set of W.sets) {
       const { groups = [], confidence = null } = set.together || {},
         all = set.requirements || [],
-        where = W.sets.length > 1 ? `${set.label}: ` : "",
         passing = all.filter((one) => verdictOf(one.verdict) === "passed").length;
-      return [
-        ...groups.map((one) =>
-          h("li", `${where}group ${one.group}: `, W.verdictBadge(one.verdict, true), ` ${one.passed} of ${one.requirements} pass, joint confidence ${F.given(100 * one.confidence)} %`),
-        ),
-        passing > 1
-          ? h("li", `${where}joint confidence of all ${all.length} requirements: ${confidence > 0 ? `at least ${F.given(Number((100 * confidence).toPrecision(10)))} %` : "no guarantee"}`)
-          : null,
-      ].filter(Boolean);
-    });
-    return lines.length ? h("ul.together", lines) : null;
+      const add = (verdict, text) => found.set(verdict + text, { verdict, text, labels: [...((found.get(verdict + text) || {}).labels || []), set.label] });
+      for (const one of groups)
+        add(one.verdict, `group ${one.group}: ${one.passed} of ${one.requirements} pass, joint confidence ${F.given(100 * one.confidence)} %`);
+      if (passing > 1)
+        add("", `joint confidence of all ${all.length} requirements: ${confidence > 0 ? `at least ${F.given(Number((100 * confidence).toPrecision(10)))} %` : "no guarantee"}`);
+    }
+    return found.size
+      ? h(
+          "ul.together",
+          [...found.values()].map(({ verdict, text, labels }) =>
+            h("li", W.sets.length > 1 ? `${listed(labels)}${labels.length > 1 ? ", each" : ""}: ` : null, verdict ? [W.verdictBadge(verdict, true), " "] : null, text),
+          ),
+        )
+      : null;
   }
 
   function requirements() {

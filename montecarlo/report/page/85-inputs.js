@@ -111,12 +111,11 @@
   }
   function sceneTables(set) {
     const rows = (set.inputs.tables || []).flatMap((table) =>
-      table.columns.map((column, at) => [
-        at ? "" : h("code", table.path),
-        column.name.replace(/_/g, " "),
-        F.unit(column.unit),
-        h("span.law", column.values.map((value) => F.number(value, 5)).join(" · ")),
-      ]),
+      table.columns.map(function (column, at) {
+        const { factor, unit } = F.shown(column.unit),
+          values = column.values.map((value) => F.number(value * factor, 5));
+        return [at ? "" : h("code", table.path), column.name.replace(/_/g, " "), unit, h("span.law", values.join(" · "))];
+      }),
     );
     return rows.length
       ? h(
