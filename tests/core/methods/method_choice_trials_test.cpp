@@ -26,7 +26,7 @@ TEST_CASE("after a vain trial auto waits, twice as long after each up to a limit
   };
   // an implicit step costs 30 evaluations
   const auto implicit = [&](double pays) { return pays * choice::implicit_cost * h * 30 / 12; };
-  CHECK(steps_until(Method::seulex, h, 12) == HeldBackSteps<double>::enough);
+  CHECK(static_cast<double>(steps_until(Method::seulex, h, 12)) == HeldBackSteps<double>::enough);
   for (long wait = choice::first_retry; wait <= 2 * choice::longest_retry; wait *= 2) {
     CHECK(steps_until(Method::dop853, implicit(0.2), 30) < 50);
     CAPTURE(wait);
