@@ -124,6 +124,33 @@ TEST_CASE(
   CHECK_FALSE(have_same_tree(made.scene, scene));
 }
 
+TEST_CASE("a hinge hangs on the segment that holds its point, wherever the point lies") {
+  Draws draws(41);
+  for (const int joints : {1, 2, 3, 8}) {
+    const auto half_of = [&](int j) { // a segment's half length: the outermost are half as long
+      return (j == 0 || j == joints ? 0.25 : 0.5) / joints;
+    };
+    for (int k = 0; k < 40; ++k) {
+      Scene scene = bending_rod(joints, 1e4); // 1 m long, along x
+      scene.hinges[0].child_point = {draws.uniform(-0.5, 0.5), draws.uniform(-0.1, 0.1)};
+      Hinge next = scene.hinges[0];
+      next.name = "next", next.parent = 0, next.child = 1;
+      next.parent_point = {draws.uniform(-0.5, 0.5), draws.uniform(-0.1, 0.1)};
+      scene.bodies.push_back({"tip", 1, 0.1});
+      scene.hinges.push_back(next);
+      const SegmentedScene made = with_segments(scene);
+      const auto index_of = [&](int body) {
+        return static_cast<int>(std::ranges::find(made.segments[0], body) -
+                                made.segments[0].begin());
+      };
+      CAPTURE(joints, k);
+      const Hinge &root = made.scene.hinges[0], &tip = made.scene.hinges[1];
+      CHECK(std::abs(root.child_point.x()) < half_of(index_of(root.child)) + 1e-12);
+      CHECK(std::abs(tip.parent_point.x()) < half_of(index_of(tip.parent)) + 1e-12);
+    }
+  }
+}
+
 TEST_CASE("a panel with less inertia than a rod has more mass towards the middle") {
   for (const int joints : {1, 2, 5, 16}) {
     for (const double share : {0.99, 0.8}) {

@@ -1,0 +1,52 @@
+// Steps end at the knots of all tables of a wing: its base's and its motors'.
+#include "tests/core/deployment/real_runs.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+std::vector<double> random_times(Draws& draws, int count, double t_end) {
+  std::vector<double> times{draws.uniform(-1, 0.5)};
+  while (static_cast<int>(times.size()) < count)
+    times.push_back(times.back() + draws.uniform(0.05, 2 * t_end / count));
+  return times;
+}
+
+} // namespace
+
+TEST_CASE(
+    "a base that a table holds still is a fixed one, whichever knots the motors' tables have") {
+  for (int seed = 1; seed <= 12; ++seed) {
+    Draws draws(seed);
+    Scene fixed = seed_scene();
+    for (Hinge& hinge : fixed.hinges) {
+      if (!draws.chance(0.7)) continue;
+      Motor motor{.time = random_times(draws, 6, 4), .interpolation = Interpolation::linear};
+      for (std::size_t k = 0; k < motor.time.size(); ++k)
+        motor.rates.push_back(draws.uniform(-1, 1));
+      motor.table = std::make_shared<Curve>(motor.time, motor.rates, motor.interpolation);
+      motor.gain = draws.uniform(0.5, 5), motor.torque_limit = 1e3;
+      hinge.motor = motor;
+    }
+    Scene held = fixed;
+    BaseTable::Columns still{random_times(draws, 4, 4), {}, {}, {}};
+    still.rate.assign(4, 0.0);
+    held.base.motion = BaseMotion::prescribed;
+    held.base.table = std::make_shared<const BaseTable>(still, Interpolation::linear);
+    for (const char* method : {"auto", "dop853", "bulirsch_stoer", "seulex"}) {
+      Integration how = within(1e-10, 4);
+      how.method = method;
+      const Outcome expected = Deployment().run(fixed, how, to_the_end);
+      const Outcome out = Deployment().run(held, how, to_the_end);
+      CAPTURE(seed, method, out.reason);
+      REQUIRE(out.latches.size() == expected.latches.size());
+      for (int i = 0; i < 3; ++i)
+        CHECK(std::abs(out.final.angles[i] - expected.final.angles[i]) < 1e-8);
+    }
+  }
+}

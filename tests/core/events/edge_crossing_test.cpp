@@ -1,0 +1,57 @@
+// Steps that begin exactly at an angle at which a hinge's law changes.
+#include "core/events/edge_crossing.hpp"
+#include "tests/support/real_scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+/// A step over h from an angle, by c sⁿ (1 − s/r): its first n − 1 derivatives vanish at the start.
+Step<double> step_from(double angle, double c, int n, double r, double h) {
+  const auto power = [](double s, int k) { return k < 0 ? 0.0 : std::pow(s, k); };
+  const auto state = [&](double s, State<double>& x, State<double>& dxdt) {
+    const double first = n * power(s, n - 1) - (n + 1) * power(s, n) / r;
+    const double second = n * (n - 1) * power(s, n - 2) - n * (n + 1) * power(s, n - 1) / r;
+    x = {angle + c * (power(s, n) - power(s, n + 1) / r), c * first / h};
+    dxdt = {x[1], c * second / (h * h)};
+  };
+  Step<double> step;
+  step.t = 2, step.h = h;
+  state(0, step.x, step.dxdt), state(1, step.x1, step.dxdt1);
+  return step;
+}
+
+} // namespace
+
+TEST_CASE("a hinge that leaves an edge from rest does not cross it until it returns") {
+  Draws draws(5);
+  for (int k = 0; k < 400; ++k) {
+    Scene scene = free_panel(draws.uniform(-0.5, 0.5));
+    Hinge& hinge = scene.hinges[0];
+    hinge.stop = Stop{100, 0.1, draws.uniform(0, 0.2)};
+    hinge.damper.emplace().window = {hinge.stowed + 0.1, hinge.stowed + 0.6};
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    for (const Edge edge : {Edge::stop, Edge::window_low, Edge::window_high})
+      for (const bool above : {false, true}) {
+        system.note_crossing(1, edge, above);
+        REQUIRE(way_over(system, 1, edge) == (above ? -1 : 1));
+        const double angle = edge_angle(wing, 1, edge), h = draws.log_uniform(1e-3, 1);
+        const double c = (above ? 1 : -1) * draws.log_uniform(1e-6, 0.3);
+        const double returns = draws.uniform(0.05, 2);
+        const int n = 1 + draws.below(3); // with a rate, with an acceleration, or with neither
+        const std::optional<double> s =
+            first_crossing(system, step_from(angle, c, n, returns, h), 1, edge);
+        CAPTURE(k, above, c, n, returns);
+        REQUIRE(s.has_value() == (returns < 1));
+        if (s) CHECK(*s == Approx(returns).epsilon(1e-6));
+      }
+  }
+}
