@@ -60,6 +60,29 @@ TEST_CASE("margin judges the requirements of a file as if they were the campaign
   CHECK(run_program(folder, {"margin", bare, "--out", folder.path() / "none"}).code == 2);
 }
 
+TEST_CASE("what margin recommends by other requirements is a campaign that runs") {
+  const Folder folder;
+  Json json = margin_campaign();
+  json["requirements"] = parse_json(
+      R"([{ "name": "D-1", "output": "deployed", "probability": 0.8, "confidence": 0.9 }])");
+  json["until"] = parse_json(R"([{ "requirement": "D-1" }])");
+  Json bounded = late; // too slow with weak springs, too fast with strong ones
+  bounded.push_back({{"name", "L-2"},
+                     {"output", "root.latch_time"},
+                     {"min", 3.5},
+                     {"probability", 0.8},
+                     {"confidence", 0.9}});
+  const std::string file = folder.write("c.json", json.dump()),
+                    list = folder.write("late.json", bounded.dump());
+  const std::filesystem::path out = folder.path() / "m";
+  CHECK(run_program(folder, {"margin", file, "--requirements", list, "--out", out}).code <= 1);
+  const std::filesystem::path recommended = out / "recommended.json";
+  REQUIRE(std::filesystem::exists(recommended));
+  CHECK(parse_json_file(recommended)["requirements"].size() == 2);
+  const auto ran = run_program(folder, {"run", recommended, "--out", folder.path() / "r"});
+  CHECK(ran.code <= 1);
+}
+
 TEST_CASE("the report of rejudged runs prints commands that judge by its requirements") {
   Json json = margin_campaign();
   json.erase("margin");

@@ -202,6 +202,19 @@ TEST_CASE("check says what a file holds, or all that is wrong with it") {
                      "size\n");
 }
 
+TEST_CASE("a nominal wing that the dispersions' medians make unphysical is refused") {
+  const Folder folder;
+  Json campaign = quick_campaign(5);
+  campaign["dispersions"] = parse_json(R"([ { "name": "mass", "to": ["bodies.panel_2.mass"],
+    "apply": "scale", "distribution": { "type": "uniform", "lower": -3, "upper": 1 } } ])");
+  const std::string file = folder.write("c.json", campaign.dump());
+  for (const char* command : {"simulate", "modes"}) {
+    const auto refused = run_program(folder, {command, file});
+    CHECK((refused.code == 2 && refused.out.empty()));
+    CHECK_THAT(refused.error, HasFacts({"bodies.panel_2.mass", "median", "> 0"}));
+  }
+}
+
 TEST_CASE("smoothed latches are refused where they would leave something out, with the place") {
   const Folder folder;
   const std::vector<std::pair<const char*, double>> laws{

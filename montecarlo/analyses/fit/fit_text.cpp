@@ -224,8 +224,9 @@ std::string prediction_text(const FitResult& result) {
     text += fmt::format("{}{:>36}{:>36}\n", in_column("  " + output.name, name_width),
                         range(output.before), range(output.after));
   if (result.beside_cases)
-    text += "  of the campaign's wing in none of its cases; `wingspread run` of the written campaign "
-            "predicts each\n";
+    text +=
+        "  of the campaign's wing in none of its cases; `wingspread run` of the written campaign "
+        "predicts each\n";
   return text;
 }
 

@@ -36,8 +36,8 @@ inline constexpr double named_weight = 0.15;
 /// deviation.
 ///
 /// A fit holds these dispersions at their medians. If they are off by one standard deviation of their laws, the mode
-/// moves, to first order, by S = −(VᵀV)⁻¹VᵀV_h. V and V_h are the columns of the least squares' Jacobian for fitted and for held
-/// dispersions. The factor is √(1 + ΣS²/C), summed over the held dispersions.
+/// moves, to first order, by S = −(VᵀV)⁻¹VᵀV_h. V and V_h are the columns of the least squares' Jacobian for fitted and
+/// for held dispersions. The factor is √(1 + ΣS²/C), summed over the held dispersions.
 /// @param runs       of a space in which the held dispersions are parameters too, with normal laws (with_normal_laws)
 /// @param at         the mode in that space, with the held dispersions at 0
 /// @param fitted     indices of the fitted parameters in that space; all others are held

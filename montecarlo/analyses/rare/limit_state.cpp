@@ -73,7 +73,8 @@ double remaining_travel(const Scene& scene, const Outcome& outcome) {
 std::string describe(const RareEvent& event) {
   if (event.output.empty()) return "not deployed";
   const char* bar = event.absolute ? "|" : "";
-  return fmt::format("{0}{1}{0} {2} {3:.6g}", bar, event.output, event.above ? '>' : '<', event.limit);
+  return fmt::format("{0}{1}{0} {2} {3:.6g}", bar, event.output, event.above ? '>' : '<',
+                     event.limit);
 }
 
 double level_of(const RareEvent& event, double g) {
@@ -101,7 +102,10 @@ LimitState::LimitState(const Campaign& campaign, RareEvent event)
 }
 
 Measure LimitState::measure() const {
-  const Json event{{"output", event_.output}, {"limit", event_.limit}, {"above", event_.above}, {"abs", event_.absolute}};
+  const Json event{{"output", event_.output},
+                   {"limit", event_.limit},
+                   {"above", event_.above},
+                   {"abs", event_.absolute}};
   return {"g", goal_,
           [this](const Scene& scene, const Outcome& outcome) { return of(scene, outcome); },
           event.dump()};

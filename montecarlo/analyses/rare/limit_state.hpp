@@ -34,9 +34,9 @@ namespace wingspread {
 
 /// An event in a run.
 struct RareEvent {
-  std::string output; ///< its name; empty: the event is "not deployed"
-  double limit = 0;   ///< limit of the output, in its unit
-  bool above = true;  ///< the event is a value above the limit; false: below
+  std::string output;    ///< its name; empty: the event is "not deployed"
+  double limit = 0;      ///< limit of the output, in its unit
+  bool above = true;     ///< the event is a value above the limit; false: below
   bool absolute = false; ///< the value's magnitude counts
 };
 

@@ -39,6 +39,16 @@ void apply_settings(const api::Settings& settings, Integration& integration) {
   override_settings(given, [&](const JsonCursor& at) { read_integration(at, integration); });
 }
 
+/// Refuses a nominal wing that dispersions at their medians make unphysical; a scene alone is checked as it is read.
+void refuse_unphysical(const Scene& nominal) {
+  std::vector<Problem> problems;
+  for (const Fault& fault : unphysical(nominal))
+    problems.push_back({"", fault.path,
+                        fault.found + " in the nominal wing, every dispersion at its median",
+                        fault.expected});
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
 } // namespace
 
 std::variant<Scene, Campaign> read_input(const api::Input& input) {
@@ -67,6 +77,7 @@ Task task_of(std::variant<Scene, Campaign> input, const api::Settings& settings)
     change_scene(*campaign, settings.set);
     if (!settings.of_case.empty()) *campaign = chosen_case(*campaign, settings.of_case);
     task = {nominal_scene(*campaign), std::move(campaign->integration)};
+    refuse_unphysical(task.scene);
   } else {
     if (!settings.of_case.empty()) (void)chosen_case(Campaign(), settings.of_case);
     task.scene = changed_scene(std::get<Scene>(std::move(input)), settings.set);

@@ -10,9 +10,9 @@
 ///
 /// All numbers are in SI units and radians. The same seed gives the same bits as the program, with any number of
 /// threads. Errors: wingspread::SpecError for wrong input, wingspread::MachineError if the machine lacks memory, disk
-/// space or a permission, wingspread::Stopped after a stop. The first two have the text that the program prints. A run that fails is a row of the table, not an
-/// error. Every function may be called from any thread, and from several threads at once; each call has a thread pool
-/// of its own.
+/// space or a permission, both with the text that the program prints; wingspread::Stopped after a stop. A run that fails
+/// is a row of the table, not an error. Every function may be called from any thread, from several threads at once, and
+/// in a process that was forked; each call has a thread pool of its own.
 #pragma once
 
 #include "montecarlo/foundation/formats/machine_error.hpp"

@@ -339,6 +339,12 @@ void read_analysis(const JsonCursor& at, Campaign& campaign) {
 
 void override_requirements(Campaign& campaign, const std::filesystem::path& path) {
   campaign.requirements = read_requirements_file(path, campaign);
+  std::erase_if(campaign.until, [&](const StoppingGoal& goal) {
+    const auto* decided = std::get_if<DecisionGoal>(&goal);
+    return decided && std::ranges::none_of(campaign.requirements, [&](const Requirement& each) {
+             return name_of(each) == decided->requirement;
+           });
+  });
   campaign.resolved = write_campaign(campaign, Json(campaign.resolved.at("dispersions")));
 }
 

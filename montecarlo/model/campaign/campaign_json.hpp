@@ -64,7 +64,8 @@ void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from)
 /// depends on the order of keys. Notes problems.
 void override_stopping(Campaign& campaign, const JsonCursor& at);
 
-/// Replaces the requirements by those of a file (read_requirements_file), also in `resolved`.
+/// Replaces the requirements by those of a file (read_requirements_file), also in `resolved`. Goals to stop at that name
+/// none of them go.
 /// @throws SpecError with all problems
 void override_requirements(Campaign& campaign, const std::filesystem::path& path);
 
