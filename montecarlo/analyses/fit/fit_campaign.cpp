@@ -76,7 +76,8 @@ Json predicting_campaign(const Campaign& campaign, const std::vector<std::size_t
   if (json.contains("correlations")) {
     Json kept = Json::array();
     for (const Json& pair : json["correlations"])
-      if (!is_fitted_name(campaign, fitted, pair["between"][0].get<std::string>()))
+      if (!is_fitted_name(campaign, fitted, pair["between"][0].get<std::string>()) &&
+          !is_fitted_name(campaign, fitted, pair["between"][1].get<std::string>()))
         kept.push_back(pair);
     json["correlations"] = std::move(kept);
   }
@@ -99,6 +100,19 @@ std::vector<std::string> lost_laws(const Campaign& campaign,
     for (const CaseDistribution& law : spec.distributions)
       if (is_fitted_name(campaign, fitted, law.dispersion))
         lost.push_back(fmt::format("{}: {}", spec.name, law.dispersion));
+  return lost;
+}
+
+std::vector<std::string> lost_correlations(const Campaign& campaign,
+                                           const std::vector<std::size_t>& fitted) {
+  std::vector<std::string> lost;
+  const auto name = [&](std::size_t i) { return campaign.dispersions[i].name; };
+  for (const RankCorrelation& pair : campaign.wanted_correlations)
+    if (has(fitted, pair.first) != has(fitted, pair.second)) {
+      const bool first = has(fitted, pair.second); // the one that is not fitted
+      lost.push_back(fmt::format("{} with {}", name(first ? pair.first : pair.second),
+                                 name(first ? pair.second : pair.first)));
+    }
   return lost;
 }
 

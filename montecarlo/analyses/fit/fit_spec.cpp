@@ -373,10 +373,11 @@ void refuse_few_data(const FitSpec& spec, const std::string& file, std::vector<P
     data += test.values.size() + test.times.size() * test.columns.size(),
         parameters += test.own.size();
   if (data < parameters)
-    problems.push_back({file, "/tests",
-                        fmt::format("{} measured number{} for {} parameters", data,
-                                    data == 1 ? "" : "s", parameters),
-                        "at least as many numbers as parameters"});
+    problems.push_back(
+        {file, "/tests",
+         fmt::format("{} measured number{} for {} parameters", data, data == 1 ? "" : "s",
+                     parameters),
+         "at least as many numbers as parameters (one of \"own\" counts for each test)"});
 }
 
 } // namespace

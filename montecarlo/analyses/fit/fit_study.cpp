@@ -167,6 +167,7 @@ public:
     for (std::size_t k = 0; k < space_.common(); ++k)
       written.push_back(space_.list()[k].dispersion);
     result_.lost_laws = lost_laws(campaign_, written);
+    result_.lost_correlations = lost_correlations(campaign_, written);
     return std::move(result_);
   }
 
@@ -270,8 +271,13 @@ private:
       at[static_cast<Eigen::Index>(fitted.back())] =
           modes_.front().at[static_cast<Eigen::Index>(k)];
     }
-    const std::vector<double> widening = widening_by_held(data_, modes_.front().prediction, runs,
-                                                          at, fitted, covariance_of(points_));
+    std::vector<std::size_t> not_fitted; // dispersions, in the order of `space`
+    for (std::size_t k = 0; k < space.size(); ++k)
+      if (std::ranges::find(fitted, k) == fitted.end())
+        not_fitted.push_back(space.list()[k].dispersion);
+    const std::vector<double> widening =
+        widening_by_held(data_, modes_.front().prediction, runs, at, fitted, covariance_of(points_),
+                         correlations_in_rows(campaign_, not_fitted));
     for (std::size_t k = 0; k < widening.size(); ++k) result_.parameters[k].widen(widening[k]);
     result_.runs += runs.runs();
   }

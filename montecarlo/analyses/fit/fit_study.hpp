@@ -117,7 +117,8 @@ struct FitResult {
   std::vector<CandidateGain> candidates;
   std::vector<PredictedOutput> prediction;
   bool beside_cases = false; ///< the campaign has cases, and the prediction is of none of them
-  std::vector<std::string> lost_laws; ///< of cases, for fitted dispersions; see lost_laws()
+  std::vector<std::string> lost_correlations; ///< see lost_correlations()
+  std::vector<std::string> lost_laws;         ///< of cases, for fitted dispersions; see lost_laws()
 };
 
 /// Runs points of the prior before anything is written. @param file of the tests, for the message

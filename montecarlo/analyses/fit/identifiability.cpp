@@ -72,7 +72,8 @@ std::string describe(const FitDirection& direction, const std::vector<std::strin
 std::vector<double> widening_by_held(const FitData& data, const Prediction& prediction,
                                      TestRuns& runs, const FitPoint& at,
                                      const std::vector<std::size_t>& fitted,
-                                     const Eigen::MatrixXd& covariance) {
+                                     const Eigen::MatrixXd& covariance,
+                                     const Eigen::MatrixXd& among_held) {
   const Eigen::MatrixXd v = least_squares_jacobian(data, squares_of(data, prediction), runs, at);
   const auto own = static_cast<Eigen::Index>(fitted.size());
   Eigen::MatrixXd seen(v.rows(), own), held(v.rows(), v.cols() - own);
@@ -84,7 +85,8 @@ std::vector<double> widening_by_held(const FitData& data, const Prediction& pred
   const Eigen::MatrixXd shift = (seen.transpose() * seen).llt().solve(seen.transpose() * held);
   std::vector<double> widening;
   for (Eigen::Index k = 0; k < own; ++k)
-    widening.push_back(std::sqrt(1 + shift.row(k).squaredNorm() / covariance(k, k)));
+    widening.push_back(std::sqrt(1 + std::max(0.0, shift.row(k).dot(shift.row(k) * among_held)) /
+                                         covariance(k, k)));
   return widening;
 }
 

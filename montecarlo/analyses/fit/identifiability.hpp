@@ -37,16 +37,16 @@ inline constexpr double named_weight = 0.15;
 ///
 /// A fit holds these dispersions at their medians. If they are off by one standard deviation of their laws, the mode
 /// moves, to first order, by S = −(VᵀV)⁻¹VᵀV_h. V and V_h are the columns of the least squares' Jacobian for fitted and
-/// for held dispersions. The factor is √(1 + ΣS²/C), summed over the held dispersions.
+/// for held dispersions. The factor is √(1 + S R Sᵀ/C), with R the correlations of the held ones.
 /// @param runs       of a space in which the held dispersions are parameters too, with normal laws (with_normal_laws)
 /// @param at         the mode in that space, with the held dispersions at 0
 /// @param fitted     indices of the fitted parameters in that space; all others are held
 /// @param covariance C of the fitted parameters, in u
-[[nodiscard]] std::vector<double> widening_by_held(const FitData& data,
-                                                   const Prediction& prediction, TestRuns& runs,
-                                                   const FitPoint& at,
-                                                   const std::vector<std::size_t>& fitted,
-                                                   const Eigen::MatrixXd& covariance);
+/// @param among_held R, in the order of the held dispersions in that space
+[[nodiscard]] std::vector<double>
+widening_by_held(const FitData& data, const Prediction& prediction, TestRuns& runs,
+                 const FitPoint& at, const std::vector<std::size_t>& fitted,
+                 const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& among_held);
 
 /// The gain of a candidate, a test that has not been made.
 struct CandidateGain {

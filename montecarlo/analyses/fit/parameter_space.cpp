@@ -123,6 +123,29 @@ Campaign with_normal_laws(Campaign campaign, const std::vector<std::size_t>& hel
   return campaign;
 }
 
+Eigen::MatrixXd correlations_in_rows(const Campaign& campaign,
+                                     const std::vector<std::size_t>& dispersions) {
+  const auto n = static_cast<Eigen::Index>(dispersions.size());
+  Eigen::MatrixXd correlations = Eigen::MatrixXd::Identity(n, n);
+  const auto column = [&](Eigen::Index i) -> const Dispersion& {
+    return campaign.dispersions[dispersions[static_cast<std::size_t>(i)]];
+  };
+  const auto centred = [](const Dispersion& dispersion) {
+    const std::vector<double>& values = std::get<Empirical>(dispersion.distribution.law).values;
+    const auto mapped =
+        Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    return Eigen::VectorXd(mapped - mapped.mean());
+  };
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < i; ++j) {
+      if (column(i).rows.empty() || column(i).rows != column(j).rows) continue;
+      const Eigen::VectorXd a = centred(column(i)), b = centred(column(j));
+      const double scale = a.norm() * b.norm();
+      correlations(i, j) = correlations(j, i) = scale > 0 ? a.dot(b) / scale : 0;
+    }
+  return correlations;
+}
+
 Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted) {
   for (std::size_t i = 0; i < campaign.dispersions.size(); ++i) {
     if (std::ranges::find(fitted, i) != fitted.end()) continue;

@@ -62,6 +62,11 @@ private:
 /// of `rows` for itself: near u = 0 a unit of u is then a standard deviation of the law, whatever the law is.
 [[nodiscard]] Campaign with_normal_laws(Campaign campaign, const std::vector<std::size_t>& held);
 
+/// The correlations of these dispersions that are columns of the same `rows`; 0 between others. (Those of the campaign's
+/// "correlations" act through its copula.)
+[[nodiscard]] Eigen::MatrixXd correlations_in_rows(const Campaign& campaign,
+                                                   const std::vector<std::size_t>& dispersions);
+
 /// The campaign in which only fitted dispersions vary: all others have their medians.
 [[nodiscard]] Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted);
 

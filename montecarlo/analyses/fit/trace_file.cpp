@@ -4,6 +4,7 @@
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/number_text.hpp"
+#include "montecarlo/foundation/formats/quantity.hpp"
 
 #include <fmt/format.h>
 
@@ -18,19 +19,6 @@ constexpr std::size_t least_rows = 2;
 // Heuristic: a prediction has a sample every 10 to 20 ms, 1e6 of them up to this time. A larger limit lets a typing
 // error in a time take all memory.
 constexpr double latest = 2e4; // s
-
-/// A cell of the header: a name, and a unit in brackets if there is one.
-struct HeaderCell {
-  std::string name, unit;
-};
-
-HeaderCell header_cell(const std::string& cell) {
-  const std::size_t open = cell.find_last_of("[(");
-  if (open == std::string::npos || !(cell.ends_with(']') || cell.ends_with(')'))) return {cell, ""};
-  std::string name = cell.substr(0, open);
-  while (name.ends_with(' ')) name.pop_back();
-  return {name, cell.substr(open + 1, cell.size() - open - 2)};
-}
 
 /// Index of a column in the file, and the factor of its unit.
 struct Place {
@@ -63,7 +51,8 @@ std::optional<Place> place_of(const TraceColumn& column, const std::vector<std::
       return std::nullopt;
     }
     place = {i, 1};
-    unit = cell.name == column.header ? cell.unit : "";
+    // of a column that is named by its whole header, brackets without a unit are part of the name
+    unit = cell.name == column.header || is_unit(cell.unit) ? cell.unit : "";
   }
   if (!place) {
     column.at.refuse(fmt::format("\"{}\"", column.header),

@@ -131,4 +131,12 @@ const std::vector<std::string>& CsvReader::cells() {
   return cells_;
 }
 
+HeaderCell header_cell(const std::string& cell) {
+  const std::size_t open = cell.find_last_of("[(");
+  if (open == std::string::npos || !(cell.ends_with(']') || cell.ends_with(')'))) return {cell, ""};
+  std::string name = cell.substr(0, open);
+  while (name.ends_with(' ')) name.pop_back();
+  return {name, cell.substr(open + 1, cell.size() - open - 2)};
+}
+
 } // namespace wingspread

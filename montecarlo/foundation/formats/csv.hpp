@@ -84,4 +84,10 @@ private:
   bool terminated_ = true;
 };
 
+/// A cell of a header: a name, and a unit in brackets if there is one ("th1 [deg]", "M (N*m)").
+struct HeaderCell {
+  std::string name, unit;
+};
+[[nodiscard]] HeaderCell header_cell(const std::string& cell);
+
 } // namespace wingspread

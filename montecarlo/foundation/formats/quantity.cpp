@@ -232,6 +232,10 @@ Names symbols_within(std::string_view unit, const Unit& wanted) {
 
 } // namespace
 
+bool is_unit(std::string_view text) {
+  return !text.empty() && UnitParser(text, {}).parse().has_value();
+}
+
 std::optional<double> in_unit(std::string_view text, std::string_view unit) {
   double number = 0;
   const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), number);

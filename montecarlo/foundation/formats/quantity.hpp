@@ -20,6 +20,9 @@ struct Dimension {
 /// Converts text to a number in `unit`; nothing if the text is no finite number with a unit of the same dimension.
 [[nodiscard]] std::optional<double> in_unit(std::string_view text, std::string_view unit);
 
+/// Whether the text is a unit of any dimension.
+[[nodiscard]] bool is_unit(std::string_view text);
+
 /// All units of the same dimension, for messages: `"kg", "g", "lb", "lbm" or "slug"`. Of a product of units the usual
 /// ones, and the symbols that can stand in it: `"s/rad" or "s/deg", or another one made of s, ms, min, h, rad, mrad,
 /// deg, °, rev`.

@@ -85,9 +85,10 @@ Answer runs_for_share(const SizeOptions& options) {
        {"confidence", options.confidence},
        {"proportion", proportion},
        {"runs", *runs}},
-      fmt::format("{} runs give a share near {} an interval {} wide, from lower to upper bound, "
-                  "with confidence {} (Clopper–Pearson, two-sided)\n",
-                  *runs, proportion, width, options.confidence)};
+      fmt::format(
+          "{} runs give a share near {} an interval {} wide, from lower to upper bound, "
+          "with confidence {} (Clopper–Pearson, two-sided, interpolated between whole counts)\n",
+          *runs, proportion, width, options.confidence)};
 }
 
 int size(const SizeOptions& options) {

@@ -184,6 +184,16 @@ Dispersion read_row_column(const JsonCursor& at, const std::string& name, Apply 
   return column;
 }
 
+/// The SI unit of a column's values; empty for factors and for draws that act through tables; nothing if it is not known.
+std::optional<std::string_view> unit_of_column(const Dispersion& column) {
+  if (column.apply == Apply::scale || !column.through.empty()) return "";
+  if (column.targets.empty()) return std::nullopt;
+  const std::string_view first = unit_of(column.targets.front());
+  const bool common = std::ranges::all_of(
+      column.targets, [&](const SceneParameter& target) { return unit_of(target) == first; });
+  return common ? std::optional(first) : std::nullopt;
+}
+
 /// Reads the values of all columns: from the file, or from "values" as a resolved campaign has them.
 void read_row_values(JsonObject& object, const std::filesystem::path& directory,
                      std::vector<Dispersion>& columns, Json& resolved) {
@@ -202,7 +212,8 @@ void read_row_values(JsonObject& object, const std::filesystem::path& directory,
     Empirical law;
     const std::size_t before = object.at().problems().size();
     if (file)
-      read_csv_column(object.at(), name, column.name, directory, law.values);
+      read_csv_column(object.at(), name, column.name, directory, unit_of_column(column),
+                      law.values);
     else
       list->required(column.name, law.values, "an array of numbers");
     if (object.at().problems().size() > before) continue;

@@ -2,6 +2,7 @@
 
 #include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/quantity.hpp"
 #include "montecarlo/model/scene_file/scene_parameter.hpp"
 
 #include <fmt/format.h>
@@ -81,18 +82,35 @@ double parse_cell(const CsvReader& reader, const std::string& cell, const std::s
   throw reader.error(column, fmt::format("'{}'", cell), "a finite number");
 }
 
-/// Reads one column of a CSV file with a header.
+/// The factor to SI of a column's unit in the header's brackets.
+/// @param unit SI unit of the values; nothing: not known, and brackets mean nothing
+/// @throws SpecError for a unit of another dimension
+double factor_of(const std::string& header, std::optional<std::string_view> unit,
+                 const CsvReader& reader, const std::string& column) {
+  const std::string given = header_cell(header).unit;
+  if (!unit || !is_unit(given)) return 1; // brackets of a name
+  if (const auto factor = in_unit("1 " + given, *unit)) return *factor;
+  throw reader.error(column, fmt::format("the unit \"{}\"", given),
+                     unit->empty() ? "no unit" : "one such as " + units_like(*unit));
+}
+
+/// Reads one column of a CSV file with a header. @param unit see factor_of
 /// @throws SpecError at the first problem
 std::vector<double> read_column(std::istream& in, const std::string& file,
-                                const std::string& column) {
+                                const std::string& column, std::optional<std::string_view> unit) {
   CsvReader reader(in, file);
   const bool has_header = reader.next();
   const std::vector<std::string> header = has_header ? reader.cells() : std::vector<std::string>{};
-  const auto index = static_cast<std::size_t>(std::ranges::find(header, column) - header.begin());
-  if (std::ranges::count(header, column) != 1)
+  const auto is_named = [&](const std::string& cell) {
+    return cell == column || (is_unit(header_cell(cell).unit) && header_cell(cell).name == column);
+  };
+  const auto index =
+      static_cast<std::size_t>(std::ranges::find_if(header, is_named) - header.begin());
+  if (std::ranges::count_if(header, is_named) != 1)
     throw reader.error(column,
                        index == header.size() ? "no such column" : "the column more than once",
                        "the column once in the header");
+  const double factor = factor_of(header[index], unit, reader, column);
   std::vector<double> values;
   while (reader.next()) {
     const std::vector<std::string>& cells = reader.cells();
@@ -100,7 +118,7 @@ std::vector<double> read_column(std::istream& in, const std::string& file,
     if (cells.size() != header.size())
       throw reader.error("", fmt::format("{} cells", cells.size()),
                          fmt::format("{}, as in the header", header.size()));
-    values.push_back(parse_cell(reader, cells[index], column));
+    values.push_back(factor * parse_cell(reader, cells[index], column));
   }
   return values;
 }
@@ -113,7 +131,7 @@ void read_empirical(JsonObject& object, Empirical& law, const std::filesystem::p
   std::string name, column;
   const bool named = object.required("file", name, "a string, the name of a CSV file");
   const bool picked = object.required("column", column, "a string, a column's name in the header");
-  if (named && picked) read_csv_column(object.at(), name, column, directory, law.values);
+  if (named && picked) read_csv_column(object.at(), name, column, directory, unit, law.values);
 }
 
 void read_truncation(const JsonCursor& at, std::optional<Truncation>& truncate,
@@ -148,7 +166,8 @@ bool is_of_itself(const DistributionFault& fault, const Law& law, const std::str
 } // namespace
 
 void read_csv_column(const JsonCursor& at, const std::string& name, const std::string& column,
-                     const std::filesystem::path& directory, std::vector<double>& values) {
+                     const std::filesystem::path& directory, std::optional<std::string_view> unit,
+                     std::vector<double>& values) {
   const std::filesystem::path path = directory / name;
   const auto text = read_text(path);
   if (!text) {
@@ -158,7 +177,7 @@ void read_csv_column(const JsonCursor& at, const std::string& name, const std::s
   }
   std::istringstream in(*text);
   try {
-    values = read_column(in, path.string(), column);
+    values = read_column(in, path.string(), column, unit);
   } catch (const SpecError& error) {
     at.problems().insert(at.problems().end(), error.problems().begin(), error.problems().end());
   }

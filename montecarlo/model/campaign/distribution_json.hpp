@@ -35,9 +35,12 @@ namespace wingspread {
 /// another problem already explains. @return whether there was any
 bool drop_quantities(std::size_t before, std::vector<Problem>& problems);
 
-/// Reads one column of a CSV file with a header; notes a problem at `at`, if no file can be read, or in the file.
+/// Reads one column of a CSV file with a header; notes a problem at `at`, if no file can be read, or in the file. A unit
+/// in the header's brackets ("z [N*mm]", named "z" or in full) counts.
+/// @param unit SI unit of the values; empty: they have none; nothing: not known, and brackets mean nothing
 void read_csv_column(const JsonCursor& at, const std::string& name, const std::string& column,
-                     const std::filesystem::path& directory, std::vector<double>& values);
+                     const std::filesystem::path& directory, std::optional<std::string_view> unit,
+                     std::vector<double>& values);
 
 /// The distribution as JSON; an empirical law has its values instead of a file name.
 [[nodiscard]] Json write_distribution(const Distribution& distribution);

@@ -263,6 +263,34 @@ TEST_CASE("what is held widens by the standard deviation of its law, whatever th
   }
 }
 
+// The torque is 2 N·m spring − 0.3 N·m − a − b: an error of a + b moves the spring by half of it.
+TEST_CASE("columns of held rows widen together, as far as they go with each other") {
+  const Folder folder;
+  const auto widened = [&](double sign) {
+    Json json = panel_campaign(0.5, 0.2);
+    json["dispersions"].erase(1);
+    json["dispersions"].push_back(parse_json(R"({ "name": "shop", "rows": { "apply": "add",
+      "columns": { "a": "hinges.root.friction.coulomb", "b": "hinges.root.friction.coulomb" } } })"));
+    Json a = Json::array(), b = Json::array();
+    for (int k = -2; k <= 2; ++k) a.push_back(0.02 * k), b.push_back(sign * 0.02 * k);
+    json["dispersions"][1]["rows"]["values"] = {{"a", a}, {"b", b}};
+    const Campaign campaign = campaign_of(json);
+    const FitSpec spec = read_fit(parse_json(R"({ "tests": [ { "name": "timer",
+        "values": [ { "output": "root.latch_time", "value": 2.3, "std": "1 ms" } ] } ],
+      "fit": { "parameters": ["spring"], "samples": 100, "starts": 2 } })"),
+                                  "", folder.path(), campaign);
+    const FitResult result = fitted(campaign, spec);
+    REQUIRE(result.held.size() == 2);
+    const FittedParameter& spring = result.parameters[0];
+    return std::pair(spring.widening * spring.std, spring.std);
+  };
+  const double std = 0.02 * std::sqrt(2.0); // of −2 … 2
+  const auto [together, alone] = widened(1);
+  CHECK(together == Approx(std::hypot(alone, std)).epsilon(0.02));
+  const auto [against, own] = widened(-1);
+  CHECK(against == Approx(own).epsilon(0.02));
+}
+
 TEST_CASE("a prior's moments are those of its law, also where it is cut") {
   CHECK(moments_of({Normal{3, 0.03}, std::nullopt}).standard_deviation == 0.03);
   const LawMoments wide = moments_of({Lognormal{0, 1}, std::nullopt});

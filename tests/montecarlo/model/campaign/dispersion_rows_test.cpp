@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <numbers>
 #include <set>
 
 using namespace wingspread;
@@ -133,4 +134,42 @@ TEST_CASE("problems of rows have their places") {
                               "fitted": { "type": "constant", "value": 1 } } } ] })") ==
         "/cases/0/distributions/fitted: found \"fitted\", which draws rows, expected the name of a "
         "dispersion with a distribution");
+}
+
+TEST_CASE("a unit in a column's header counts, of rows and of an empirical law") {
+  const Folder folder;
+  folder.write("t.csv",
+               "torque [N*mm],angle (deg),factor [-],side (left)\n100,90,1.5,0.25\n200,45,2,0.5\n");
+  const auto read = [&](const char* column, const char* path, const char* how, bool rows) {
+    Json json = quick_campaign(2);
+    const Json effect{{"to", {path}}, {"apply", how}};
+    if (rows)
+      json["dispersions"] = {
+          {{"name", "all"},
+           {"rows", {{"file", "t.csv"}, {"apply", how}, {"columns", {{column, effect}}}}}}};
+    else
+      json["dispersions"] = {
+          {{"name", "one"},
+           {"to", {path}},
+           {"apply", how},
+           {"distribution", {{"type", "empirical"}, {"file", "t.csv"}, {"column", column}}}}};
+    const Campaign campaign = read_campaign(json.dump(), folder.path());
+    return std::get<Empirical>(campaign.dispersions[0].distribution.law).values;
+  };
+  const char* torque = "hinges.root.spring.torque_stowed";
+  for (const bool rows : {true, false}) {
+    CAPTURE(rows);
+    for (const char* column : {"torque", "torque [N*mm]"}) {
+      const std::vector<double> values = read(column, torque, "add", rows);
+      CHECK(values[0] == Approx(0.1).epsilon(1e-15));
+      CHECK(values[1] == Approx(0.2).epsilon(1e-15));
+    }
+    CHECK(read("angle", "hinges.root.angle.latched", "add", rows)[0] ==
+          Approx(std::numbers::pi / 2).epsilon(1e-15));
+    CHECK(read("factor [-]", torque, "scale", rows)[0] == 1.5);
+    CHECK(read("side (left)", torque, "add", rows)[1] == 0.5); // no unit, but a name
+    for (const auto& [column, how] : {std::pair("angle", "add"), {"torque", "scale"}})
+      CHECK_THAT(message_of([&] { (void)read(column, torque, how, rows); }),
+                 Catch::Contains(column) && Catch::Contains("the unit \""));
+  }
 }
