@@ -368,16 +368,16 @@ private:
 
 /// Refuses more parameters than measured numbers.
 void refuse_few_data(const FitSpec& spec, const std::string& file, std::vector<Problem>& problems) {
-  std::size_t data = 0, parameters = spec.parameters.size();
+  std::size_t data = 0, own = 0;
   for (const FitTest& test : spec.tests)
-    data += test.values.size() + test.times.size() * test.columns.size(),
-        parameters += test.own.size();
+    data += test.values.size() + test.times.size() * test.columns.size(), own += test.own.size();
+  const std::size_t parameters = spec.parameters.size() + own;
   if (data < parameters)
-    problems.push_back(
-        {file, "/tests",
-         fmt::format("{} measured number{} for {} parameters", data, data == 1 ? "" : "s",
-                     parameters),
-         "at least as many numbers as parameters (one of \"own\" counts for each test)"});
+    problems.push_back({file, "/tests",
+                        fmt::format("{} measured number{} for {} parameters", data,
+                                    data == 1 ? "" : "s", parameters),
+                        fmt::format("at least as many numbers as parameters{}",
+                                    own > 0 ? " (one of \"own\" counts for each test)" : "")});
 }
 
 } // namespace

@@ -132,6 +132,11 @@ TEST_CASE("each fault of the tests has its place") {
         "fit": { "parameters": ["spring", "friction"] } })")) ==
         "tests.json: /tests: found 1 measured number for 2 parameters, expected at least as many "
         "numbers as parameters");
+  CHECK_THAT(
+      files.problems(parse_json(R"({ "tests": [ { "name": "t", "own": ["friction"], "values": [
+          { "output": "root.latch_time", "value": 2, "std": 0.1 } ] } ],
+        "fit": { "parameters": ["spring", "friction"] } })")),
+      Catch::Contains("1 measured number for 3 parameters") && Catch::Contains("\"own\""));
 }
 
 TEST_CASE("the numbers of a fit are accepted up to their limits, and no further") {
