@@ -7,7 +7,8 @@
 ///
 /// A stop that the wing presses at rest is a spring and damper like its latch (stop.hpp; damping k c δ with δ at rest);
 /// a stop that it does not reach counts for nothing. Small swings have no friction but the viscous one, no power-law
-/// damper (its damping depends on the swing), no backlash, and no air. A prescribed base stands still at its initial angle; its constant acceleration acts.
+/// damper (its damping depends on the swing), no backlash, and no air. A prescribed base stands still at its initial
+/// angle; its constant acceleration acts.
 /// A motor has the last rate w of its command. Within its torque limit T it is a damper of its gain c about that rate,
 /// beyond it a constant torque:
 ///

@@ -58,6 +58,11 @@ TEST_CASE("margin judges the requirements of a file as if they were the campaign
   std::filesystem::copy(folder.path() / "r" / summary_file, folder.path() / "summary.json");
   CHECK(margin(bare, "summary.json") == expected);
   CHECK(run_program(folder, {"margin", bare, "--out", folder.path() / "none"}).code == 2);
+  const std::string empty = written("empty.json", Json::array());
+  const auto refused = run_program(
+      folder, {"margin", file, "--requirements", empty, "--out", folder.path() / "none"});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.error, HasFacts({"error: " + empty, "no requirement"}));
 }
 
 TEST_CASE("what margin recommends by other requirements is a campaign that runs") {

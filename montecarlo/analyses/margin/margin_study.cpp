@@ -82,8 +82,7 @@ std::vector<MarginSearch> searches_of(const MarginSpec& spec, const Scene& scene
     }
   for (MarginSearch& search : searches)
     search.of_springs = std::ranges::any_of(search.scaled, [&](const SceneParameter& parameter) {
-      return parameter.owner == SceneParameter::Owner::hinge &&
-             sizes_spring({&parameter, 1}, scene, parameter.index);
+      return sizes_a_spring(parameter, scene);
     });
   return searches;
 }

@@ -152,6 +152,9 @@ void warn_of_input(Campaign campaign, const MarginOptions& options) {
   campaign.requirements.clear();
   print_warnings(check_input(campaign, options.campaign), false);
   campaign.requirements = read_requirements_file(other, campaign);
+  if (campaign.requirements.empty())
+    throw SpecError(
+        {{other.string(), "", "no requirement", "at least one: they limit the window"}});
   print_warnings(check_requirements_file(campaign, other), false);
 }
 

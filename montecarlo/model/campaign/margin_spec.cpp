@@ -94,6 +94,11 @@ bool sizes_spring(std::span<const SceneParameter> scaled, const Scene& scene, in
   });
 }
 
+bool sizes_a_spring(const SceneParameter& parameter, const Scene& scene) {
+  return parameter.owner == SceneParameter::Owner::hinge &&
+         sizes_spring({&parameter, 1}, scene, parameter.index);
+}
+
 MarginSpec read_margin(const JsonCursor& at, const Scene* scene, StaticMarginSpec& motorization) {
   MarginSpec margin;
   const std::size_t before = at.problems().size();

@@ -48,5 +48,7 @@ struct MarginSpec {
 /// Whether one of the parameters scales the hinge's spring (its scale counts too).
 [[nodiscard]] bool sizes_spring(std::span<const SceneParameter> scaled, const Scene& scene,
                                 int hinge);
+/// Whether the parameter scales the spring of its hinge.
+[[nodiscard]] bool sizes_a_spring(const SceneParameter& parameter, const Scene& scene);
 
 } // namespace wingspread

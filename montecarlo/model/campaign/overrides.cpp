@@ -91,9 +91,7 @@ bool scales_spring(const Scene& scene, const std::vector<std::string>& paths) {
   return std::ranges::any_of(paths, [&](const std::string& path) {
     const ParameterMatches found = resolve(scene, path);
     return std::ranges::any_of(found.matches, [&](const ParameterMatch& match) {
-      const SceneParameter& parameter = match.parameter;
-      return parameter.owner == SceneParameter::Owner::hinge &&
-             sizes_spring({&parameter, 1}, scene, parameter.index);
+      return sizes_a_spring(match.parameter, scene);
     });
   });
 }

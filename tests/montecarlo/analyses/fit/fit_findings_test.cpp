@@ -234,6 +234,18 @@ TEST_CASE("the findings name the laws of cases that the written campaign does no
   CHECK(fit_findings(result, spec).back().ends_with("in every case: cold: friction"));
 }
 
+namespace {
+
+/// The spring fitted to one latch time.
+FitSpec timed_once(const Campaign& campaign, const Folder& folder) {
+  return read_fit(parse_json(R"({ "tests": [ { "name": "timer",
+      "values": [ { "output": "root.latch_time", "value": 2.3, "std": "1 ms" } ] } ],
+    "fit": { "parameters": ["spring"], "samples": 100, "starts": 2 } })"),
+                  "", folder.path(), campaign);
+}
+
+} // namespace
+
 // To first order the spring moves by 0.15 of what the friction is off, whatever the friction's law.
 TEST_CASE("what is held widens by the standard deviation of its law, whatever the law") {
   const Folder folder;
@@ -250,10 +262,7 @@ TEST_CASE("what is held widens by the standard deviation of its law, whatever th
     for (Json& each : json["dispersions"])
       if (each["name"] == "friction") each["distribution"] = law;
     const Campaign campaign = campaign_of(json);
-    const FitSpec spec = read_fit(parse_json(R"({ "tests": [ { "name": "timer",
-        "values": [ { "output": "root.latch_time", "value": 2.3, "std": "1 ms" } ] } ],
-      "fit": { "parameters": ["spring"], "samples": 100, "starts": 2 } })"),
-                                  "", folder.path(), campaign);
+    const FitSpec spec = timed_once(campaign, folder);
     const FitResult result = fitted(campaign, spec);
     CAPTURE(law.dump());
     REQUIRE(result.held.size() == 1);
@@ -275,10 +284,7 @@ TEST_CASE("columns of held rows widen together, as far as they go with each othe
     for (int k = -2; k <= 2; ++k) a.push_back(0.02 * k), b.push_back(sign * 0.02 * k);
     json["dispersions"][1]["rows"]["values"] = {{"a", a}, {"b", b}};
     const Campaign campaign = campaign_of(json);
-    const FitSpec spec = read_fit(parse_json(R"({ "tests": [ { "name": "timer",
-        "values": [ { "output": "root.latch_time", "value": 2.3, "std": "1 ms" } ] } ],
-      "fit": { "parameters": ["spring"], "samples": 100, "starts": 2 } })"),
-                                  "", folder.path(), campaign);
+    const FitSpec spec = timed_once(campaign, folder);
     const FitResult result = fitted(campaign, spec);
     REQUIRE(result.held.size() == 2);
     const FittedParameter& spring = result.parameters[0];
