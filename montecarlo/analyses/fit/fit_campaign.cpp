@@ -103,17 +103,4 @@ std::vector<std::string> lost_laws(const Campaign& campaign,
   return lost;
 }
 
-std::vector<std::string> lost_correlations(const Campaign& campaign,
-                                           const std::vector<std::size_t>& fitted) {
-  std::vector<std::string> lost;
-  const auto name = [&](std::size_t i) { return campaign.dispersions[i].name; };
-  for (const RankCorrelation& pair : campaign.wanted_correlations)
-    if (has(fitted, pair.first) != has(fitted, pair.second)) {
-      const bool first = has(fitted, pair.second); // the one that is not fitted
-      lost.push_back(fmt::format("{} with {}", name(first ? pair.first : pair.second),
-                                 name(first ? pair.second : pair.first)));
-    }
-  return lost;
-}
-
 } // namespace wingspread

@@ -11,8 +11,8 @@ namespace wingspread {
 
 inline constexpr const char* posterior_file = "posterior.csv";
 
-/// The campaign with the dispersions replaced by one that draws rows of posterior.csv. Their correlations, with each other
-/// and with other dispersions, and laws that cases give them are left out.
+/// The campaign with the dispersions replaced by one that draws rows of posterior.csv. Their correlations and laws
+/// that cases give them are left out.
 /// @param fitted indices of the dispersions; the columns have their names
 [[nodiscard]] Json predicting_campaign(const Campaign& campaign,
                                        const std::vector<std::size_t>& fitted);
@@ -20,9 +20,5 @@ inline constexpr const char* posterior_file = "posterior.csv";
 /// The laws of cases that predicting_campaign leaves out: "cold: temperature".
 [[nodiscard]] std::vector<std::string> lost_laws(const Campaign& campaign,
                                                  const std::vector<std::size_t>& fitted);
-
-/// The correlations between a fitted and another dispersion that predicting_campaign leaves out: "own with shared".
-[[nodiscard]] std::vector<std::string> lost_correlations(const Campaign& campaign,
-                                                         const std::vector<std::size_t>& fitted);
 
 } // namespace wingspread

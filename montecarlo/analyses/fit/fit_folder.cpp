@@ -70,13 +70,11 @@ FitFolder::FitFolder(std::filesystem::path folder, const Json& about, bool resum
 
 void FitFolder::write(FitResult& result, const Campaign& campaign, const FitSpec& spec,
                       ThreadPool pool, const std::atomic<bool>& stop) {
-  std::vector<std::size_t> fitted;
-  for (std::size_t k = 0; k < result.common; ++k) fitted.push_back(result.space[k].dispersion);
   write_file(folder_ / traces_csv_file, traces_csv(result, spec));
-  if (!fitted.empty()) {
+  if (!result.written.empty()) {
     const auto path = folder_ / campaign_file;
     write_file(folder_ / posterior_file, posterior_csv(result));
-    write_file(path, json_text(predicting_campaign(campaign, fitted)));
+    write_file(path, json_text(predicting_campaign(campaign, result.written)));
     result.beside_cases = !campaign.cases.empty();
     result.prediction = predicted_outputs(campaign, read_campaign_file(path), pool, stop);
   }

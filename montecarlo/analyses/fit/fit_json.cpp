@@ -159,7 +159,7 @@ std::string posterior_csv(const FitResult& result) {
   const auto end_line = [&] {
     text.back() = '\n'; // in place of the last comma
   };
-  for (const std::string& name : common_names(result)) {
+  for (const std::string& name : result.written_names) {
     append_csv_cell(text, name);
     text += ',';
   }

@@ -3,6 +3,7 @@
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/random_stream.hpp"
 #include "montecarlo/analyses/fit/fit_campaign.hpp"
+#include "montecarlo/analyses/fit/physical_values.hpp"
 #include "montecarlo/analyses/fit/proposal.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
@@ -30,42 +31,6 @@ std::size_t walkers_for(std::size_t dimensions) {
   const std::size_t walkers = std::max(least_walkers, 4 * dimensions);
   return walkers + walkers % 2;
 }
-
-/// u of a sample → the common parameters as their dispersions apply them, others in SI.
-class PhysicalValues {
-public:
-  PhysicalValues(const Campaign& campaign, const FitSpec& spec, const ParameterSpace& space)
-      : space_(space), campaign_(fixed_but(campaign, spec.parameters)),
-        plan_(campaign_, [this](long, std::span<Tails> u) { space_.place(test_, *at_, u); }) {}
-
-  [[nodiscard]] std::vector<double> of(const FitPoint& at) {
-    std::vector<double> values(space_.size());
-    at_ = &at;
-    std::vector<double> draws(campaign_.dispersions.size());
-    test_.reset();
-    plan_.draw(0, draws);
-    for (std::size_t k = 0; k < space_.size(); ++k) {
-      const FitParameter& parameter = space_.list()[k];
-      if (parameter.kind != FitParameter::Kind::dispersion) {
-        values[k] = parameter.std * at[static_cast<Eigen::Index>(k)];
-        continue;
-      }
-      if (parameter.test && parameter.test != test_) {
-        test_ = parameter.test;
-        plan_.draw(0, draws);
-      }
-      values[k] = draws[parameter.dispersion];
-    }
-    return values;
-  }
-
-private:
-  const ParameterSpace& space_;
-  Campaign campaign_;
-  std::optional<std::size_t> test_;
-  const FitPoint* at_ = nullptr;
-  RunPlan plan_;
-};
 
 /// The 1 % of a prior next to a limit where it is cut off lies within this share of the way to its median; of a uniform law
 /// 0.02, of a normal one cut at its mean 0.019. Heuristic: laws that fade out towards 0 have far more.
@@ -163,11 +128,7 @@ public:
     result_.space = space_.list();
     result_.common = space_.common();
     result_.runs += runs_.runs();
-    std::vector<std::size_t> written;
-    for (std::size_t k = 0; k < space_.common(); ++k)
-      written.push_back(space_.list()[k].dispersion);
-    result_.lost_laws = lost_laws(campaign_, written);
-    result_.lost_correlations = lost_correlations(campaign_, written);
+    result_.lost_laws = lost_laws(campaign_, result_.written);
     return std::move(result_);
   }
 
@@ -243,11 +204,11 @@ private:
     const auto common = static_cast<Eigen::Index>(space_.common());
     result_.u_covariance = covariance.topLeftCorner(common, common);
     if (common > 0) result_.directions = directions_of(result_.u_covariance);
-    for (const FitPoint& point : chosen(points_, static_cast<std::size_t>(spec_.samples))) {
-      std::vector<double> row = values_.of(point);
-      row.resize(space_.common());
-      result_.rows.push_back(std::move(row));
-    }
+    const PosteriorRows rows = posterior_rows(
+        campaign_, space_, values_, chosen(points_, static_cast<std::size_t>(spec_.samples)));
+    result_.written = rows.columns;
+    result_.written_names = rows.names;
+    result_.rows = rows.rows;
   }
 
   void summarize_held() {

@@ -112,13 +112,16 @@ struct FitResult {
   std::vector<FittedChannel> channels;
   FittedValues values;
   EnsembleState sampler;
-  long runs = 0;                         ///< all runs made
-  std::vector<std::vector<double>> rows; ///< posterior.csv: common parameters
+  long runs = 0; ///< all runs made
+  /// The columns of posterior.csv: the common parameters, then dispersions that every test has of its own and that
+  /// depend on them through correlations: draws for a new unit, given the common ones.
+  std::vector<std::size_t> written; ///< indices in the campaign
+  std::vector<std::string> written_names;
+  std::vector<std::vector<double>> rows; ///< of posterior.csv
   std::vector<CandidateGain> candidates;
   std::vector<PredictedOutput> prediction;
   bool beside_cases = false; ///< the campaign has cases, and the prediction is of none of them
-  std::vector<std::string> lost_correlations; ///< see lost_correlations()
-  std::vector<std::string> lost_laws;         ///< of cases, for fitted dispersions; see lost_laws()
+  std::vector<std::string> lost_laws; ///< of cases, for written dispersions; see lost_laws()
 };
 
 /// Runs points of the prior before anything is written. @param file of the tests, for the message

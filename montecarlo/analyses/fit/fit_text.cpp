@@ -250,11 +250,6 @@ std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& sp
       list.push_back(dependence_text(fitted, spec));
   add_repeated(spec, list);
   add_held(result, list);
-  for (const std::string& pair : result.lost_correlations)
-    list.push_back(fmt::format(
-        "the correlation of {} is not in the written campaign, which draws the first by its prior "
-        "alone: what the tests say of it by the second is lost in the prediction",
-        pair));
   for (const std::string& law : result.lost_laws)
     list.push_back("the law of this case is not in the written campaign, which draws the posterior "
                    "in every case: " +

@@ -1,5 +1,6 @@
 #include "montecarlo/analyses/fit/parameter_space.hpp"
 
+#include "distributions/design.hpp"
 #include "distributions/prepared_distribution.hpp"
 #include "montecarlo/engine/runs/run_plan.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
@@ -44,15 +45,59 @@ void without_rows(Campaign& campaign) {
   campaign.resolved["dispersions"] = std::move(list);
 }
 
+/// Number of tests that have a value of their own.
+std::size_t tests_with_own(const FitSpec& spec, std::size_t dispersion) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      spec.tests, [&](const FitTest& test) { return is_own(test, dispersion); }));
+}
+
+/// The order of the copula's elimination; by name where nothing else decides, as in the campaign.
+std::vector<std::size_t> common_first(const Campaign& campaign, const FitSpec& spec) {
+  std::vector<std::string> names;
+  std::vector<int> places;
+  for (std::size_t i = 0; i < campaign.dispersions.size(); ++i) {
+    names.push_back(campaign.dispersions[i].name);
+    const std::size_t own = tests_with_own(spec, i);
+    places.push_back(own == 0 ? 0 : own < spec.tests.size() ? 1 : 2);
+  }
+  std::vector<std::size_t> order = order_by_name(names);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return places[i]; });
+  return order;
+}
+
+/// The dispersions among `own` that correlations connect with others, directly or through each other.
+std::vector<std::size_t> connected(const std::vector<RankCorrelation>& correlations,
+                                   const std::vector<std::size_t>& own) {
+  const auto is_among = [](const std::vector<std::size_t>& list, std::size_t i) {
+    return std::ranges::find(list, i) != list.end();
+  };
+  std::vector<std::size_t> found;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const RankCorrelation& pair : correlations)
+      for (const auto& [one, other] :
+           {std::pair(pair.first, pair.second), std::pair(pair.second, pair.first)})
+        if (is_among(own, one) && !is_among(found, one) &&
+            (!is_among(own, other) || is_among(found, other)))
+          found.push_back(one), grows = true;
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
 } // namespace
 
 ParameterSpace::ParameterSpace(const Campaign& campaign, const FitSpec& spec)
-    : dispersions_(campaign.dispersions.size()) {
+    : copula_(common_first(campaign, spec), campaign.wanted_correlations) {
   const auto name = [&](std::size_t i) { return campaign.dispersions[i].name; };
+  std::vector<std::size_t> own; // of every test
   for (const std::size_t i : spec.parameters)
-    if (!std::ranges::all_of(spec.tests, [&](const FitTest& test) { return is_own(test, i); }))
+    if (tests_with_own(spec, i) < spec.tests.size())
       list_.push_back({Kind::dispersion, name(i), i, std::nullopt});
+    else
+      own.push_back(i);
   common_ = list_.size();
+  dependent_ = connected(campaign.wanted_correlations, own);
   for (std::size_t t = 0; t < spec.tests.size(); ++t)
     for (const std::size_t i : spec.parameters)
       if (is_own(spec.tests[t], i))
@@ -78,6 +123,9 @@ void ParameterSpace::place(std::optional<std::size_t> test, const FitPoint& at,
     if (parameter.kind == Kind::dispersion && (!parameter.test || parameter.test == test))
       u[parameter.dispersion] = unit_point(at[static_cast<Eigen::Index>(k)]);
   }
+  if (copula_.is_independent()) return;
+  const std::vector<Tails> uncoupled(u.begin(), u.end());
+  copula_.couple(uncoupled, u);
 }
 
 double ParameterSpace::time_offset(std::size_t test, const FitPoint& at) const {
@@ -144,6 +192,12 @@ Eigen::MatrixXd correlations_in_rows(const Campaign& campaign,
       correlations(i, j) = correlations(j, i) = scale > 0 ? a.dot(b) / scale : 0;
     }
   return correlations;
+}
+
+Campaign without_correlations(Campaign campaign) {
+  campaign.wanted_correlations.clear();
+  campaign.resolved.erase("correlations");
+  return campaign;
 }
 
 Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted) {

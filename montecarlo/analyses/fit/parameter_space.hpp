@@ -3,9 +3,14 @@
 /// A fitted dispersion is u → Φ(u) → copula → quantile, as in `rare`. So bounds and correlations of the priors hold
 /// without further rules, and all unknowns have the scale 1. An offset of a clock or of a sensor is its standard
 /// deviation times u.
+///
+/// The copula takes the dispersions that are common to all tests first, then those that only some tests have of their
+/// own, then those that every test has of its own. So what is common has one value in all tests, and the value of a
+/// test's own follows the law that it has beside the common ones. (The campaign's own order is by name. Of two correlated
+/// dispersions that only some tests have of their own, the first one's own value moves the second.)
 #pragma once
 
-#include "distributions/continuous_law.hpp"
+#include "distributions/copula.hpp"
 #include "montecarlo/analyses/fit/fit_spec.hpp"
 
 #include <Eigen/Core>
@@ -41,7 +46,12 @@ public:
   /// Number of common dispersions, which come first in the list.
   [[nodiscard]] std::size_t common() const { return common_; }
 
-  /// The unit point of a run of the test. @param u per dispersion; dispersions that are not fitted are at their medians
+  /// The dispersions that every test has of its own and that depend on common ones through correlations: a new unit's
+  /// values are to be drawn beside those of the common ones.
+  [[nodiscard]] const std::vector<std::size_t>& dependent() const { return dependent_; }
+
+  /// The unit point of a run of the test, coupled: for a campaign without_correlations(). Dispersions that are not fitted
+  /// are at their medians, given the fitted ones. @param u output, per dispersion
   void place(std::optional<std::size_t> test, const FitPoint& at, std::span<Tails> u) const;
   /// Clock offset of the test at the point, s.
   [[nodiscard]] double time_offset(std::size_t test, const FitPoint& at) const;
@@ -52,7 +62,8 @@ public:
 private:
   std::vector<FitParameter> list_;
   std::size_t common_ = 0;
-  std::size_t dispersions_ = 0;
+  GaussianCopula copula_;
+  std::vector<std::size_t> dependent_;
 };
 
 /// The moments of a law, also of a truncated one.
@@ -66,6 +77,9 @@ private:
 /// "correlations" act through its copula.)
 [[nodiscard]] Eigen::MatrixXd correlations_in_rows(const Campaign& campaign,
                                                    const std::vector<std::size_t>& dispersions);
+
+/// The campaign whose coordinates are coupled already.
+[[nodiscard]] Campaign without_correlations(Campaign campaign);
 
 /// The campaign in which only fitted dispersions vary: all others have their medians.
 [[nodiscard]] Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted);

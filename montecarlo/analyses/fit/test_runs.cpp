@@ -17,7 +17,7 @@ constexpr double offsets_covered =
 
 Campaign campaign_for(const FitTest& test, const std::vector<std::size_t>& fitted,
                       RunAccuracy accuracy) {
-  Campaign campaign = fixed_but(test.campaign, fitted);
+  Campaign campaign = without_correlations(fixed_but(test.campaign, fitted));
   if (accuracy == RunAccuracy::derivative) {
     campaign.integration.rtol = std::min(campaign.integration.rtol, derivative_rtol);
     campaign.integration.atol = std::min(campaign.integration.atol, derivative_atol);

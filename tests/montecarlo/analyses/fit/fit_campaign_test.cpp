@@ -30,7 +30,6 @@ TEST_CASE("fitted dispersions become columns with their effects, others stay as 
   REQUIRE(after.wanted_correlations.size() == 1);
   CHECK(lost_laws(campaign, fitted) == std::vector<std::string>{"cold: cause"});
   CHECK(after.cases.at(0).distributions.empty());
-  CHECK(lost_correlations(campaign, fitted).empty()); // both or none of a pair are fitted
   // The effects: both campaigns with the same draws make the same scene.
   const auto draw_of = [](const std::string& name) {
     return name == "cause" ? 30 : name == "root_spring" ? 1.1 : 10.0;
@@ -46,34 +45,5 @@ TEST_CASE("fitted dispersions become columns with their effects, others stay as 
   for (const std::string& path : parameter_paths(campaign.scene)) {
     const SceneParameter parameter = resolve(campaign.scene, path).matches.front().parameter;
     CHECK(parameter.in(std::as_const(one)) == parameter.in(std::as_const(other)));
-  }
-}
-
-TEST_CASE("a correlation with a fitted dispersion is left out and told, in any order of the list") {
-  for (const bool fitted_first : {true, false}) {
-    const Folder folder;
-    Json json = quick_campaign(4);
-    const Json law = parse_json(R"({ "type": "normal", "mean": 0, "std": 0.1 })");
-    const auto dispersion = [&](const char* name) {
-      return Json{{"name", name},
-                  {"distribution", law},
-                  {"apply", "add"},
-                  {"to", {"hinges.root.spring.torque_stowed"}}};
-    };
-    json["dispersions"] = fitted_first
-                              ? Json{dispersion("shared"), dispersion("own"), dispersion("third")}
-                              : Json{dispersion("own"), dispersion("third"), dispersion("shared")};
-    for (const bool swapped : {false, true}) {
-      const Json pair = swapped ? Json{"own", "shared"} : Json{"shared", "own"};
-      json["correlations"] = {{{"between", pair}, {"spearman", 0.7}},
-                              {{"between", {"own", "third"}}, {"spearman", 0.2}}};
-      const Campaign campaign = campaign_of(json);
-      const std::vector<std::size_t> fitted{fitted_first ? 0u : 2u};
-      folder.write(posterior_file, "shared\n0.1\n0.2\n");
-      const Campaign after =
-          read_campaign(predicting_campaign(campaign, fitted).dump(), folder.path());
-      CHECK(after.wanted_correlations.size() == 1); // own with third
-      CHECK(lost_correlations(campaign, fitted) == std::vector<std::string>{"own with shared"});
-    }
   }
 }

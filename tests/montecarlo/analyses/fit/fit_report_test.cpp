@@ -68,6 +68,7 @@ FitResult result_of(oracle::Draws& draws) {
   value.name = "root.latch_time";
   value.measured = 4.25, value.fitted = 4.125, value.sigmas = 1.25, value.p_value = 0.375;
   result.sampler = {.evaluations = 4321, .acceptance = 0.625, .ess = 71.5, .r_hat = 1.03125};
+  for (std::size_t k = 0; k < 2; ++k) result.written_names.push_back(result.parameters[k].name);
   for (int row = 0; row < 5; ++row) result.rows.push_back(numbers_of(draws, 2));
   result.candidates = {{"less", 0.5, {0.9, 0.7, 0.8}}, {"more", 2.25, {0.4, 0.6, 1}}};
   result.prediction = {{"tip.latch_time", {1.5, 2.5, 3.5}, {1.75, 2.25, not_a_number}}};
