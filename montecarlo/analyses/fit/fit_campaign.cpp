@@ -1,5 +1,7 @@
 #include "montecarlo/analyses/fit/fit_campaign.hpp"
 
+#include "distributions/prepared_distribution.hpp"
+#include "distributions/random_stream.hpp"
 #include "montecarlo/model/campaign/distribution_json.hpp"
 
 #include <fmt/format.h>
@@ -101,6 +103,33 @@ std::vector<std::string> lost_laws(const Campaign& campaign,
       if (is_fitted_name(campaign, fitted, law.dispersion))
         lost.push_back(fmt::format("{}: {}", spec.name, law.dispersion));
   return lost;
+}
+
+PosteriorRows posterior_rows(const Campaign& campaign, const ParameterSpace& space,
+                             PhysicalValues& values, std::vector<FitPoint> points) {
+  PosteriorRows all;
+  std::vector<std::size_t> columns; // indices in the space
+  for (std::size_t k = 0; k < space.size(); ++k) {
+    const FitParameter& parameter = space.list()[k];
+    const bool is_new_unit = // its draw takes the place of the first test's own value
+        parameter.kind == FitParameter::Kind::dispersion && parameter.test == 0 &&
+        std::ranges::find(space.dependent(), parameter.dispersion) != space.dependent().end();
+    if (k >= space.common() && !is_new_unit) continue;
+    columns.push_back(k);
+    all.columns.push_back(parameter.dispersion);
+    all.names.push_back(campaign.dispersions[parameter.dispersion].name);
+  }
+  const PreparedDistribution normal({Normal{}, std::nullopt});
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    for (std::size_t c = space.common(); c < columns.size(); ++c)
+      points[n][static_cast<Eigen::Index>(columns[c])] = normal.quantile(
+          uniform(campaign.sampling.seed, n,
+                  stream_name("\x7F" + all.names[c]))); // a control character: no draw's stream
+    const std::vector<double> at = values.of(points[n]);
+    std::vector<double>& row = all.rows.emplace_back();
+    for (const std::size_t k : columns) row.push_back(at[k]);
+  }
+  return all;
 }
 
 } // namespace wingspread

@@ -1,9 +1,9 @@
-/// The campaign of the prediction: the fitted dispersions are rows of the posterior.
+/// The campaign of the prediction, and the rows of the posterior that it draws.
 #pragma once
 
-#include "montecarlo/analyses/fit/fit_spec.hpp"
+#include "montecarlo/analyses/fit/parameter_space.hpp"
 
-#include <filesystem>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -20,5 +20,17 @@ inline constexpr const char* posterior_file = "posterior.csv";
 /// The laws of cases that predicting_campaign leaves out: "cold: temperature".
 [[nodiscard]] std::vector<std::string> lost_laws(const Campaign& campaign,
                                                  const std::vector<std::size_t>& fitted);
+
+/// posterior.csv: the common parameters, then dispersions that every test has of its own and that depend on common ones
+/// through correlations. The latter are a new unit's: a draw of their law given the row's common parameters.
+struct PosteriorRows {
+  std::vector<std::size_t> columns; ///< dispersions of the campaign
+  std::vector<std::string> names;   ///< of the columns
+  std::vector<std::vector<double>> rows;
+};
+
+/// @param points samples of the posterior, a row each
+[[nodiscard]] PosteriorRows posterior_rows(const Campaign& campaign, const ParameterSpace& space,
+                                           PhysicalValues& values, std::vector<FitPoint> points);
 
 } // namespace wingspread

@@ -366,18 +366,18 @@ private:
   bool correlated_ = true;
 };
 
-/// Refuses more parameters than measured numbers.
 void refuse_few_data(const FitSpec& spec, const std::string& file, std::vector<Problem>& problems) {
-  std::size_t data = 0, own = 0;
-  for (const FitTest& test : spec.tests)
-    data += test.values.size() + test.times.size() * test.columns.size(), own += test.own.size();
-  const std::size_t parameters = spec.parameters.size() + own;
-  if (data < parameters)
+  std::size_t data = 0, parameters = spec.parameters.size(); // one of "own" counts for each test
+  bool is_noise_known = true;
+  for (const FitTest& test : spec.tests) {
+    data += test.values.size() + test.times.size() * test.columns.size();
+    parameters += test.own.size();
+    for (const FitColumn& column : test.columns) is_noise_known = is_noise_known && column.std;
+  }
+  if (data < parameters && !is_noise_known) // a fit through all numbers would make the noise 0
     problems.push_back({file, "/tests",
-                        fmt::format("{} measured number{} for {} parameters", data,
-                                    data == 1 ? "" : "s", parameters),
-                        fmt::format("at least as many numbers as parameters{}",
-                                    own > 0 ? " (one of \"own\" counts for each test)" : "")});
+                        fmt::format("{} numbers for {} parameters", data, parameters),
+                        "as many numbers, or the noise \"std\" of every column"});
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/random_stream.hpp"
 #include "montecarlo/analyses/fit/fit_campaign.hpp"
-#include "montecarlo/analyses/fit/physical_values.hpp"
 #include "montecarlo/analyses/fit/proposal.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"

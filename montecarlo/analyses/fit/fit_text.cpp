@@ -212,6 +212,17 @@ void add_cut_peaks(const FitResult& result, std::vector<std::string>& list) {
                                fmt::join(names, ", "), most, 2 * predicted_runs));
 }
 
+/// Fewer measured numbers than unknown dispersions leave some of them to the priors.
+void add_few_numbers(const FitResult& result, std::vector<std::string>& list) {
+  std::size_t numbers = 0;
+  for (const FittedChannel& fitted : result.channels) numbers += fitted.channel.count;
+  const auto unknowns = static_cast<std::size_t>(
+      std::ranges::count(result.space, FitParameter::Kind::dispersion, &FitParameter::kind));
+  if (numbers < unknowns)
+    list.push_back(fmt::format("{} measured number{} for {} parameters: the priors decide the rest",
+                               numbers, numbers == 1 ? "" : "s", unknowns));
+}
+
 std::string prediction_text(const FitResult& result) {
   if (result.prediction.empty()) return "";
   std::string text =
@@ -249,6 +260,7 @@ std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& sp
     if (fitted.channel.effective < 0.5 * static_cast<double>(fitted.channel.count))
       list.push_back(dependence_text(fitted, spec));
   add_repeated(spec, list);
+  add_few_numbers(result, list);
   add_held(result, list);
   for (const std::string& law : result.lost_laws)
     list.push_back("the law of this case is not in the written campaign, which draws the posterior "

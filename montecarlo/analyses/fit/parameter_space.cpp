@@ -2,7 +2,6 @@
 
 #include "distributions/design.hpp"
 #include "distributions/prepared_distribution.hpp"
-#include "montecarlo/engine/runs/run_plan.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/model/campaign/distribution_json.hpp"
 
@@ -210,6 +209,32 @@ Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted) {
   }
   without_rows(campaign);
   return campaign;
+}
+
+PhysicalValues::PhysicalValues(const Campaign& campaign, const FitSpec& spec,
+                               const ParameterSpace& space)
+    : space_(space), campaign_(without_correlations(fixed_but(campaign, spec.parameters))),
+      plan_(campaign_, [this](long, std::span<Tails> u) { space_.place(test_, *at_, u); }) {}
+
+std::vector<double> PhysicalValues::of(const FitPoint& at) {
+  std::vector<double> values(space_.size());
+  at_ = &at;
+  std::vector<double> draws(campaign_.dispersions.size());
+  test_.reset();
+  plan_.draw(0, draws);
+  for (std::size_t k = 0; k < space_.size(); ++k) {
+    const FitParameter& parameter = space_.list()[k];
+    if (parameter.kind != FitParameter::Kind::dispersion) {
+      values[k] = parameter.std * at[static_cast<Eigen::Index>(k)];
+      continue;
+    }
+    if (parameter.test && parameter.test != test_) {
+      test_ = parameter.test;
+      plan_.draw(0, draws);
+    }
+    values[k] = draws[parameter.dispersion];
+  }
+  return values;
 }
 
 } // namespace wingspread

@@ -12,6 +12,7 @@
 
 #include "distributions/copula.hpp"
 #include "montecarlo/analyses/fit/fit_spec.hpp"
+#include "montecarlo/engine/runs/run_plan.hpp"
 
 #include <Eigen/Core>
 
@@ -83,5 +84,24 @@ private:
 
 /// The campaign in which only fitted dispersions vary: all others have their medians.
 [[nodiscard]] Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted);
+
+/// u → dispersions as they are applied, offsets in SI.
+class PhysicalValues {
+public:
+  /// @pre the space outlives the object
+  PhysicalValues(const Campaign& campaign, const FitSpec& spec, const ParameterSpace& space);
+  PhysicalValues(const PhysicalValues&) = delete;
+  PhysicalValues& operator=(const PhysicalValues&) = delete;
+
+  /// The values of all parameters of the space, in its order.
+  [[nodiscard]] std::vector<double> of(const FitPoint& at);
+
+private:
+  const ParameterSpace& space_;
+  Campaign campaign_;
+  std::optional<std::size_t> test_;
+  const FitPoint* at_ = nullptr;
+  RunPlan plan_;
+};
 
 } // namespace wingspread

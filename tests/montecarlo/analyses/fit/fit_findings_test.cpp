@@ -307,3 +307,23 @@ TEST_CASE("a prior's moments are those of its law, also where it is cut") {
   CHECK(half.mean == Approx(std::sqrt(2 / std::numbers::pi)).epsilon(1e-3));
   CHECK(half.standard_deviation == Approx(std::sqrt(1 - 2 / std::numbers::pi)).epsilon(1e-3));
 }
+
+// The numbers that the tests lack are the priors': one measured spring teaches nothing of the friction.
+TEST_CASE("fewer numbers than parameters leave the rest to the priors, and are told") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign());
+  const FitSpec spec = read_fit(parse_json(R"({ "tests": [ { "name": "bench", "values": [
+      { "parameter": "hinges.root.spring.scale", "value": 1.1, "std": 0.05 } ] } ],
+    "fit": { "parameters": ["spring", "friction"], "samples": 2000, "starts": 2 } })"),
+                                "tests.json", folder.path(), campaign);
+  const FitResult result = fitted(campaign, spec);
+  REQUIRE(result.finished);
+  CHECK(result.parameters[0].mean == Approx(1.05).margin(4 * 0.036 / std::sqrt(2000.0)));
+  CHECK(result.parameters[0].std == Approx(0.05 / std::sqrt(2.0)).epsilon(0.08));
+  CHECK(result.parameters[1].mean == Approx(1).margin(4 * 0.3 / std::sqrt(2000.0)));
+  CHECK(result.parameters[1].std == Approx(0.3).epsilon(0.08));
+  const std::vector<std::string> findings = fit_findings(result, spec);
+  CHECK(std::ranges::any_of(findings, [](const std::string& finding) {
+    return finding.find("1 measured number for 2 parameters") != std::string::npos;
+  }));
+}
