@@ -57,6 +57,9 @@ TEST_CASE("margin judges the requirements of a file as if they were the campaign
               .code == 0);
   std::filesystem::copy(folder.path() / "r" / summary_file, folder.path() / "summary.json");
   CHECK(margin(bare, "summary.json") == expected);
+  REQUIRE(run_program(folder, {"run", file, "--out", folder.path() / "judged"}).code <= 1);
+  std::filesystem::copy(folder.path() / "judged" / summary_file, folder.path() / "of_run.json");
+  CHECK(margin(bare, "of_run.json") == expected); // verdicts stand behind the requirements
   CHECK(run_program(folder, {"margin", bare, "--out", folder.path() / "none"}).code == 2);
   const std::string empty = written("empty.json", Json::array());
   const auto refused = run_program(

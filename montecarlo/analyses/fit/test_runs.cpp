@@ -6,6 +6,7 @@
 #include "montecarlo/model/campaign/campaign_settings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace wingspread {
@@ -31,7 +32,8 @@ SampledColumns samples_for(const FitTest& test) {
   if (test.columns.empty()) return samples;
   for (const FitColumn& column : test.columns) samples.columns.push_back(column.index);
   samples.interval = grid_interval(test.times);
-  samples.t_end = test.times.back() + offsets_covered * test.time_offset_std;
+  const double last = test.times.back() + offsets_covered * test.time_offset_std;
+  samples.t_end = (std::ceil(last / samples.interval) + 0.5) * samples.interval; // beyond a sample
   return samples;
 }
 

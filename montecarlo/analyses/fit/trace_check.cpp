@@ -78,7 +78,8 @@ private:
     SampledColumns samples;
     for (std::size_t k = 1; k < count; ++k) samples.columns.push_back(k);
     samples.t_end = std::min(test.times.back(), test.campaign.integration.t_end);
-    samples.interval = samples.t_end / static_cast<double>(most_compared);
+    samples.interval =
+        samples.t_end / (most_compared + 0.5); // the last sample is not lost by rounding
     return samples;
   }
 

@@ -40,7 +40,8 @@ inline constexpr const char* analyzed_key = "analyzed";
 /// The keys that lead to the requirements in a document for read_requirements_file; none if it is an array.
 [[nodiscard]] std::vector<std::string> keys_of_requirements(const Json& document);
 
-/// Reads requirements for this campaign from a file: an array, a campaign, or the summary.json of an analysis.
+/// Reads requirements for this campaign from a file: an array, a campaign, or a summary.json: of its last analysis if it
+/// has one, else of its run.
 /// @throws SpecError with all problems
 [[nodiscard]] std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
                                                               const Campaign& campaign);

@@ -192,23 +192,44 @@ std::string place_of(const Json& resolved, const std::string& name) {
   return "/dispersions";
 }
 
-/// Warns of tables with many draws beyond their ends: these all get the value at an end.
-/// @param place of the tables, and of the law
-void check_through(const Dispersion& dispersion, const Spread& spread, const std::string& place,
-                   const std::string& law, InputWarnings& warnings) {
+/// A `through` table with draws beyond its ends.
+struct ShortTable {
+  std::size_t index = 0;
+  double beyond = 0; ///< share of the draws
+};
+
+/// The tables with too many draws beyond their ends.
+std::vector<ShortTable> short_tables(const Dispersion& dispersion, const Spread& spread) {
+  std::vector<ShortTable> found;
   for (std::size_t k = 0; k < dispersion.through.size(); ++k) {
     const std::vector<double>& at = dispersion.through[k].table.knots();
     const double below = spread.law.cdf(std::nextafter(at.front(), -HUGE_VAL));
     const double beyond = below + spread.law.cdf_complement(at.back());
-    if (beyond <= most_beyond) continue;
+    if (beyond > most_beyond) found.push_back({k, beyond});
+  }
+  return found;
+}
+
+/// Warns of tables with many draws beyond their ends: these all get the value at an end.
+/// @param place of the tables
+/// @param law   place of a case's law: one warning, of its worst table; empty: a warning at each table
+void check_through(const Dispersion& dispersion, const Spread& spread, const std::string& place,
+                   const std::string& law, InputWarnings& warnings) {
+  std::vector<ShortTable> tables = short_tables(dispersion, spread);
+  std::string others;
+  if (!law.empty() && tables.size() > 1) {
+    others = fmt::format("; {} of its tables are too short", tables.size());
+    tables = {*std::ranges::max_element(tables, {}, &ShortTable::beyond)};
+  }
+  for (const auto& [k, beyond] : tables) {
+    const std::vector<double>& at = dispersion.through[k].table.knots();
     warnings.add(
         law.empty() ? fmt::format("{}/through/{}/table/at", place, k) : law,
-        fmt::format(
-            "{:.3g} % of the draws beyond {}'s table from {:.4g} to {:.4g}, with the median {:.4g}",
-            100 * beyond, dispersion.name, at.front(), at.back(), spread.median),
+        fmt::format("{:.3g} % of the draws beyond {}'s table from {:.4g} to {:.4g}, with the "
+                    "median {:.4g}{}",
+                    100 * beyond, dispersion.name, at.front(), at.back(), spread.median, others),
         fmt::format("a table that covers the draws: it is constant beyond its ends, and at most "
-                    "{:g} % of the "
-                    "draws get the value at an end",
+                    "{:g} % of the draws get the value at an end",
                     100 * most_beyond));
   }
 }

@@ -178,6 +178,7 @@ void decide(double confidence, const InterimAnalyses& interim, Verdict& verdict)
 
 std::optional<std::array<double, 2>> beyond_zero(double least, double largest,
                                                  const Requirement& requirement) {
+  if (requirement.static_margin) return std::nullopt; // has no magnitude: below 0 it is not met
   const double limit = requirement.max ? *requirement.max : requirement.min.value_or(0);
   const bool apart = (limit > 0 && largest < 0) || (limit < 0 && least > 0);
   return apart ? std::optional(std::array{least, largest}) : std::nullopt;

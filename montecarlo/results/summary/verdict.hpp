@@ -51,7 +51,8 @@ struct Verdict {
   long cut = 0;                   ///< deployed runs that break it because t_end cut their peak
   long open = 0;   ///< those among them whose cut peak is not beyond the limit: they may meet it
   long absent = 0; ///< runs that break a limit because they did not deploy or lack the output
-  /// Least and largest value, if the limit lies on the other side of zero from all values.
+  /// Least and largest value, if the limit lies on the other side of zero from all values; not of static
+  /// margins.
   std::optional<std::array<double, 2>> beyond_zero{};
   double share = 0;            ///< share of the runs that meet it; NaN without runs
   double guaranteed_share = 0; ///< one-sided Clopper–Pearson bound of P
@@ -80,7 +81,7 @@ struct Verdict {
 /// @pre requirement, runs, broken, not_listed, cut and open are set
 void decide(double confidence, const InterimAnalyses& interim, Verdict& verdict);
 
-/// Least and largest value, if the limit lies on the other side of zero from both.
+/// Least and largest value, if the limit lies on the other side of zero from both; nothing for a static margin.
 [[nodiscard]] std::optional<std::array<double, 2>> beyond_zero(double least, double largest,
                                                                const Requirement& requirement);
 

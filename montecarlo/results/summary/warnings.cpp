@@ -29,8 +29,8 @@ long count_open_latches(const Summary& summary) {
 
 std::string warn_of_far_limit(const Verdict& verdict) {
   const auto& [least, largest] = *verdict.beyond_zero;
-  return fmt::format("{}: every value, {:.5g} to {:.5g}, is on the other side of zero from the "
-                     "limit{}",
+  return fmt::format("{}: every value (least {:.5g}, largest {:.5g}) is on the other side of zero "
+                     "from the limit{}",
                      to_string(verdict.requirement), least, largest,
                      verdict.requirement.absolute ? "" : "; \"abs\": true limits the magnitude");
 }
@@ -55,10 +55,10 @@ std::string warn_of_moved_runs(const Accuracy& accuracy) {
 }
 
 std::string warn_of_draws(const StrangeDraws& draws, long runs) {
-  return fmt::format("in {} of {} runs the draw {} is outside its law, {:.5g} to {:.5g}: {:.5g} in "
-                     "run {}. The campaign is perhaps not that of these runs",
-                     draws.runs, runs, draws.name, draws.lower, draws.upper, draws.value,
-                     draws.run);
+  return fmt::format(
+      "in {} of {} runs the draw {} is outside its law (least {:.5g}, largest {:.5g}): {:.5g} in "
+      "run {}. The campaign is perhaps not that of these runs",
+      draws.runs, runs, draws.name, draws.lower, draws.upper, draws.value, draws.run);
 }
 
 /// A warning, and the cases that have it, with the numbers of each (reason_pattern.hpp).

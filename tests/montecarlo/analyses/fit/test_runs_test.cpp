@@ -61,3 +61,33 @@ TEST_CASE("several ranks predict tests as one does, bit by bit", "[parallel]") {
     }
   }
 }
+
+// The motion is known in closed form; the samples of a run stand on a grid that need not end where the trace does.
+TEST_CASE("each time of a trace is predicted by the motion at that time, also the last one") {
+  const Folder folder;
+  Json json = panel_campaign();
+  for (const char* end : {"torque_stowed", "torque_latched"})
+    json["scene"]["hinges"][0]["spring"][end] = 1;
+  const Campaign campaign = campaign_of(json);
+  RandomStream random(1, 0, stream_name("times"));
+  for (int trial = 0; trial < 40; ++trial) {
+    const double span = 0.5 + 2.2 * open_uniform(random()); // before the latch
+    std::vector<double> times{0};
+    while (times.back() < span)
+      times.push_back(times.back() + 0.002 + 0.1 * open_uniform(random()));
+    std::string text = "t,th\n";
+    for (const double t : times)
+      text += csv_cell(t) + "," + csv_cell(panel_angle(t, 0.5, 1)) + "\n";
+    folder.write("t1.csv", text);
+    const FitSpec spec = read_fit(parse_json(one_way), "", folder.path(), campaign);
+    const ParameterSpace space(campaign, spec);
+    ThreadEvaluator threads({.threads = 1}, never);
+    const std::vector<FitPoint> points{FitPoint::Zero(2)};
+    TestRuns runs(spec.tests, spec.parameters, space, threads);
+    const Prediction prediction = runs.predict(points, RunAccuracy::campaign).at(0);
+    REQUIRE(prediction.size() == times.size());
+    CAPTURE(trial, times.back());
+    for (std::size_t k = 0; k < times.size(); ++k)
+      CHECK(prediction[k] == Approx(panel_angle(times[k], 0.5, 1)).margin(1e-6));
+  }
+}

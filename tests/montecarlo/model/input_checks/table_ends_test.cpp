@@ -58,3 +58,22 @@ TEST_CASE("draws beyond either end of a table are warned of, by their share at b
   }
   CHECK((told > 10 && quiet > 10));
 }
+
+TEST_CASE("a case's law is warned of by its worst table", "[warnings]") {
+  Json json = quick_campaign(2);
+  json["dispersions"] = parse_json(R"([{ "name": "temperature",
+    "distribution": { "type": "uniform", "lower": 0, "upper": 10 },
+    "through": [
+      { "apply": "scale", "to": ["hinges.root.spring.scale"], "table": { "at": [-90, 60], "value": [1, 1] } },
+      { "apply": "scale", "to": [], "table": { "at": [-90, 22], "value": [1, 1] } } ] }])");
+  json["dispersions"][0]["through"][1]["to"] = {"hinges.*.friction.scale"};
+  json["cases"] = parse_json(R"([{ "name": "hot", "distributions": {
+    "temperature": { "type": "uniform", "lower": 45, "upper": 80 } } }])");
+  InputWarnings warnings({});
+  check_dispersions(campaign_of(json), warnings);
+  const auto& list = warnings.list();
+  REQUIRE(list.size() == 1);
+  CHECK(list[0].pointer == "/cases/0/distributions/temperature");
+  CHECK_THAT(list[0].found, Catch::Contains("100 % of the draws") && Catch::Contains("to 22") &&
+                                Catch::Contains("2 of its tables"));
+}

@@ -180,8 +180,9 @@ TEST_CASE("draws of another tool that the laws do not give are warned of") {
   Summary summary;
   summary.runs = 4, summary.strange_draws = found;
   CHECK(warnings(summary) ==
-        std::vector<std::string>{"in 2 of 4 runs the draw u is outside its law, 0.9 to 1.1: 5.95 "
-                                 "in run 1. The campaign is perhaps not that of these runs"});
+        std::vector<std::string>{
+            "in 2 of 4 runs the draw u is outside its law (least 0.9, largest 1.1): 5.95 "
+            "in run 1. The campaign is perhaps not that of these runs"});
   campaign.dispersions[0].distribution = {Normal{1, 0.5}, {}};
   CHECK(strange_draws(campaign, results).at(0).runs == 1); // 9.9 σ
   campaign.dispersions[0].distribution = {Normal{1, 1}, {}};

@@ -350,6 +350,11 @@ TEST_CASE("a limit on the other side of zero from every value is found") {
   Requirement magnitude = at_most(1.5, .5, .5);
   magnitude.absolute = true;
   CHECK_FALSE(judge(magnitude, results).beyond_zero);
+  Requirement margin =
+      at_least(0.1, .5, .5); // a static margin below 0 is not met, and has no magnitude
+  CHECK(beyond_zero(-0.7, -0.5, margin));
+  margin.static_margin.emplace();
+  CHECK_FALSE(beyond_zero(-0.7, -0.5, margin));
   results.append({4, Status::deployed, {}, {0.1}, "", ""});
   CHECK_FALSE(judge(at_most(1.5, .5, .5), results).beyond_zero); // not every value
   CHECK_FALSE(judge(at_most(1.5, .5, .5), Results(ResultNames{{}, {"x"}})).beyond_zero);
