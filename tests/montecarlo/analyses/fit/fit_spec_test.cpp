@@ -138,9 +138,8 @@ TEST_CASE("fewer numbers than parameters are enough where the noise is known") {
     "fit": { "parameters": ["spring", "friction"] } })");
   CHECK(files.problems(tests) == "");
   tests["tests"][0]["trace"]["columns"]["root.angle"].erase("std");
-  CHECK_THAT(files.problems(tests),
-             Catch::Contains("/tests: found 2 numbers for 3 parameters") &&
-                 Catch::Contains("\"std\""));
+  CHECK_THAT(files.problems(tests), Catch::Contains("/tests: found 2 numbers for 3 parameters") &&
+                                        Catch::Contains("\"std\""));
 }
 
 TEST_CASE("the numbers of a fit are accepted up to their limits, and no further") {
