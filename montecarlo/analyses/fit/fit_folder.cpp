@@ -71,10 +71,10 @@ FitFolder::FitFolder(std::filesystem::path folder, const Json& about, bool resum
 void FitFolder::write(FitResult& result, const Campaign& campaign, const FitSpec& spec,
                       ThreadPool pool, const std::atomic<bool>& stop) {
   write_file(folder_ / traces_csv_file, traces_csv(result, spec));
-  if (!result.written.empty()) {
+  if (!result.posterior.columns.empty()) {
     const auto path = folder_ / campaign_file;
     write_file(folder_ / posterior_file, posterior_csv(result));
-    write_file(path, json_text(predicting_campaign(campaign, result.written)));
+    write_file(path, json_text(predicting_campaign(campaign, result.posterior.columns)));
     result.beside_cases = !campaign.cases.empty();
     result.prediction = predicted_outputs(campaign, read_campaign_file(path), pool, stop);
   }

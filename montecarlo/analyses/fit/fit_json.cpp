@@ -159,13 +159,13 @@ std::string posterior_csv(const FitResult& result) {
   const auto end_line = [&] {
     text.back() = '\n'; // in place of the last comma
   };
-  for (const std::string& name : result.written_names) {
+  for (const std::string& name : result.posterior.names) {
     append_csv_cell(text, name);
     text += ',';
   }
   if (text.empty()) return text;
   end_line();
-  for (const std::vector<double>& row : result.rows) {
+  for (const std::vector<double>& row : result.posterior.rows) {
     for (const double value : row) {
       append_csv_cell(text, value);
       text += ',';

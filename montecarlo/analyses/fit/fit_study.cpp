@@ -2,7 +2,6 @@
 
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/random_stream.hpp"
-#include "montecarlo/analyses/fit/fit_campaign.hpp"
 #include "montecarlo/analyses/fit/proposal.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
@@ -127,7 +126,7 @@ public:
     result_.space = space_.list();
     result_.common = space_.common();
     result_.runs += runs_.runs();
-    result_.lost_laws = lost_laws(campaign_, result_.written);
+    result_.lost_laws = lost_laws(campaign_, result_.posterior.columns);
     return std::move(result_);
   }
 
@@ -203,11 +202,8 @@ private:
     const auto common = static_cast<Eigen::Index>(space_.common());
     result_.u_covariance = covariance.topLeftCorner(common, common);
     if (common > 0) result_.directions = directions_of(result_.u_covariance);
-    const PosteriorRows rows = posterior_rows(
-        campaign_, space_, values_, chosen(points_, static_cast<std::size_t>(spec_.samples)));
-    result_.written = rows.columns;
-    result_.written_names = rows.names;
-    result_.rows = rows.rows;
+    result_.posterior = posterior_rows(campaign_, space_, values_,
+                                       chosen(points_, static_cast<std::size_t>(spec_.samples)));
   }
 
   void summarize_held() {

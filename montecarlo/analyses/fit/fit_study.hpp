@@ -1,6 +1,7 @@
 /// The fit of a campaign's parameters to tests: modes, samples of the posterior, and their statistics.
 #pragma once
 
+#include "montecarlo/analyses/fit/fit_campaign.hpp"
 #include "montecarlo/analyses/fit/identifiability.hpp"
 #include "montecarlo/analyses/sampler/ensemble_sampler.hpp"
 #include "montecarlo/results/checkpoint/batch_log.hpp"
@@ -113,11 +114,7 @@ struct FitResult {
   FittedValues values;
   EnsembleState sampler;
   long runs = 0; ///< all runs made
-  /// The columns of posterior.csv: the common parameters, then dispersions that every test has of its own and that
-  /// depend on them through correlations: draws for a new unit, given the common ones.
-  std::vector<std::size_t> written; ///< indices in the campaign
-  std::vector<std::string> written_names;
-  std::vector<std::vector<double>> rows; ///< of posterior.csv
+  PosteriorRows posterior;
   std::vector<CandidateGain> candidates;
   std::vector<PredictedOutput> prediction;
   bool beside_cases = false; ///< the campaign has cases, and the prediction is of none of them

@@ -16,9 +16,9 @@ FitSpec read_tests(const Input& tests, const Campaign& campaign) {
 
 Fit fit_of(const FitResult& result, std::string json) {
   Fit fit{std::move(json), {}, result.finished};
-  for (std::size_t k = 0; k < result.written_names.size(); ++k) {
-    Series& series = fit.posterior.emplace_back(Series{result.written_names[k], {}});
-    for (const std::vector<double>& row : result.rows) series.values.push_back(row[k]);
+  for (std::size_t k = 0; k < result.posterior.names.size(); ++k) {
+    Series& series = fit.posterior.emplace_back(Series{result.posterior.names[k], {}});
+    for (const std::vector<double>& row : result.posterior.rows) series.values.push_back(row[k]);
   }
   return fit;
 }

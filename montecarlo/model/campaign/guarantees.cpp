@@ -16,13 +16,6 @@ std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs
   return names;
 }
 
-/// Removes what a summary writes behind a requirement: "verdict" and all keys after it.
-void remove_verdict(Json& requirement) {
-  if (!requirement.is_object()) return;
-  const auto verdict = requirement.find("verdict");
-  if (verdict != requirement.end()) requirement.erase(verdict, requirement.end());
-}
-
 } // namespace
 
 void refuse_dependent_draws(const JsonCursor& at, const char* what, DesignKind design) {
@@ -40,8 +33,9 @@ GuaranteeReader::GuaranteeReader(const Scene* scene, const Outputs& outputs, Des
   all_names_ = output_names(*scene, all_outputs());
 }
 
-void GuaranteeReader::read(const JsonCursor& at, std::vector<Requirement>& requirements) const {
-  read_requirements(at, scene_ ? &names_ : nullptr, all_names_, requirements, scene_);
+void GuaranteeReader::read(const JsonCursor& at, std::vector<Requirement>& requirements,
+                           Judged judged) const {
+  read_requirements(at, scene_ ? &names_ : nullptr, all_names_, requirements, scene_, judged);
   if (t_end_) refuse_late_limits(at, requirements, *t_end_);
   if (!requirements.empty()) refuse_dependent_draws(at, "requirements", design_);
 }
@@ -70,17 +64,12 @@ std::vector<std::string> keys_of_requirements(const Json& document) {
 
 std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
                                                 const Campaign& campaign) {
-  Json document = parse_json_file(path);
-  const std::vector<std::string> keys = keys_of_requirements(document);
-  Json* written = &document;
-  for (const std::string& key : keys) written = &(*written)[key];
-  if (written->is_array())
-    for (Json& requirement : *written) remove_verdict(requirement);
+  const Json document = parse_json_file(path);
   std::vector<Problem> problems;
   std::vector<Requirement> requirements;
   JsonCursor list(document, path.string(), problems);
-  for (const std::string& key : keys) list = list.member(key);
-  guarantee_reader(campaign).read(list, requirements);
+  for (const std::string& key : keys_of_requirements(document)) list = list.member(key);
+  guarantee_reader(campaign).read(list, requirements, Judged::may_be);
   if (!problems.empty()) throw SpecError(std::move(problems));
   return requirements;
 }

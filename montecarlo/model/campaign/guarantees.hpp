@@ -21,7 +21,8 @@ public:
   /// @param t_end end of the runs; nothing: limits on times are not checked
   GuaranteeReader(const Scene* scene, const Outputs& outputs, DesignKind design,
                   std::optional<double> t_end);
-  void read(const JsonCursor& at, std::vector<Requirement>& requirements) const;
+  void read(const JsonCursor& at, std::vector<Requirement>& requirements,
+            Judged judged = Judged::no) const;
   /// @param requirements the campaign's; null if they have problems
   void read(const JsonCursor& at, const std::vector<Requirement>* requirements,
             StoppingRule& until) const;
@@ -40,8 +41,8 @@ inline constexpr const char* analyzed_key = "analyzed";
 /// The keys that lead to the requirements in a document for read_requirements_file; none if it is an array.
 [[nodiscard]] std::vector<std::string> keys_of_requirements(const Json& document);
 
-/// Reads requirements for this campaign from a file: an array, a campaign, or a summary.json: of its last analysis if it
-/// has one, else of its run.
+/// Reads requirements for this campaign from a file: an array, a campaign, or a summary.json
+/// (the requirements of the last analysis, or else of the run).
 /// @throws SpecError with all problems
 [[nodiscard]] std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
                                                               const Campaign& campaign);

@@ -148,7 +148,8 @@ void read_output(JsonObject& object, const std::vector<std::string>* outputs,
 }
 
 Requirement read_requirement(const JsonCursor& at, const std::vector<std::string>* outputs,
-                             std::span<const std::string> all_outputs, const Scene* scene) {
+                             std::span<const std::string> all_outputs, const Scene* scene,
+                             Judged judged) {
   Requirement requirement;
   JsonObject object(at, "a requirement: an object");
   object.optional("name", requirement.name, "a string, not empty, without control characters",
@@ -164,7 +165,7 @@ Requirement read_requirement(const JsonCursor& at, const std::vector<std::string
                     is_name);
   object.required("probability", requirement.probability, "a number, > 0 and < 1", is_proper_share);
   object.required("confidence", requirement.confidence, "a number, > 0 and < 1", is_proper_share);
-  object.refuse_others();
+  if (judged == Judged::no || !object.find("verdict")) object.refuse_others();
   return requirement;
 }
 
@@ -195,12 +196,12 @@ const std::string& name_of(const Requirement& requirement) {
 
 void read_requirements(const JsonCursor& at, const std::vector<std::string>* outputs,
                        std::span<const std::string> all_outputs,
-                       std::vector<Requirement>& requirements, const Scene* scene) {
+                       std::vector<Requirement>& requirements, const Scene* scene, Judged judged) {
   if (!at.value().is_array()) return void(at.refuse("an array of requirements"));
   requirements.clear();
   const std::size_t before = at.problems().size();
   for (const JsonCursor& element : at.elements())
-    requirements.push_back(read_requirement(element, outputs, all_outputs, scene));
+    requirements.push_back(read_requirement(element, outputs, all_outputs, scene, judged));
   check_groups(at, requirements);
   refuse_repeated_ids(at, requirements);
   if (at.problems().size() == before) refuse_repeated_requirements(at, requirements);

@@ -45,13 +45,18 @@ struct Requirement {
 [[nodiscard]] MissingRank missing_rank(std::span<const Requirement> requirements,
                                        const std::string& output);
 
+/// Whether requirements may have verdicts, as those of a summary.json have.
+enum class Judged { no, may_be };
+
 /// Reads an array of requirements and notes problems.
 /// @param outputs     the campaign's columns; null if scene or outputs have problems: then names are not looked up
 /// @param all_outputs the columns of all families, for the message
 /// @param scene       for the hinges of static margins; null: hinges are not looked up
+/// @param judged      may_be: of a requirement with a "verdict", unknown keys are results, and are passed over
 void read_requirements(const JsonCursor& at, const std::vector<std::string>* outputs,
                        std::span<const std::string> all_outputs,
-                       std::vector<Requirement>& requirements, const Scene* scene = nullptr);
+                       std::vector<Requirement>& requirements, const Scene* scene = nullptr,
+                       Judged judged = Judged::no);
 
 /// Notes each limit on a time beyond t_end.
 void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requirements,

@@ -68,8 +68,8 @@ FitResult result_of(oracle::Draws& draws) {
   value.name = "root.latch_time";
   value.measured = 4.25, value.fitted = 4.125, value.sigmas = 1.25, value.p_value = 0.375;
   result.sampler = {.evaluations = 4321, .acceptance = 0.625, .ess = 71.5, .r_hat = 1.03125};
-  for (std::size_t k = 0; k < 2; ++k) result.written_names.push_back(result.parameters[k].name);
-  for (int row = 0; row < 5; ++row) result.rows.push_back(numbers_of(draws, 2));
+  for (std::size_t k = 0; k < 2; ++k) result.posterior.names.push_back(result.parameters[k].name);
+  for (int row = 0; row < 5; ++row) result.posterior.rows.push_back(numbers_of(draws, 2));
   result.candidates = {{"less", 0.5, {0.9, 0.7, 0.8}}, {"more", 2.25, {0.4, 0.6, 1}}};
   result.prediction = {{"tip.latch_time", {1.5, 2.5, 3.5}, {1.75, 2.25, not_a_number}}};
   return result;
@@ -116,11 +116,12 @@ TEST_CASE("a fit's tables have every number of the result, in its row and column
   const FitSpec spec = spec_of(draws);
   const FitResult result = result_of(draws);
   const Records rows = records_of(posterior_csv(result));
-  REQUIRE(rows.size() == 1 + result.rows.size());
+  REQUIRE(rows.size() == 1 + result.posterior.rows.size());
   CHECK(rows[0] == std::vector<std::string>{"spring", "\"friction\", all"});
-  for (std::size_t k = 0; k < result.rows.size(); ++k) {
+  for (std::size_t k = 0; k < result.posterior.rows.size(); ++k) {
     REQUIRE(rows[k + 1].size() == 2);
-    for (std::size_t i = 0; i < 2; ++i) CHECK(std::stod(rows[k + 1][i]) == result.rows[k][i]);
+    for (std::size_t i = 0; i < 2; ++i)
+      CHECK(std::stod(rows[k + 1][i]) == result.posterior.rows[k][i]);
   }
   const Records traces = records_of(traces_csv(result, spec));
   REQUIRE(traces.size() == 1 + 2 * 4);

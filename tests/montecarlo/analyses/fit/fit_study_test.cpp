@@ -67,9 +67,9 @@ TEST_CASE("the posterior of one torque from one latch time is that of Bayes' rul
         Approx((measured - panel_latch_time(mode, 1)) / std).margin(1e-3));
   CHECK(spring.prior_std == Approx(0.01).epsilon(1e-3));
   // the written rows: as many as asked for, and as widely spread as all samples
-  REQUIRE(result.rows.size() == 1000);
+  REQUIRE(result.posterior.rows.size() == 1000);
   std::vector<double> springs;
-  for (const std::vector<double>& row : result.rows) {
+  for (const std::vector<double>& row : result.posterior.rows) {
     REQUIRE(row.size() == 1);
     springs.push_back(row[0]);
   }
@@ -189,9 +189,9 @@ TEST_CASE(
   CHECK(result.mode_drops[0] == Approx((1.8 * 1.8 - 1.4 * 1.4) / 2).margin(5e-3));
   CHECK(result.parameters.at(0).mode == Approx(0.8).epsilon(2e-3));
   long below = 0;
-  for (const std::vector<double>& row : result.rows) below += row[0] < 0;
+  for (const std::vector<double>& row : result.posterior.rows) below += row[0] < 0;
   const double share = 1 / (1 + std::exp(0.64)); // of the lower mode
-  CHECK(static_cast<double>(below) / static_cast<double>(result.rows.size()) ==
+  CHECK(static_cast<double>(below) / static_cast<double>(result.posterior.rows.size()) ==
         Approx(share).margin(4.5 * std::sqrt(share * (1 - share) / 400)));
 }
 

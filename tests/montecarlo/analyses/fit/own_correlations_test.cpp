@@ -52,7 +52,7 @@ TEST_CASE("units teach what is common through a correlation, whatever the names 
   const FitResult result = fitted(
       campaign, read_fit(friction_tests(shared, own, measured), "", folder.path(), campaign));
   REQUIRE(result.finished);
-  REQUIRE(result.written_names == std::vector<std::string>{shared, own});
+  REQUIRE(result.posterior.names == std::vector<std::string>{shared, own});
 
   const double r = normal_correlation(spearman), slope = r * own_std / shared_std;
   const auto n = static_cast<Eigen::Index>(measured.size());
@@ -69,7 +69,7 @@ TEST_CASE("units teach what is common through a correlation, whatever the names 
 
   // a new unit
   std::vector<double> commons, owns;
-  for (const std::vector<double>& row : result.rows)
+  for (const std::vector<double>& row : result.posterior.rows)
     commons.push_back(row.at(0)), owns.push_back(row.at(1));
   const double new_variance = own_std * own_std * (1 - r * r) + slope * slope * variance;
   const Moments drawn = moments(owns);
@@ -81,7 +81,7 @@ TEST_CASE("units teach what is common through a correlation, whatever the names 
   // the written campaign draws the pair
   folder.write(posterior_file, posterior_csv(result));
   const Campaign after =
-      read_campaign(predicting_campaign(campaign, result.written).dump(), folder.path());
+      read_campaign(predicting_campaign(campaign, result.posterior.columns).dump(), folder.path());
   CHECK(after.dispersions.size() == 2);
   CHECK(after.dispersions[0].rows == after.dispersions[1].rows);
   CHECK(after.wanted_correlations.empty());
@@ -95,7 +95,7 @@ TEST_CASE("a unit's own parameter without a correlation stays a dispersion",
   const Campaign campaign = campaign_of(json);
   const FitResult result = fitted(
       campaign, read_fit(friction_tests("common", "own", {1.5, 1.4}), "", folder.path(), campaign));
-  CHECK(result.written_names == std::vector<std::string>{"common"});
+  CHECK(result.posterior.names == std::vector<std::string>{"common"});
 }
 
 TEST_CASE("what all tests share has one value in all of them", "[fit][correlations]") {

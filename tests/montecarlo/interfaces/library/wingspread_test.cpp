@@ -227,7 +227,7 @@ TEST_CASE(
   CHECK(fit.posterior[0].name == "spring");
   REQUIRE(fit.posterior[0].values.size() == 1500);
   for (std::size_t row = 0; row < 1500; ++row)
-    CHECK(fit.posterior[0].values[row] == expected.rows[row][0]);
+    CHECK(fit.posterior[0].values[row] == expected.posterior.rows[row][0]);
   CHECK(parse_json(fit.json)["parameters"].contains("spring"));
   const api::Fit kept = fit_with({.out = folder.path() / "f", .threads = 2});
   CHECK(kept.posterior[0].values == fit.posterior[0].values);

@@ -65,8 +65,7 @@ TEST_CASE("a case's law is warned of by its worst table", "[warnings]") {
     "distribution": { "type": "uniform", "lower": 0, "upper": 10 },
     "through": [
       { "apply": "scale", "to": ["hinges.root.spring.scale"], "table": { "at": [-90, 60], "value": [1, 1] } },
-      { "apply": "scale", "to": [], "table": { "at": [-90, 22], "value": [1, 1] } } ] }])");
-  json["dispersions"][0]["through"][1]["to"] = {"hinges.*.friction.scale"};
+      { "apply": "scale", "to": ["hinges.*.friction.scale"], "table": { "at": [-90, 22], "value": [1, 1] } } ] }])");
   json["cases"] = parse_json(R"([{ "name": "hot", "distributions": {
     "temperature": { "type": "uniform", "lower": 45, "upper": 80 } } }])");
   InputWarnings warnings({});

@@ -41,8 +41,7 @@ TEST_CASE("what is to be warned of stands in the table and in summary.json") {
       "in 1 of 4 runs t_end cut the peaks: they may still rise, and break every requirement on a "
       "peak; statistics and correlations are of the cut values. Lengthen t_end",
       "root.latch_rate ≤ 1.5 rad/s, 50 % at 50 %: every value (least -2, largest -1.25) is on the "
-      "other side "
-      "of zero from the limit; \"abs\": true limits the magnitude"};
+      "other side of zero from the limit; \"abs\": true limits the magnitude"};
   CHECK(warnings(summary) == expected);
   const Json json = summary_json(summary, {});
   CHECK(json["warnings"] == Json(expected));
