@@ -20,7 +20,7 @@ TABLES = {  # by kind of page: the heads below each caption
     "cases": {"Verdict and distance to the limit by case": "Requirement|cold|ambient|hot", "Requirements, the worst first": REQUIREMENTS.replace("Verdict|", "Verdict|Case|"),
               "Outcomes by case, with 95 % two-sided bounds": "Case|Runs|deployed|stalled", "root peak moment by case": "Case|Nominal N·m|Mean|1 % quantile|Median|99 % quantile",
               "Between the cases and inside them: root peak moment": "Case|Mean N·m|Shift of the mean|Std inside|99 % quantile|Shift of the 99 % quantile",
-              f"Differences of the means: {DIFFERENCES}": "Output|Unit|Difference|Bounds|Relative|Runs", f"Differences of the outcomes: {DIFFERENCES}": "Outcome|Difference|Bounds, percentage points",
+              f"Differences of the means: {DIFFERENCES}": "Output|Unit|Difference|95 % bounds|Relative|Runs", f"Differences of the outcomes: {DIFFERENCES}": "Outcome|Difference|95 % bounds, percentage points",
               "Verdicts and margins side by side": "Requirement|cold|hot", "Changes of the nominal scene by case": "Parameter|Unit|Nominal|cold|ambient|hot", "Scene of cold": "Parameter|Value|Unit|In degrees|In cold|Path"},
     "odd": {"Dispersions of mock_wing": "Dispersion|Law|Unit|As written|Draw, 1 % … 99 %|In degrees|Acts on", "Outcomes of the runs": "Outcome|Runs|Share|90 % two-sided bounds"}}
 ORDERS = "root › mid › tip|mid › root › tip|root › tip › mid|mid › tip › root|tip › root › mid|tip › mid › root"
@@ -37,7 +37,7 @@ PICTURES = {  # of the page "plain" in degrees, by class: titles of the axes, le
                "scale|D-1: deployed, 99 % at 90 %|lower|upper|verdict|S-1: root.peak_moment ≤ 300 N·m, 99 % at 90 %|lower|upper|verdict", "line line rect"),
     "static-margins": ("travel from the stowed angle (deg)|static margin", "root|mid|tip", "hinge|travel deg|static margin|static margin, lower quantile|required", "line"),
     "rare": ("threshold|probability of exceeding it", "", "threshold|probability", ""), "settling": ("runs|mean (N·m)", "mean|95 % two-sided bounds", "runs|mean N·m|lower|upper", "line rect")}
-NUMBERS = {"Quantile or share", "Distance to the limit", "Runs", "Share", "Std", "Mean", "Nominal", "Median", "Value", "Difference", "Relative", "Bounds", "Required"}  # heads of numbers, at the right like them
+NUMBERS = {"Quantile or share", "Distance to the limit", "Runs", "Share", "Std", "Mean", "Nominal", "Median", "Value", "Difference", "Relative", "95 % bounds", "Required"}  # heads of numbers, at the right like them
 
 
 class PartChecks:

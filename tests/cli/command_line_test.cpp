@@ -174,3 +174,19 @@ TEST_CASE("the help of a command says the limits of every number") {
   }
   CHECK(numbers > 40);
 }
+
+TEST_CASE("a program without MPI that mpirun starts several times warns of it once") {
+  const Folder folder;
+  const auto warned = [&](const char* size, const char* rank) {
+    setenv("OMPI_COMM_WORLD_SIZE", size, 1);
+    setenv("OMPI_COMM_WORLD_RANK", rank, 1);
+    const Finished end = run_program(folder, {"--version"});
+    unsetenv("OMPI_COMM_WORLD_SIZE");
+    unsetenv("OMPI_COMM_WORLD_RANK");
+    CHECK(end.code == 0);
+    return end.error;
+  };
+  CHECK_THAT(warned("4", "0"), HasFacts({"warning: mpirun", " 4 times", "MPI"}));
+  CHECK(warned("4", "3").empty());
+  CHECK(warned("1", "0").empty());
+}

@@ -98,7 +98,7 @@ std::string MovedBy::table(std::string_view heading, std::string_view limits) co
   if (!unmoved_.empty())
     text +=
         "  " +
-        wrapped(fmt::format("nothing visible moves {}{}", fmt::join(unmoved_, ", "), limits), 2) +
+        wrapped(fmt::format("no visible effect on {}{}", fmt::join(unmoved_, ", "), limits), 2) +
         '\n';
   return text;
 }

@@ -62,7 +62,7 @@ Json sensitivity_json(const RankSensitivity& all, const Json& about) {
         {"prcc", "partial correlation of the mid-ranks, all other dispersions held"},
         {"bounds", bounds_definition(all)},
         {"cut", "runs whose peak t_end cut: their values are those up to t_end"},
-        {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
+        {"deployed", "1 deployed, 0 otherwise"},
         {"moves_nothing", "dispersions of which no coefficient differs from 0 at the confidence "
                           "shared over all outputs"},
         {"follow_from_others", "dispersions of which the others explain half of the ranks' "
@@ -127,10 +127,9 @@ std::string moved_by_table(const RankSensitivity& all, std::string_view title) {
         [&](std::size_t j) { return fmt::format("{} {:.2f}", all.dispersions[j], larger(j)); });
   }
   return fmt::format("{}\n\n", title) +
-         moved.table(
-             "moved by (rank correlation, partial or Spearman's, the larger)",
-             " one way. A draw that moves an output both ways has no rank correlation: Sobol' "
-             "indices show it (sensitivity of the campaign's file)");
+         moved.table("moved by (rank correlation, partial or Spearman's, the larger)",
+                     ". A draw that moves an output both ways has no rank correlation: Sobol' "
+                     "indices show it (sensitivity of the campaign's file)");
 }
 
 std::vector<std::string> warnings(const RankSensitivity& all) {

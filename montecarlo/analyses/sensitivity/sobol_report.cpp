@@ -66,7 +66,7 @@ Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
         {"cut", "runs whose peak t_end cut: their values are those up to t_end"},
         {"incomplete", "rows in which one of the points does not have the output: where there are "
                        "any, it has no indices"},
-        {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
+        {"deployed", "1 deployed, 0 otherwise"},
         {"moves_nothing", "all outputs of all rows are the same without it, bit for bit"}}},
       {"outputs", outputs},
       {"moves_nothing", all.idle()}};

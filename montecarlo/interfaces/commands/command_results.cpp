@@ -86,7 +86,10 @@ int merge(const MergeOptions& options) {
                                 : merge_folders(options.folders, options.out, kind);
     return show_results(read_stored_campaign(options.out), summary, options.display);
   } catch (const MissingRuns& missing) {
-    return print_missing(missing, ", or use --preview to see the runs made so far");
+    const bool with_rows =
+        !is_design_folder(options.folders.front()) && !is_streaming_folder(options.folders.front());
+    return print_missing(missing,
+                         with_rows ? ", or use --preview to see the runs made so far" : "");
   }
 }
 
@@ -184,15 +187,16 @@ void add_merge_options(CLI::App& command, MergeOptions& options) {
                   "The results folder to write: new, empty, or an earlier preview")
       ->required();
   command.add_flag("--preview", options.preview,
-                   "Merge the runs made so far, of any shards, finished or not");
+                   "Merge the runs made so far, of any shards of `run`, finished or not (not of "
+                   "--no-rows)");
   add_display_options(command, options.display);
   command.footer(
       std::string("The result is the same, byte for byte, as running the campaign at once.\n") +
       display_help +
       R"( If shards or runs are missing, nothing is written: standard error lists them with the commands that
 make them. --preview merges the runs made so far. Such a folder is marked as a preview wherever it
-is read: it has no verdicts (exit code 1 if the campaign has requirements), and it cannot be
-resumed or merged. A later merge may replace it.
+is read: it cannot be resumed or merged, and it has no verdicts, except those of cases whose runs
+are all there (exit code 1 if the campaign has requirements). A later merge may replace it.
 
 Shards of a design for Sobol' indices (`sensitivity --shard`) are merged in the same way.
 

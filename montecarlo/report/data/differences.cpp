@@ -58,15 +58,15 @@ struct Sides {
   const PageSource &first, &second;
   bool paired;
   SameRuns rows;
+  double confidence = 0; ///< of each bound: the higher of the sets'
 };
 
 /// The difference of an output's columns in both sets.
 Difference output_difference(const Sides& sides, const Column& first, const Column& second) {
-  const double confidence = std::min(sides.first.confidence, sides.second.confidence);
   if (sides.paired)
-    return paired_difference(first, second, sides.rows, sides.first.replication, confidence);
+    return paired_difference(first, second, sides.rows, sides.first.replication, sides.confidence);
   Difference difference =
-      unpaired_difference(moments(present(first)), moments(present(second)), confidence);
+      unpaired_difference(moments(present(first)), moments(present(second)), sides.confidence);
   if (sides.first.replication.replicates + sides.second.replication.replicates > 0)
     difference.bounds = {};
   return difference;
@@ -84,8 +84,7 @@ Json entry_of_moments(const Sides& sides, const OutputSummary& first, const Outp
   Moments a = first.moments, b = second.moments;
   const bool magnitude = (a.min < 0 || b.min < 0) && !(a.max > 0) && !(b.max > 0);
   if (magnitude) a.mean = -a.mean, b.mean = -b.mean;
-  const double confidence = std::min(sides.first.confidence, sides.second.confidence);
-  Json entry = entry_of(first.name, unpaired_difference(a, b, confidence), a.mean);
+  Json entry = entry_of(first.name, unpaired_difference(a, b, sides.confidence), a.mean);
   entry["magnitude"] = magnitude;
   return entry;
 }
@@ -121,11 +120,10 @@ Json outputs_difference_json(const Sides& sides) {
 }
 
 Difference status_difference(const Sides& sides, std::size_t status) {
-  const double confidence = std::min(sides.first.confidence, sides.second.confidence);
   if (!sides.paired)
     return unpaired_share_difference(
         sides.first.summary.statuses[status].count, sides.first.summary.runs,
-        sides.second.summary.statuses[status].count, sides.second.summary.runs, confidence);
+        sides.second.summary.statuses[status].count, sides.second.summary.runs, sides.confidence);
   long first_alone = 0, second_alone = 0;
   for (std::size_t k = 0; k < sides.rows.first.size(); ++k) {
     const bool in_first = sides.first.results.status[sides.rows.first[k]] == statuses[status];
@@ -134,7 +132,7 @@ Difference status_difference(const Sides& sides, std::size_t status) {
     second_alone += in_second && !in_first;
   }
   return paired_share_difference(first_alone, second_alone, std::ssize(sides.rows.first),
-                                 confidence);
+                                 sides.confidence);
 }
 
 /// Says in words which runs are compared.
@@ -297,8 +295,11 @@ Pairs pairs_of(std::span<const std::unique_ptr<PageSource>> sets) {
 
 Json comparison_json(const PageSource& first, const PageSource& second,
                      std::pair<std::size_t, std::size_t> places) {
-  Sides sides{
-      first, second, first.has_rows() && second.has_rows() && have_same_draws(first, second), {}};
+  Sides sides{first,
+              second,
+              first.has_rows() && second.has_rows() && have_same_draws(first, second),
+              {},
+              std::max(first.confidence, second.confidence)};
   if (sides.paired) sides.rows = same_runs(first.results, second.results);
   if (sides.rows.first.empty()) sides.paired = false;
   return {{"sets", {places.first, places.second}},
@@ -306,6 +307,7 @@ Json comparison_json(const PageSource& first, const PageSource& second,
           {"paired", sides.paired},
           {"runs", sides.paired ? Json(sides.rows.first.size()) : Json(nullptr)},
           {"text", fmt::format("{} − {}, {}", second.label, first.label, runs_text(sides))},
+          {"confidence", sides.confidence},
           {"outputs", outputs_difference_json(sides)},
           {"statuses", statuses_difference_json(sides)}};
 }

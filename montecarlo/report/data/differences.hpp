@@ -6,6 +6,7 @@
 /// Shares: the difference of two shares. Each has Clopper and Pearson's bounds at 1 − α/2, so that the bounds of the
 /// difference hold at 1 − α (Bonferroni). For paired sets the two are the shares of runs with the status in one set
 /// only; for other sets they are the sets' shares.
+/// The bounds have the higher confidence of the two sets': what interim analyses share, they share here too.
 /// Source: B. L. Welch, Biometrika 34 (1947) 28–35.
 #pragma once
 

@@ -74,8 +74,7 @@ std::unique_ptr<PageSource> read_page_source(StoredCampaign stored, const std::s
     read_streaming(*source);
   else
     read_rows(*source, threads);
-  source->confidence =
-      source->summary.interim.confidence_of_bound(source->stored.campaign.statistics.confidence);
+  source->confidence = source->summary.confidence_of_bound();
   return source;
 }
 

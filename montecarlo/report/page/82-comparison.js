@@ -92,7 +92,8 @@
         one.difference !== 0 ||
         W.sets[comparison.sets[0]].statuses.some((each) => each.status === one.status && each.count),
     );
-    const sign = (value, text) => (value > 0 ? `+${text}` : text);
+    const sign = (value, text) => (value > 0 ? `+${text}` : text),
+      level = `${F.given(Number((100 * comparison.confidence).toPrecision(6)))} % bounds`;
     const rows = comparison.outputs.map(function (one) {
       const unit = F.unitOf(one.output),
         half = W.isNumber(one.lower) ? (one.upper - one.lower) / 2 : null,
@@ -118,14 +119,14 @@
           "div.differences",
           W.table(
             `Differences of the means: ${comparison.text}`,
-            ["Output", "Unit", number("Difference"), number("Bounds"), number("Relative"), number("Runs")],
+            ["Output", "Unit", number("Difference"), number(level), number("Relative"), number("Runs")],
             rows,
             { class: "tall" },
           ),
           statuses.length
             ? W.table(
                 `Differences of the outcomes: ${comparison.text}`,
-                ["Outcome", number("Difference"), number("Bounds, percentage points")],
+                ["Outcome", number("Difference"), number(`${level}, percentage points`)],
                 statuses.map((one) => [
                   one.status.replace("_", " "),
                   `${sign(one.difference, F.fixed(100 * one.difference, 2))} points`,

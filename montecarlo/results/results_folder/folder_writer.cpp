@@ -21,7 +21,9 @@ namespace {
 std::optional<std::string> fixed_runs(const StoredCampaign& there, const Campaign& ours,
                                       const Stamp& stamp) {
   if (ours.sampling.runs < there.campaign.sampling.runs)
-    return "more can be added to them, but none taken away; run it into a new folder";
+    return fmt::format("more can be added to them, but none taken away; --runs {} goes on with "
+                       "them, or run it into a new folder",
+                       there.campaign.sampling.runs);
   if (ours.sampling.design == DesignKind::latin_hypercube)
     return "a Latin hypercube's strata, and so all of its draws, depend on the number of runs; "
            "run it into a new folder";

@@ -165,6 +165,12 @@ void tell_differences(const Part& part, const Part& first, const char* file,
                                                 : fmt::format("{} values differ", all.size()))});
 }
 
+/// What must be done before a run is resumed that lost rows between others; empty if it lacks only its last ones.
+std::string gap_advice(const Part& part, const RunRange& missing) {
+  if (part.present.empty() || missing.first > part.present.back().first) return "";
+  return fmt::format("rows were removed: delete all rows from run {} on, then ", missing.last);
+}
+
 } // namespace
 
 void refuse_other_campaigns(const std::vector<Part>& parts, const char* file) {
@@ -209,11 +215,11 @@ void find_missing(const std::vector<Part>& parts, long runs, const ShardMaker& m
   std::vector<RunRange> present;
   for (const Part& part : parts) {
     present.push_back(part.own);
-    const RunList missing = listed(missing_in(part.own, part.present));
+    const std::vector<RunRange> missing = missing_in(part.own, part.present);
     if (missing.empty()) continue;
-    faults.add(Problem{
-        part.folder.string(), "", fmt::format("no runs {}", missing.text()),
-        fmt::format("{} complete (run it again with --resume)", describe(part.stamp.shard))});
+    faults.add(Problem{part.folder.string(), "", fmt::format("no runs {}", listed(missing).text()),
+                       fmt::format("{} complete ({}run it again with --resume)",
+                                   describe(part.stamp.shard), gap_advice(part, missing.front()))});
     faults.add(command(maker, part.out, part.stamp.shard, true));
   }
   std::ranges::sort(present, {}, &RunRange::first);

@@ -58,8 +58,11 @@ const Results& RowWriter::results() const {
 void refuse_gaps(const Results& results, long first, const std::filesystem::path& file) {
   for (std::size_t i = 0; i < results.size(); ++i)
     if (const long expected = first + static_cast<long>(i); results.runs[i] != expected)
-      throw SpecError({{file.string(), "", fmt::format("run {}", results.runs[i]),
-                        fmt::format("run {}, the next one", expected)}});
+      throw SpecError(
+          {{file.string(), "", fmt::format("run {}", results.runs[i]),
+            fmt::format("run {}, the next one: delete the rows from run {} on, and --resume makes "
+                        "them again",
+                        expected, results.runs[i])}});
 }
 
 } // namespace wingspread

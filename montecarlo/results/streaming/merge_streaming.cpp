@@ -1,9 +1,9 @@
 /// Merges shards made with --no-rows.
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/input_file.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
+#include "montecarlo/results/results_folder/parts.hpp"
 #include "montecarlo/results/streaming/streaming_folder.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
@@ -11,32 +11,33 @@
 namespace wingspread {
 namespace {
 
-/// @throws SpecError unless the folders, sorted by first run, hold all runs of one campaign
-void refuse_unlike(const std::vector<StoredCampaign>& parts) {
-  std::vector<Problem> problems;
-  const StoredCampaign& first = parts.front();
-  long next = 0;
-  for (const StoredCampaign& part : parts) {
-    const std::string folder = part.folder.string();
-    if (!is_streaming_folder(part.folder))
-      problems.push_back({folder, "", "a folder with rows", "folders of --no-rows, as the others"});
-    if (part.stamp.hash != first.stamp.hash || part.stamp.version != first.stamp.version)
-      problems.push_back(
-          {folder, "",
-           fmt::format("campaign {} by version {}", part.stamp.hash, part.stamp.version),
-           fmt::format("{} by {}, as in {}", first.stamp.hash, first.stamp.version,
-                       first.folder.string())});
-    if (part.runs().first != next)
-      problems.push_back({folder, "", fmt::format("runs from {}", part.runs().first),
-                          fmt::format("run {}: each run in one folder", next)});
-    next = part.runs().last;
+/// The folders as parts of one campaign, by their runs.
+/// @throws SpecError, MissingRuns unless they hold all runs of one campaign, each once
+std::vector<StoredCampaign> complete_shards(const std::vector<std::filesystem::path>& folders) {
+  std::vector<StoredCampaign> shards;
+  std::vector<Part> parts;
+  for (const std::filesystem::path& folder : folders) {
+    if (!is_streaming_folder(folder))
+      throw SpecError(
+          {{folder.string(), "", "a folder with rows", "folders of --no-rows, as the others"}});
+    shards.push_back(read_stored_campaign(folder));
+    parts.push_back({folder, folder, shards.back().stamp, shards.back().runs()});
   }
-  if (next != first.campaign.sampling.runs)
-    problems.push_back(
-        {"", "",
-         fmt::format("no folder with runs {} to {}", next, first.campaign.sampling.runs - 1),
-         fmt::format("folders with all of the campaign's {} runs", first.campaign.sampling.runs)});
-  if (!problems.empty()) throw SpecError(std::move(problems));
+  refuse_other_campaigns(parts, campaign_file);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const long first = parts[i].own.first,
+               made = read_streaming_statistics(shards[i]).statistics.runs();
+    if (made > 0) parts[i].present = {{first, first + made}};
+  }
+  PartFaults faults;
+  find_doubles(parts, faults);
+  find_missing(
+      parts, shards.front().campaign.sampling.runs,
+      {"wingspread run " + shell_word((folders.front() / campaign_file).string()), " --no-rows"},
+      faults);
+  faults.refuse();
+  std::ranges::sort(shards, {}, [](const StoredCampaign& shard) { return shard.runs().first; });
+  return shards;
 }
 
 /// Appends one shard's broken_runs.csv. @return bytes written
@@ -59,17 +60,8 @@ std::uint64_t append_broken(const StoredCampaign& part, std::uint64_t bytes, boo
 
 Summary merge_streaming(const std::vector<std::filesystem::path>& folders,
                         const std::filesystem::path& out) {
-  std::vector<StoredCampaign> parts;
-  for (const std::filesystem::path& folder : folders) parts.push_back(read_stored_campaign(folder));
-  std::ranges::sort(parts, {}, [](const StoredCampaign& part) { return part.runs().first; });
-  refuse_unlike(parts);
+  const std::vector<StoredCampaign> parts = complete_shards(folders);
   refuse_used_folder(out, "a new or an empty folder");
-  for (const StoredCampaign& part : parts)
-    if (const long done = read_streaming_statistics(part).statistics.runs();
-        done < part.runs().size())
-      throw SpecError(
-          {{part.folder.string(), "", fmt::format("{} of {} runs", done, part.runs().size()),
-            "all of them: `wingspread run` with --no-rows and --resume goes on"}});
   const FolderLock lock(out);
   const StoredCampaign whole{out, parts.front().campaign, stamp_of(parts.front().campaign, {})};
   write_file(out / campaign_file, campaign_text(whole.campaign, whole.stamp));

@@ -185,8 +185,7 @@ void StreamingStatistics::add_correlations(const ResultRow& row) {
   for (std::size_t i = 0; i < draw_z_.size(); ++i) draw_z_[i] = draw_scales_[i].of(row.draws[i]);
   for (std::size_t i = 0; i < outputs_.size(); ++i)
     output_z_[i] = outputs_[i].scale.of(row.outputs[i]);
-  const bool stayed = row.status == Status::stalled || row.status == Status::timed_out;
-  output_z_.back() = row.status == Status::deployed ? 1 : stayed ? 0 : undefined;
+  output_z_.back() = row.status == Status::deployed ? 1 : 0;
   correlations_->add(draw_z_, output_z_);
 }
 

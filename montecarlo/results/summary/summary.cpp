@@ -261,10 +261,8 @@ std::string why_no_limit(const Summary& summary, const ToleranceLimitEstimate& e
 
 Column deployed_column(const Results& results) {
   Column column{"deployed", {}};
-  for (const Status status : results.status) {
-    const bool stayed = status == Status::stalled || status == Status::timed_out;
-    column.values.push_back(status == Status::deployed ? 1 : stayed ? 0 : undefined);
-  }
+  for (const Status status : results.status)
+    column.values.push_back(status == Status::deployed ? 1 : 0);
   results.status.release();
   return column;
 }

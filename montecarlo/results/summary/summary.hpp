@@ -95,7 +95,7 @@ struct NominalRun {
   std::string latch_order, reason;
 };
 
-/// 1 for a run that deployed, 0 for one that stalled or timed out, NaN for the others, whose outcome is unknown.
+/// 1 for a run that deployed, 0 for every other: a draw that is no wing and a run that failed count as in verdicts.
 [[nodiscard]] Column deployed_column(const Results& results);
 
 /// Correlation of a draw with an output or with deployed_column() (Pearson's is then the point-biserial correlation).
@@ -163,6 +163,11 @@ struct Summary {
   bool without_rows = false;                 ///< computed from streaming statistics
   bool one_run =
       false; ///< nothing is dispersed, and all runs have the same result (judge_campaign.hpp)
+
+  /// Of each bound at this analysis, so that the bounds of all interim analyses hold together at `confidence`.
+  [[nodiscard]] double confidence_of_bound() const {
+    return interim.confidence_of_bound(confidence);
+  }
 };
 
 /// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes per run and thread; as many

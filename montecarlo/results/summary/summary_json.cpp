@@ -24,7 +24,7 @@ constexpr std::string_view replicates_agree =
 std::string over_interim_analyses(const Summary& summary) {
   const InterimAnalyses& interim = summary.interim;
   if (interim.count() == 1) return "";
-  const double confidence = interim.confidence_of_bound(summary.confidence);
+  const double confidence = summary.confidence_of_bound();
   if (!interim.before.empty())
     return fmt::format(", at a confidence of {:.10g}: of analysis {} of the same draws, the bounds "
                        "of all extensions hold together at {:.10g}",
@@ -308,8 +308,9 @@ std::vector<double> densities(const Histogram& histogram) {
 
 /// The number of repeated runs that have a property, and an upper bound of its share among all runs.
 Json share_json(const Summary& summary, std::size_t found) {
-  return {{"runs", found},
-          {"share_at_most", share_at_most(*summary.accuracy, found, summary.confidence)}};
+  return {
+      {"runs", found},
+      {"share_at_most", share_at_most(*summary.accuracy, found, summary.confidence_of_bound())}};
 }
 
 } // namespace

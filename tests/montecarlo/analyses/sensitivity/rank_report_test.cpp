@@ -129,7 +129,7 @@ TEST_CASE("the short table names what moves an output, and stops") {
       "t\n\nOUTPUT                          moved by (rank correlation, partial or Spearman's, the "
       "larger)\n"
       "  root.latch_time               spring -0.85, damper 0.60\n"
-      "  nothing visible moves root.overtravel one way. A draw that moves an output both ways has "
+      "  no visible effect on root.overtravel. A draw that moves an output both ways has "
       "no rank\n"
       "  correlation: Sobol' indices show it (sensitivity of the campaign's file)\n");
 }

@@ -252,3 +252,21 @@ TEST_CASE("a status of paired sets is compared by the runs that have it in one o
   check(Status::timed_out, 0, 1);
   check(Status::failed, 0, 0);
 }
+
+TEST_CASE("differences have the higher confidence of both sets, which interim analyses raise",
+          "[page]") {
+  const auto first = made(quick_campaign(30)), extended = made(quick_campaign(30));
+  for (double& value : extended->results.outputs[0].values) value *= value;
+  extended->confidence = 0.9875;
+  for (const auto& [one, other] :
+       {std::pair{&*first, &*extended}, std::pair{&*extended, &*first}}) {
+    const Json compared = comparison_json(*one, *other, {0, 1});
+    CHECK(compared["confidence"] == 0.9875);
+    const Difference wanted = paired_difference(one->results.outputs[0], other->results.outputs[0],
+                                                rows_from_0(30), one->replication, 0.9875);
+    CHECK(compared["outputs"][0]["upper"].get<double>() ==
+          Approx(*wanted.bounds.upper).epsilon(1e-4));
+    CHECK(compared["statuses"][0]["upper"].get<double>() ==
+          Approx(*paired_share_difference(0, 0, 30, 0.9875).bounds.upper).epsilon(1e-4));
+  }
+}

@@ -94,7 +94,8 @@ TEST_CASE("a run that is missing between others is named") {
   const std::size_t row = text.find("\n4,") + 1;
   std::ofstream(file, std::ios::binary) << text.erase(row, text.find('\n', row) + 1 - row);
   CHECK(shards.refusal(shards.parts) ==
-        "part2: found no runs 4, expected shard 2/3 complete (run it again with --resume)");
+        "part2: found no runs 4, expected shard 2/3 complete (rows were removed: delete all rows "
+        "from run 5 on, then run it again with --resume)");
 }
 
 TEST_CASE("runs that two folders have are named") {

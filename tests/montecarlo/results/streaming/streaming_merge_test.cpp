@@ -1,8 +1,12 @@
+#include "montecarlo/results/results_folder/parts.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
 #include "montecarlo/results/streaming/streaming_folder.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <optional>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -30,24 +34,68 @@ TEST_CASE("shards without rows are merged only if one version made them of one c
   Json other = quick_campaign(40);
   other["sampling"]["seed"] = 8;
   make_shard(c, campaign_of(other), {2, 2});
+  const auto out = folder.path() / "out";
   const auto refusal = [&](const std::filesystem::path& second) {
-    const std::string text = message_of([&] {
-      (void)merge_streaming({a, second}, folder.path() / "out");
-    });
-    CHECK_FALSE(std::filesystem::exists(folder.path() / "out"));
+    const std::string text = message_of([&] { (void)merge_streaming({a, second}, out); });
+    CHECK_FALSE(std::filesystem::exists(out));
     return text;
   };
-  CHECK_THAT(refusal(c), Catch::StartsWith(c.string() + ": found campaign "));
+  CHECK_THAT(refusal(c),
+             Catch::Contains((c / campaign_file).string() + ": /sampling/seed: found 8") &&
+                 Catch::Contains("as in " + a.string()));
   const std::string text = read_text(b / campaign_file).value(), now(version());
   for (const bool first : {true, false}) { // whichever of them another version made
     const std::string changed = read_text((first ? a : b) / campaign_file).value();
     std::string of_other = changed;
     of_other.replace(of_other.find(now), now.size(), "9.9.9");
     write_file((first ? a : b) / campaign_file, of_other);
-    CHECK_THAT(refusal(b), Catch::StartsWith(b.string() + ": found campaign ") &&
-                               Catch::Contains("by version " + (first ? now : "9.9.9")) &&
-                               Catch::Contains("by " + (first ? "9.9.9" : now)));
+    CHECK_THAT(refusal(b), Catch::StartsWith((b / campaign_file).string()) &&
+                               Catch::Contains("found " + (first ? now : "9.9.9")) &&
+                               Catch::Contains("expected " + (first ? "9.9.9" : now)));
     write_file((first ? a : b) / campaign_file, changed);
   }
-  CHECK(merge_streaming({b, a}, folder.path() / "out").runs == 40);
+  CHECK(merge_streaming({b, a}, out).runs == 40);
+}
+
+TEST_CASE("missing shards without rows are named, with the commands that make them") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(30));
+  std::vector<std::filesystem::path> parts;
+  for (const long index : {1L, 2L, 3L}) {
+    parts.push_back(folder.path() / fmt::format("part{}", index));
+    if (index != 2) make_shard(parts.back(), campaign, {index, 3});
+  }
+  const auto refused = [&](const std::vector<std::filesystem::path>& folders) {
+    std::optional<MissingRuns> found;
+    try {
+      (void)merge_streaming(folders, folder.path() / "out");
+    } catch (const MissingRuns& missing) {
+      found = missing;
+    }
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "out"));
+    REQUIRE(found);
+    return *found;
+  };
+  const auto command = [&](long index, const char* more) {
+    return fmt::format("wingspread run {} --out {} --shard {}/3 --no-rows{}",
+                       (parts[2] / campaign_file).string(),
+                       parts[static_cast<std::size_t>(index - 1)].string(), index, more);
+  };
+  const MissingRuns two = refused({parts[2], parts[0]});
+  CHECK_THAT(two.what(), Catch::Contains("no folder with runs 10 to 19"));
+  CHECK(two.commands() == std::vector{command(2, "")});
+  const MissingRuns ends = refused({parts[2]});
+  CHECK(ends.commands() == std::vector{command(1, " --resume"), command(2, "")});
+
+  const RunPlan plan(campaign);
+  {
+    StreamingFolder begun(parts[1], plan, Shard{2, 3}, false);
+    ThreadEvaluator evaluator({.threads = 1}, never);
+    REQUIRE(begun.begin(evaluator));
+  }
+  CHECK(refused({parts[2], parts[0], parts[1]}).commands() == std::vector{command(2, " --resume")});
+  CHECK_THAT(message_of([&] {
+               (void)merge_streaming({parts[0], parts[2], parts[0]}, "out");
+             }),
+             Catch::Contains("runs 0 to 9, which " + parts[0].string() + " has too"));
 }

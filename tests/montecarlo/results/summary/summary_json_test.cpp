@@ -353,4 +353,8 @@ TEST_CASE("summary.json says what the integration contributes, where that was me
   CHECK(moved["runs"] == 1);
   CHECK(moved["which"] == Json{5});
   CHECK(moved["share_at_most"] == share_at_most(*summary.accuracy, 1, summary.confidence));
+  summary.interim.before = {50, 100}; // bounds of the second extension share the risk
+  CHECK(accuracy_json(summary)["moved"]["share_at_most"] ==
+        share_at_most(*summary.accuracy, 1, summary.interim.confidence_of_bound(0.95)));
+  CHECK(accuracy_json(summary)["moved"]["share_at_most"] > moved["share_at_most"]);
 }
