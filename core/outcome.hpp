@@ -107,7 +107,7 @@ struct Phase {
   long steps = 0;          ///< accepted
 };
 
-/// What is proven at the end of a run for all later time. The members of the same names in Outcome explain each.
+/// Which results no later motion can change, by proof at the run's end. Members as in Outcome.
 struct Finality {
   bool peaks = false, moments = false, forces = false;
   bool latches = true;

@@ -36,7 +36,7 @@ template <class T, class AnySystem>
   if (step.x[at.angle(i)] != angle) return first_nonnegative(past);
   past = without_root_at_start(past);
   using std::abs;
-  if (!(abs(past[0]) > T(1e-8) * bound(past))) past = divided_by_s(past);
+  if (!(abs(past[0]) > T(vanishes_below) * bound(past))) past = divided_by_s(past);
   return bound(past) > T(0) ? first_nonnegative(past) : std::nullopt;
 }
 

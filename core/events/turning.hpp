@@ -11,9 +11,9 @@
 
 namespace wingspread {
 
-/// Whether hinge i turns back inside the step near its stowed angle (on the way away from the latch), or, with
-/// a latch that has not engaged (`waits`), near its latched angle. Near: at most the
-/// hinge's travel in the step short of that angle, or beyond it.
+/// Whether hinge i turns back inside the step near its stowed angle (moving away from the latch), or near its latched
+/// angle if its latch is open. Near: within one step's travel, on either side.
+/// @param waits whether the latch of hinge i is open; for a pack: in which lanes
 template <class T, class Mask>
 [[nodiscard]] auto turns_where_it_counts(const Wing<T>& wing, const Layout& at, const Step<T>& step,
                                          int i, const Mask& waits) {

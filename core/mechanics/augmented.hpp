@@ -2,7 +2,7 @@
 ///
 /// A hinge with an added inertia E has the moment τ − E φ̈. A locked hinge is the limit E → ∞, for which locked.hpp has
 /// the equations of motion. The axis moment then depends on the parent's rotation, so a moment crosses the hinge as
-/// well as a force. The source's 3×3 form [Yudintsev, eqs. 3-5] is needed; here it is referred to the hinge's point.
+/// well as a force. The source's 3×3 form [Yudintsev, eqs. 3-5; reference: recursion.hpp] is needed; here it is referred to the hinge's point.
 /// Symbols continue those of recursion.hpp:
 ///
 /// | symbol  | meaning                                                   | shape   | unit        |
@@ -46,7 +46,7 @@ template <class T> struct AugmentedFrame {
   Vec2<T> b; ///< N
   T m;       ///< N·m
   T u;       ///< rad/s²
-  // outcome
+  // result of the outward pass
   Vec2<T> acceleration;   ///< a of the hinge's point, m/s²
   T angular_acceleration; ///< α, rad/s²
 };
@@ -87,11 +87,11 @@ void factorize(const Wing<T>& wing, const Topology& tree, const Frames& frames, 
   own.inverse = hinge.locked ? T(0) : T(1) / (own.I + hinge.added_inertia);
   own.e = scaled(own.inverse, own.h);
   own.g = own.I * own.inverse;
-  const T rest = hinge.locked ? T(1) : hinge.added_inertia * own.inverse; // 1 − g
+  const T one_less_g = hinge.locked ? T(1) : hinge.added_inertia * own.inverse;
   own.K = {fused(-own.h.x, own.e.x, A.xx), fused(-own.h.x, own.e.y, A.xy),
            fused(-own.h.y, own.e.y, A.yy)};
-  own.H = scaled(rest, own.h);
-  own.N = rest * own.I;
+  own.H = scaled(one_less_g, own.h);
+  own.N = one_less_g * own.I;
 }
 
 /// (13), (15) at body i for a hinge moment τ. @pre made at its children

@@ -19,7 +19,7 @@
 
 namespace wingspread {
 
-/// What crosses a hinge besides the force of (6).
+/// The moment that crosses a locked hinge beside the force of (6): n = Hᵀ a + N α_p + m.
 template <class T> struct Crossing {
   Vec2<T> H; ///< kg·m
   T N;       ///< kg·m²

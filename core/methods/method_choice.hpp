@@ -41,7 +41,7 @@ inline constexpr double series_below = 5e-5;
 /// A step counts as held back if it is longer than this share of the stable step, which is the limit on the real
 /// axis. Where fast modes have died out, the estimate of the error may hold steps at 0.12 to 0.4 of it: with a stiff
 /// elastic hold on a light panel, for a whole run (method_choice_test.cpp). Steps that resolve a ringing mode are as
-/// long, 0.2 at rtol 1e-8. Smaller: more looks at the promise. Larger: such steps are never left.
+/// long, 0.2 at rtol 1e-8. Smaller: the promise is checked more often. Larger: such steps are never left.
 inline constexpr double held_back_share = 0.1;
 /// Beyond this share a step is surely held back. On the imaginary axis the limit is 0.30 of the real one for dopri5,
 /// 0.55 for taylor and 0.93 for dop853, and ρ is known to a fifth. Smaller: accurate steps count as surely held back.
@@ -69,7 +69,7 @@ inline constexpr int steps_before_leaving_series = 100;
 inline constexpr double promising_share = 0.08;
 /// Steps until `auto` checks the promise again, doubled from check to check between these limits.
 inline constexpr int first_recheck = 10, longest_recheck = 80;
-/// Times as many after a step that was not surely held back: in lanes each look stops all of them.
+/// Factor on these limits after a step that was not surely held back: in a pack each check stops all lanes.
 inline constexpr int longer_recheck = 4;
 /// Held-back steps in a row after which a surely held-back one is left without a promise, for `quickness` may be
 /// wrong: of a wing that creeps it is. 200 steps of order 8 are 2,400 evaluations, a vain trial costs about a

@@ -69,7 +69,7 @@ public:
     control_.target = control_.next_target;
     control_.after_rejection = true;
   }
-  /// What the trial steps so far mean for order and step of the next.
+  /// State of the control of order and step.
   [[nodiscard]] auto& control() { return control_; }
 
 private:

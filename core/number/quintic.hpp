@@ -105,11 +105,15 @@ template <class Mask, class T>
   return either;
 }
 
-/// p without its root at s = 0: p/s, or p/s² where p/s vanishes there to rounding (1e-8 of its bound).
+/// The share of its bound below which a value of a polynomial is rounding: a difference of angles that agree to half
+/// of the digits. Larger: a root close to the start is taken for one at it. Smaller: a root at the start is found again.
+inline constexpr double vanishes_below = 1e-8;
+
+/// p without its root at s = 0: p/s, or p/s² where p/s vanishes there to rounding.
 template <class T> [[nodiscard]] Quintic<T> without_root_at_start(const Quintic<T>& p) {
   using std::abs;
   const Quintic<T> once = divided_by_s(p);
-  const auto single = abs(once[0]) > T(1e-8) * bound(once);
+  const auto single = abs(once[0]) > T(vanishes_below) * bound(once);
   return any(!single) ? chosen(single, once, divided_by_s(once)) : once;
 }
 

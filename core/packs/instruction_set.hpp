@@ -14,13 +14,17 @@ enum class InstructionSet { scalar, neon, avx2, avx512 };
 /// Number of lanes: 1, 2, 4 or 8.
 [[nodiscard]] int lanes_of(InstructionSet set);
 
-/// Why a run is worked on outside its lane. `start`: it begins. `method`: no lane can make its steps. `limit`: t_end, a
-/// knot of a table, a hold's release, a proof attempt, or a step after which `auto` reconsiders the method. `event`: a
-/// latch may engage or let go, a hinge come to rest, an angle be passed at which a law changes or for which a hold
-/// waits, or a kink that matters lie inside the step. `release`: a stuck hinge may slide. `base`: a free base may turn
-/// further inside the step than at its ends, a hinge turn back, or an event lie at the step's end. `moment`, `force`: a
-/// peak may lie inside the step.
-enum class Cause { start, method, limit, event, release, base, moment, force };
+/// Why a run is worked on outside its lane.
+enum class Cause {
+  start,  ///< the run begins
+  method, ///< no lane can make its steps
+  limit, ///< t_end, a knot of a table, a hold's release, a proof attempt, or a check of the method by `auto`
+  event, ///< a latch may engage or let go, a hinge may come to rest, an angle or a kink that changes a law may be passed
+  release, ///< a stuck hinge may slide
+  base, ///< a free base may turn further than at the step's ends, a hinge may turn back, or an event lies at the end
+  moment, ///< a peak of a moment may lie inside the step
+  force   ///< a peak of a force may lie inside the step
+};
 inline constexpr std::array cause_names{"start",   "method", "limit",  "event",
                                         "release", "base",   "moment", "force"};
 
@@ -35,7 +39,7 @@ struct Occupancy {
   Occupancy& operator+=(const Occupancy& other);
 };
 
-// Whether both this processor and this build have the instruction set.
+/// Whether both this processor and this build have the instruction set.
 [[nodiscard]] bool has_neon();
 [[nodiscard]] bool has_avx2();
 [[nodiscard]] bool has_avx512();

@@ -34,7 +34,8 @@ private:
   Quintic<T> rate_, excess_;
 };
 
-/// Adds the works of all motors whose hinges are open over a step. @param energy 0 … n, J; empty: not asked for
+/// Adds each running motor's work over a step, while its hinge's latch is open.
+/// @param energy J, by hinge 0 … n; empty if not asked for
 template <class T, class AnySystem>
 void add_motor_energy(std::vector<T>& energy, const AnySystem& system, const Step<T>& step) {
   for (int i = 1; i < static_cast<int>(energy.size()); ++i) {

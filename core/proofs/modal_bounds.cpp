@@ -148,7 +148,7 @@ void ModalBounds::keep_rounding(const Matrix& residual) {
           -1 / modes_[m].value.real() * size_of_residual(residual, modes_[m], modes_[k]);
 }
 
-/// What the modes move. @param vectors W @param moments K W_u + C W_v
+/// Keeps the effects of unit modes: turns, levers, loads. @param vectors W @param moments K W_u + C W_v
 void ModalBounds::keep_columns(const Matrix& vectors, const Matrix& moments) {
   const int n = size();
   ModeVector quick(modes()); // |λ|
@@ -168,7 +168,7 @@ void ModalBounds::keep_columns(const Matrix& vectors, const Matrix& moments) {
       sizes_of_columns(product(x, turns).eval()) * quick.asDiagonal(), base_way, turn_.topRows(1);
 }
 
-/// What moves the modes.
+/// Keeps the effects of loads on the modes.
 void ModalBounds::keep_rows() {
   ModeVector time(modes()); // 1/α
   for (int m = 0; m < modes(); ++m) time(m) = -1 / modes_[m].value.real();

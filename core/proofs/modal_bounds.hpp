@@ -143,7 +143,7 @@ public:
   bound(const ModeVector& start, const std::optional<double>& energy, double spin) const;
 
   /// Bounds inside the box that the energy alone gives, with (10): closer, and several times as costly.
-  /// What only they need is made at the first call.
+  /// The first call computes the matrices that only they need.
   [[nodiscard]] std::optional<HingeBounds> bound_in_reach(const ModeVector& start, double energy,
                                                           double spin);
 

@@ -291,7 +291,7 @@ private:
     accept();
   }
 
-  /// Looks for the peaks of an accepted step.
+  /// Searches an accepted step for peaks.
   void accept() {
     before_search_ = run_.system.work().evaluations;
     confirm_peaks(peaks_.first_doubt(by_lane_));

@@ -57,7 +57,7 @@ struct LaneTask {
   double end_of_stretch;             ///< Stepping::end_of_stretch: the run makes the step to it, s
   long most_trial_steps;             ///< after so many the run must judge the next trial step
   long most_steps;                   ///< the same, after so many accepted steps
-  long evaluations;                  ///< so far, without those that looked for peaks
+  long evaluations;                  ///< so far, without those of peak searches
   StepHistory<double> history;
 };
 
@@ -94,7 +94,7 @@ struct LaneResult {
   long trial_steps = 0;     ///< before the last one; 0: the state is the task's, and not written
   double h = 0;             ///< the last trial step, s
   long evaluations = 0;     ///< made by the lane, those of the last trial step included
-  long searched = 0;        ///< those of them that looked for peaks
+  long searched = 0;        ///< those of them of peak searches
   double error = 0;         ///< of the last trial step, as in StepVerdict
   StepVerdict judged{0, 1}; ///< on it, by all that a whole step must satisfy
   StepHistory<double> history{};

@@ -16,8 +16,8 @@
 
 namespace wingspread {
 
-/// Looks for peaks in every accepted step. A peak that the dense output shows inside a step is in
-/// doubt, until a step of the method that ends there confirms it.
+/// Searches every accepted step for peaks. A peak that the dense output shows inside a step is in doubt, until a step of
+/// the method that ends there confirms it.
 template <class T, class AnySystem> class PeakSearch {
 public:
   explicit PeakSearch(Underway<T, AnySystem>& run) : run_(run) {}
@@ -27,7 +27,7 @@ public:
   /// For the lane of an engine to write to.
   [[nodiscard]] std::vector<PeakOf<T>>& moments() { return moments_; }
   [[nodiscard]] std::vector<PeakOf<T>>& forces() { return forces_.peaks; }
-  /// What holds have borne, 1 … n, N·m; empty where no hinge is held or it is not asked for.
+  /// Peak moments of holds, N·m, by hinge 1 … n; empty without holds or if not asked for.
   [[nodiscard]] const std::vector<PeakOf<T>>& holds() const { return holds_; }
   [[nodiscard]] std::vector<PeakOf<T>>& holds() { return holds_; }
   /// Forces at the start of the step, 1 … n, N; only where forces are asked for.
@@ -37,7 +37,7 @@ public:
   [[nodiscard]] std::vector<T>& overtravel() { return overtravel_; }
   [[nodiscard]] const std::vector<T>& overtravel() const { return overtravel_; }
 
-  /// What motors have given, 0 … n, J; empty where no hinge has one or it is not asked for.
+  /// Work of motors, J, by hinge 0 … n; empty without motors or if not asked for.
   [[nodiscard]] std::vector<T>& motor_energy() { return motor_energy_; }
   [[nodiscard]] const std::vector<T>& motor_energy() const { return motor_energy_; }
 
@@ -84,7 +84,7 @@ public:
     bool forces_may_rise = true; ///< if done
   };
 
-  /// Looks for the largest loads of a step just accepted. @pre the last evaluation was at its end
+  /// Searches the step just accepted for the largest loads. @pre the last evaluation was at its end
   /// @return the first doubt: the fraction of the step to which the method must make a step
   [[nodiscard]] std::optional<T> first_doubt(const LaneSearch& by_lane) {
     made_inner_steps_ = held_is_bounded_ = false, searched_ = by_lane.done;
@@ -206,7 +206,7 @@ private:
     return doubt_->s;
   }
 
-  /// What hold hold_ bears: the moment that locks its hinge, less the hinge's own.
+  /// Searches the moment of hold `hold_`: the locking moment less the hinge's own laws.
   [[nodiscard]] std::optional<T> doubtful_hold() {
     if (run_.system.is_restrained(hold_)) return doubtful_elastic_hold();
     if (!run_.system.is_held(hold_)) return std::nullopt;
@@ -228,13 +228,13 @@ private:
     return borne_at_;
   }
 
-  /// What the hold of hinge i bears at x. @pre the last evaluation was there
+  /// Moment of the hold of hinge i at x, N·m. @pre the last evaluation was there
   [[nodiscard]] T load_of_hold(const State<T>& x, int i) const {
     return run_.system.is_restrained(i) ? run_.system.elastic_hold(x, i)
                                         : run_.system.locking_moment(x, i);
   }
 
-  /// The same of an elastic hold: linear in angle and rate, so that its hull dismisses a step.
+  /// As doubtful_hold, for an elastic hold. Its moment is linear in angle and rate, so the hull bounds it.
   [[nodiscard]] std::optional<T> doubtful_elastic_hold() {
     using std::abs;
     const Step<T>& step = run_.step;

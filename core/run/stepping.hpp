@@ -59,7 +59,7 @@ public:
 
   [[nodiscard]] Method method() const { return choice_.active(); }
   [[nodiscard]] long steps() const { return steps_; } ///< accepted
-  /// Evaluations without those that looked for peaks, by which `auto` compares methods.
+  /// Evaluations without those of peak searches, by which `auto` compares methods.
   [[nodiscard]] long evaluations() const { return run_.system.work().evaluations - run_.searched; }
   [[nodiscard]] Work work() const { return {steps_, rejected_, run_.system.work().evaluations}; }
 

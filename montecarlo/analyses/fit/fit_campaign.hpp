@@ -21,8 +21,8 @@ inline constexpr const char* posterior_file = "posterior.csv";
 [[nodiscard]] std::vector<std::string> lost_laws(const Campaign& campaign,
                                                  const std::vector<std::size_t>& fitted);
 
-/// posterior.csv: the common parameters, then dispersions that every test has of its own and that depend on common ones
-/// through correlations. The latter are a new unit's: a draw of their law given the row's common parameters.
+/// posterior.csv: the common parameters, then every test's own parameters (`own`) that the campaign correlates with
+/// common ones. Each row draws the latter for a new unit, given its common parameters.
 struct PosteriorRows {
   std::vector<std::size_t> columns; ///< dispersions of the campaign
   std::vector<std::string> names;   ///< of the columns

@@ -232,7 +232,7 @@ std::string why_withheld(const MarginSearch& search) {
   case Withheld::nothing:
     return "";
   case Withheld::no_window:
-    return fmt::format("no scale that was looked at meets all requirements{}",
+    return fmt::format("no scale that was run meets all requirements{}",
                        is_closed_by_cut_peaks(search)
                            ? "; at some only because t_end cut peaks: lengthen t_end"
                            : "");

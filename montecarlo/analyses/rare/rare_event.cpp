@@ -159,8 +159,8 @@ private:
       subset.repetition = (static_cast<std::uint64_t>(s) << 32U) + static_cast<std::uint64_t>(k);
       most_ = made_ + (options_.repeats - k) * most_evaluations(subset) +
               most_after(s); // an upper bound: a repeat may end early
-      part.estimates.push_back(
-          subset_simulation(g, coordinates_of(campaign_.dispersions).names.size(), subset));
+      const std::size_t own = coordinates_of(campaign_.dispersions).names.size();
+      part.estimates.push_back(subset_simulation(g, coordinates_in(part.stratum, own), subset));
     }
     part.estimate = combined(part.estimates, options_.confidence);
     if (!strata_.unseen.empty()) widen_to_plain(options_.confidence, part.estimate);

@@ -4,6 +4,7 @@
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 
 #include <fmt/format.h>
 
@@ -62,7 +63,8 @@ Json stratum_json(const StratumEstimate& part, const RareEvent& event) {
   const RareEstimate& estimate = part.estimate;
   Json rare = Json::object();
   for (const auto& [name, value] : part.stratum.rare) rare[name] = json_number(value);
-  return {{"rare_values", rare},
+  return {{"draws", describe(part.stratum)},
+          {"rare_values", rare},
           {"probability", part.stratum.probability},
           {"samples", part.samples},
           {"event", estimate.probability},
@@ -184,6 +186,14 @@ std::string plain_text(const RareEstimate& estimate) {
                      estimate.plain_runs);
 }
 
+/// The upper bound that the first levels give as a plain sample: it also holds if the simulation misses a cause.
+std::string counted_text(const RareResult& result, double confidence) {
+  const RareEstimate& all = result.estimate;
+  if (is_stratified(result) || !all.reached || all.plain || all.draws == 0) return "";
+  return fmt::format("The first levels, a plain sample of {} runs, show P ≤ {:.2g}.\n", all.draws,
+                     clopper_pearson(all.hits, all.draws, confidence).upper);
+}
+
 /// Whether the bounds of a stratum's estimate keep their confidence.
 bool is_bounded(const StratumEstimate& part) { return part.estimate.reached; }
 
@@ -191,7 +201,7 @@ bool is_bounded(const StratumEstimate& part) { return part.estimate.reached; }
 std::string result_text(const RareResult& result, double confidence, const std::string& event) {
   const RareEstimate& all = result.estimate;
   if (is_stratified(result) && all.interval.lower > 0)
-    return fmt::format("P({}) = {:.3g}, {:g} % bounds {:.4g} … {:.4g}{}\n", event, all.probability,
+    return fmt::format("P({}) = {:.4g}, {:g} % bounds {:.4g} … {:.4g}{}\n", event, all.probability,
                        100 * confidence, all.interval.lower, all.interval.upper,
                        all.reached ? "" : "; the upper one is an estimate, not guaranteed");
   if (is_stratified(result) && !all.reached)
@@ -276,6 +286,10 @@ std::vector<std::string> doubts_of(const RareResult& result) {
     doubts.emplace_back("the repeats scatter more than their Markov chains explain: some may have "
                         "missed a cause of the event. Use more --samples and --repeats");
   for (const auto& [name, draws] : result.unseen) doubts.push_back(unseen_text(name, draws));
+  if (result.left_out > 0.1 * result.estimate.probability)
+    doubts.push_back(fmt::format("draws with the probability {:.3g} are not simulated: they are in "
+                                 "the upper bound, not in the estimate",
+                                 result.left_out));
   return doubts;
 }
 
@@ -358,6 +372,7 @@ std::string rare_text(const RareResult& result, const RareOptions& options,
     text += fmt::format("Bias: such estimates are too large by about {} on average\n",
                         percent(all.bias, 1));
   text += fmt::format("{} runs made.{}\n", all.evaluations, plain_text(all));
+  text += counted_text(result, options.confidence);
   text += strata_text(result);
   text += repeats_text(result, options);
   if (result.likeliest) text += likeliest_text(*result.likeliest, campaign);

@@ -27,6 +27,9 @@ constexpr std::size_t most_rare_values = 20;
 constexpr double most_rare_mass = 0.5;
 // Ten releases that may fail have 1 + 10 + 45 strata with at most two failures.
 constexpr std::size_t most_strata = 64;
+// Heuristic: of 30 parts that fail rarely, 1024 of the other combinations have more than 99 % of their probability. More
+// take memory, fewer leave more to the upper bound.
+constexpr std::size_t most_others = 1024;
 constexpr double right_angle = 1e-12; // |cosine| of orthogonal unit rows, with rounding
 
 struct Value {
@@ -176,15 +179,33 @@ std::vector<Stratum> parts_of(const Stratum& stratum, const Split& split) {
   return parts;
 }
 
-/// Leaves out strata less probable than `smallest`, and keeps at most most_strata, the most probable ones.
-void keep_probable(double smallest, Strata& strata) {
+void sort_by_probability(std::vector<Stratum>::iterator first, std::vector<Stratum>& list) {
+  std::ranges::stable_sort(first, list.end(), std::ranges::greater{}, &Stratum::probability);
+}
+
+/// Moves all but the most_strata most probable strata to the others, of which it keeps most_others. Leaves out the rest,
+/// and strata less probable than `smallest`.
+void keep_probable(double smallest, Strata& strata, std::vector<Stratum>& others) {
   std::vector<Stratum>& list = strata.list;
-  std::ranges::stable_sort(list.begin() + 1, list.end(), std::ranges::greater{},
-                           &Stratum::probability);
+  sort_by_probability(list.begin() + 1, list);
   while (list.size() > 1 && (list.size() > most_strata || list.back().probability < smallest)) {
-    strata.left_out += list.back().probability;
+    if (list.back().probability < smallest)
+      strata.left_out += list.back().probability;
+    else
+      others.push_back(std::move(list.back()));
     list.pop_back();
   }
+  sort_by_probability(others.begin(), others);
+  for (; others.size() > most_others; others.pop_back())
+    strata.left_out += others.back().probability;
+}
+
+/// The stratum among the others that the coordinate chooses.
+const Stratum& chosen(const Stratum& stratum, double coordinate) {
+  double below = unit_point(coordinate).below * stratum.probability;
+  const auto holds = [&](const Stratum& each) { return (below -= each.probability) < 0; };
+  const auto found = std::ranges::find_if(stratum.others, holds);
+  return found == stratum.others.end() ? stratum.others.back() : *found;
 }
 
 /// The point of the intervals below which lies the share v.below of their mass.
@@ -242,6 +263,7 @@ void add_part(const StratumEstimate& part, bool none_reached, RareEstimate& all,
 } // namespace
 
 std::string describe(const Stratum& stratum) {
+  if (!stratum.others.empty()) return "others with rare values";
   std::string text;
   for (const auto& [name, value] : stratum.rare)
     text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, value);
@@ -250,17 +272,31 @@ std::string describe(const Stratum& stratum) {
 
 Strata strata_of(const Campaign& campaign, const StrataOptions& options) {
   Strata strata{{Stratum{}}, 0, {}};
+  std::vector<Stratum> others;
   for (const Split& split : splits_of(campaign, options, strata)) {
     std::vector<Stratum> finer;
     for (const Stratum& stratum : strata.list)
       std::ranges::move(parts_of(stratum, split), std::back_inserter(finer));
     strata.list = std::move(finer);
-    keep_probable(options.smallest, strata);
+    keep_probable(options.smallest, strata, others);
   }
+  if (others.empty()) return strata;
+  Stratum together{0, {}, {}, std::move(others)};
+  for (const Stratum& each : together.others) together.probability += each.probability;
+  strata.list.push_back(std::move(together));
   return strata;
 }
 
+std::size_t coordinates_in(const Stratum& stratum, std::size_t own) {
+  return stratum.others.empty() ? own : own + 1;
+}
+
 NormalPoint within(const Stratum& stratum, NormalPoint z) {
+  if (!stratum.others.empty()) {
+    const Stratum& one = chosen(stratum, z.back());
+    z.pop_back();
+    return within(one, std::move(z));
+  }
   for (const RestrictedCoordinate& coordinate : stratum.restricted) {
     const double y = dot(coordinate.direction, z);
     const double moved = inverse(Normal{}, point_of(coordinate, unit_point(y))) - y;

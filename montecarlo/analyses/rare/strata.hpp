@@ -24,6 +24,9 @@
 /// dispersions are orthogonal, so that several restrictions hold at once. Of two correlated discrete dispersions only
 /// the first is restricted; the second counts as `unseen`.
 ///
+/// At most 64 strata have their own simulation, the most probable ones. Up to 1024 others are one stratum together: a
+/// further coordinate chooses one of them, by their probabilities.
+///
 /// Bounds of (1): each stratum's distance to its own bounds, in quadrature. Source: G. Y. Zou, A. Donner, Statistics in
 /// Medicine 27 (2008) 1693–1702 (MOVER). Strata without simulation, and strata whose event was not reached, add their
 /// whole upper bound.
@@ -56,10 +59,11 @@ struct Stratum {
   double probability = 1; ///< w
   std::vector<RestrictedCoordinate> restricted;
   std::vector<std::pair<std::string, double>>
-      rare; ///< dispersions with a rare value, and the value
+      rare;                      ///< dispersions with a rare value, and the value
+  std::vector<Stratum> others{}; ///< disjoint strata that this one has together; else empty
 };
 
-/// "nofire = 1, k = 9000"; "no rare value".
+/// "nofire = 1, k = 9000"; "no rare value"; "others with rare values".
 [[nodiscard]] std::string describe(const Stratum& stratum);
 
 struct Strata {
@@ -78,7 +82,9 @@ struct StrataOptions {
 /// The strata of a campaign: a single one without discrete laws that have rare values.
 [[nodiscard]] Strata strata_of(const Campaign& campaign, const StrataOptions& options);
 
-/// z' by (2).
+/// Number of coordinates of a stratum's points. @param own of the campaign's points
+[[nodiscard]] std::size_t coordinates_in(const Stratum& stratum, std::size_t own);
+/// z' by (2). @param z with coordinates_in coordinates; the last one chooses among `others`
 [[nodiscard]] NormalPoint within(const Stratum& stratum, NormalPoint z);
 
 /// A stratum's part of the sum.

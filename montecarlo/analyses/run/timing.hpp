@@ -17,6 +17,7 @@ struct SessionTiming {
 };
 
 /// Writes timing.json into a results folder: host, threads, instruction set, lane occupancy, runs and seconds.
+/// @throws MachineError if it cannot be written
 void write_timing(const std::filesystem::path& folder, const SessionTiming& timing,
                   const ThreadPool& pool, const Evaluator& evaluator);
 

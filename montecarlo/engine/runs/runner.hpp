@@ -29,7 +29,7 @@ public:
     ResultRow row;
     Scene scene{};
   };
-  /// @param interval Goal::sample_interval
+  /// @param interval Goal::sample_interval, s; 0: every step
   [[nodiscard]] Replay replay(long k, const Observer& observer, double interval = 0);
 
   /// Integrates run k with another goal and end, for its samples. The observer may end the run with an exception, which

@@ -23,8 +23,8 @@ struct Dimension {
 /// Whether the text is a unit of any dimension.
 [[nodiscard]] bool is_unit(std::string_view text);
 
-/// All units of the same dimension, for messages: `"kg", "g", "lb", "lbm" or "slug"`. Of a product of units the usual
-/// ones, and the symbols that can stand in it: `"s/rad" or "s/deg", or another one made of s, ms, min, h, rad, mrad,
+/// All units of the same dimension, for messages: `"kg", "g", "lb", "lbm" or "slug"`. For a product of units the usual
+/// ones, and the symbols allowed in it: `"s/rad" or "s/deg", or another one made of s, ms, min, h, rad, mrad,
 /// deg, °, rev`.
 [[nodiscard]] std::string units_like(std::string_view unit);
 

@@ -41,8 +41,8 @@ struct RankBounds {
 /// @pre n ≥ 0, 0 < p < 1, 0 < confidence < 1
 [[nodiscard]] RankBounds quantile_rank_bounds(long n, double p, double confidence);
 
-/// The same over a sample with missing values, as ranks among the present ones; nothing if a missing value has the rank.
-/// Where missing values rank at either end, the bounds hold for both: the lower one has them below, the upper one above.
+/// As above over a sample with missing values: ranks among the present ones, none where a missing value has the rank. If
+/// missing values may rank at either end, the lower bound has them below, the upper bound above.
 [[nodiscard]] RankBounds quantile_rank_bounds(const PartialRanks& ranks, double p,
                                               double confidence);
 

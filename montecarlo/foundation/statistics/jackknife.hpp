@@ -19,7 +19,7 @@
 namespace wingspread {
 
 /// Groups that independent draws are split into. Heuristic: t for 15 degrees of freedom is within 9 % of the normal
-/// quantile at 95 %, and the number is computed 16 times. Fewer groups widen the bounds, more take time.
+/// quantile at 95 %, and the statistic is computed 16 times. Fewer groups widen the bounds, more take time.
 inline constexpr int jackknife_groups = 16;
 
 /// The bounds of θ. None for G < 2, if any θ_g is NaN, or if all θ_g are equal, which says nothing about the error.

@@ -8,14 +8,15 @@
 ///   τ       B_xy/√(B_xx B_yy), Kendall's τ_b
 ///   w_x     B_xx/A_xx, the share of those terms in a column's own sum: 3/(n + 1) without ties
 ///
-/// A sample's correlation of ranks is A_xy/√(A_xx A_yy). The population's is the expectation of the terms with j ≠ k,
-/// of which A_xy has n(n − 1)(n − 2). The n(n − 1) terms with j = k are a foreign part, Kendall's. So a population with
-/// the correlation ρ shows in samples of n rows
+/// A sample's correlation of ranks is A_xy/√(A_xx A_yy). The population's involves only the n(n − 1)(n − 2) terms with
+/// j ≠ k. The n(n − 1) terms with j = k belong to Kendall's τ. So a population with the correlation ρ shows in samples of
+/// n rows
 ///
 ///   r(ρ) = √((1 − w_x)(1 − w_y)) ρ + √(w_x w_y) τ                                             (1)
 ///
-/// on average (of numerator and denominator). For ρ it is a small bias, of order 1/n; in partial correlations, which
-/// divide by 1 − R², it is of the size of their standard error at n = 100. A function f of correlations is corrected as
+/// on average, numerator and denominator taken separately. The bias of ρ is small, of order 1/n; that of partial
+/// correlations, which divide by 1 − R², is as large as their standard error at n = 100. A function f of correlations is
+/// corrected as
 ///
 ///   f(r) − (f(r(r)) − f(r)) = 2 f(r) − f(r(r))                                                (2)
 ///
@@ -30,8 +31,8 @@
 
 namespace wingspread {
 
-/// Rows that τ and w are computed from, the first ones: an error of τ of 1/√500 is one of 0.13/n in (1), which itself
-/// has a standard error of about 1/√n.
+/// τ and w use the first rows, so many. The error of τ is then 1/√500, which changes (1) by 0.13/n; (1) itself has a
+/// standard error of about 1/√n.
 inline constexpr std::size_t rank_bias_rows = 500;
 
 class RankBias {

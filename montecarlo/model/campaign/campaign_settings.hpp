@@ -82,8 +82,7 @@ inline constexpr std::array header_words{
 
 void read_sampling(const JsonCursor& at, Sampling& sampling);
 void read_integration(const JsonCursor& at, Integration& integration);
-/// What a smoothed latch cannot do of this scene: "a smoothed latch, and hinges.root.latch.backlash"; empty if it
-/// can do all.
+/// Features of this scene that smoothed latches lack: "a smoothed latch, and hinges.root.latch.backlash"; empty if none.
 [[nodiscard]] std::string beyond_smoothed_latches(const Scene& scene);
 inline constexpr const char* expected_event_latches =
     "\"event\": a smoothed latch knows no capture rate, holding moment or backlash";

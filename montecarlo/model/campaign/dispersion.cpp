@@ -152,7 +152,7 @@ std::vector<Dispersion> read_targets(JsonObject& object, const Scene* scene, Dis
   }
   if (object.is_object() && given.size() != 1)
     object.at().refuse(given.empty() ? "neither \"to\" nor \"each\" nor \"through\""
-                                     : fmt::format("both {}", fmt::join(given, " and ")),
+                                     : fmt::format("{} together", fmt::join(given, " and ")),
                        "one of them");
   else if (each)
     return expand(*each, scene, dispersion);
@@ -279,7 +279,7 @@ std::vector<Dispersion> read_dispersion(const JsonCursor& at, const Scene* scene
   return read;
 }
 
-/// Notes each name that is another column's, or has the random stream of another name.
+/// Refuses names of other columns and of other dispersions, and names with the random stream of another name.
 void check_names(const std::vector<Sourced>& all) {
   std::map<std::uint64_t, std::string> streams;
   const auto check = [&](const std::string& name, const JsonCursor& place) {
@@ -295,15 +295,15 @@ void check_names(const std::vector<Sourced>& all) {
     else if (!is_new)
       refuse(fmt::format("which has the random stream of \"{}\"", same->second), "another name");
   };
-  std::string whole; // of the columns before
+  std::string rows_before; // `rows` of the dispersion before
   for (const auto& [dispersion, at] : all) {
-    if (dispersion.rows != whole) check(dispersion.rows, at);
-    whole = dispersion.rows;
+    if (dispersion.rows != rows_before) check(dispersion.rows, at);
+    rows_before = dispersion.rows;
     check(dispersion.name, at);
   }
 }
 
-/// Notes each "set" of a parameter that an earlier dispersion has changed.
+/// Refuses each "set" of a parameter that an earlier dispersion has changed.
 void check_order(const std::vector<Sourced>& all, const Scene& scene) {
   std::map<SceneParameter, std::string> writers;
   for (const auto& [dispersion, at] : all)

@@ -38,8 +38,8 @@ struct Dispersion {
   Apply apply = Apply::set;
   std::vector<SceneParameter> targets;
   std::vector<Driven> through{}; ///< instead of apply and targets: one cause with several effects
-  /// Of a column of `rows`: the name of the whole. All columns of a whole take the same row, whose values are those of
-  /// the empirical law in the order of the file. Empty: the dispersion has a draw of its own.
+  /// Name of the block of `rows` of which this is a column; empty: the dispersion has a draw of its own. All columns of a
+  /// block take the same row; their empirical laws have the values in the order of the file.
   std::string rows{};
 };
 

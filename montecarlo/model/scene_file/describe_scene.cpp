@@ -73,7 +73,7 @@ std::string describe_torque(const char* name, const HingeTorque& torque) {
   return fmt::format("; {} {}{}", name, law, describe_change(torque.scale, torque.offset));
 }
 
-/// Of a spring tested both ways, which friction.scale scales.
+/// Describes the hysteresis of a spring tested both ways; friction.scale scales it.
 std::string describe_hysteresis(const Hinge& hinge) {
   if (!hinge.spring.table || !hinge.spring.table->both_ways()) return "";
   const double scale = hinge.friction.scale;

@@ -12,7 +12,7 @@ namespace wingspread {
 namespace {
 
 Way way_of(const Hinge& hinge) {
-  if (hinge.stowed == hinge.latched) return Way::unknown; // the scene's checks note that
+  if (hinge.stowed == hinge.latched) return Way::unknown; // `unphysical` tells it
   return hinge.stowed < hinge.latched ? Way::up : Way::down;
 }
 
@@ -272,7 +272,7 @@ Json write_stop(const Stop& stop) {
   return {{"stiffness", stop.stiffness}, {"dissipation", stop.dissipation}, {"gap", stop.gap}};
 }
 
-/// The stop at the stowed side as it is; others with their sides.
+/// A single stop at the stowed side has no "side", so that its scene keeps its hash; others have it.
 Json write_stops(const Hinge& hinge) {
   if (!hinge.far_stop) return write_stop(*hinge.stop);
   Json beyond = write_stop(*hinge.far_stop);

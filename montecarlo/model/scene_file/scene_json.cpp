@@ -76,19 +76,19 @@ Array read_list(JsonObject& object, std::string_view key, std::string_view expec
   return list ? list->elements() : Array{};
 }
 
-/// An optional list.
+/// The elements of `synchronisations`; none without the key.
 Array read_synchronisation_list(JsonObject& object) {
   const auto list = object.find("synchronisations");
   if (list && !list->value().is_array()) list->refuse("an array of synchronisations");
   return list ? list->elements() : Array{};
 }
 
-/// Names each object by its index: then a fault's path is its pointer.
-template <class Named> void number(std::vector<Named>& all) {
+/// Replaces names by indices, so that a fault's path is a JSON pointer.
+template <class Named> void name_by_index(std::vector<Named>& all) {
   for (std::size_t i = 0; i < all.size(); ++i) all[i].name = std::to_string(i);
 }
 
-/// The place below the scene at which a parameter of a stop stands: `stop` may be a list.
+/// The pointer below the scene of a fault in `stop/…` or `far_stop/…`: both may be elements of the array `stop`.
 std::string place_of_stop(const Json& scene, std::string below) {
   const auto cut = below.find("stop/");
   if (cut == std::string::npos) return below;
@@ -102,11 +102,11 @@ std::string place_of_stop(const Json& scene, std::string below) {
   return fmt::format("{}stop/{}/{}", hinge, k, field);
 }
 
-/// Notes a problem for each unphysical parameter whose pointer has no problem yet.
+/// Adds a problem for each unphysical parameter whose pointer has no problem yet.
 void refuse_unphysical(const JsonCursor& at, Scene scene) {
-  number(scene.bodies);
-  number(scene.hinges);
-  number(scene.synchronisations);
+  name_by_index(scene.bodies);
+  name_by_index(scene.hinges);
+  name_by_index(scene.synchronisations);
   const std::vector<Problem> known = at.problems();
   for (const Fault& fault : unphysical(scene)) {
     std::string below = "/" + fault.path;

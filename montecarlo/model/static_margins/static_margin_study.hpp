@@ -47,7 +47,8 @@ struct DriveMargins {
   std::vector<TravelPoint> travel;
   Margins worst{};       ///< the nominal wing's least margins over the travel; NaN: does not apply
   Margins worst_angle{}; ///< where they are: angle of the leading hinge, rad
-  MarginSpreads worst_spread; ///< of each draw's least margin over its own travel, which is exact
+  /// Of each draw's least margin over its own travel, in closed form (least_quotient.hpp).
+  MarginSpreads worst_spread;
   std::array<Json, margin_kind_names.size()>
       worst_draw; ///< the values drawn for worst_spread's runs
 };

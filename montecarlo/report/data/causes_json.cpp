@@ -95,8 +95,8 @@ std::vector<std::size_t> rows_of_both(const Column& x, const Column& y) {
   return rows;
 }
 
-/// Whether a pair is correlated by more than three standard errors, each 1/√(n − 1) for independent columns. Of a
-/// thousand independent pairs about three are.
+/// Whether a pair is correlated by more than three standard errors, each 1/√(n − 1) for independent columns.
+/// About three in a thousand independent pairs are.
 bool is_visible(const Correlation& value) {
   return std::abs(value.spearman) * std::sqrt(static_cast<double>(value.count) - 1) > 3;
 }

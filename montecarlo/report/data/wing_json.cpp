@@ -154,7 +154,7 @@ StopAtRest stop_at_rest(const Stop& stop, double way_to_its_side) {
   return {depth, depth > 0 ? stop.stiffness * depth : 0};
 }
 
-/// What small swings about this hinge's rest are, and are not.
+/// Notes on how far small swings about its rest describe this hinge.
 std::vector<std::string> notes_of(const Hinge& hinge, double rest) {
   constexpr double touching = 1e-9; // rad
   constexpr double far = 0.1; // rad. Heuristic: a latch or a stop that holds the hinge yields less

@@ -262,12 +262,9 @@ Json strata_json(const Json& study) {
   std::vector<Json> strata;
   const Json listed = study.value("strata", Json(nullptr)); // null, or of an earlier version: none
   for (const Json& part : listed.is_null() ? Json::array() : listed) {
-    std::string text;
-    for (const auto& [name, value] : part.at("rare_values").items())
-      text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, value.get<double>());
     // Of a plain sample without the event (`reached`, for its bounds hold) the upper bound says more than the share 0.
     const bool hit = part.at("reached").get<bool>() && part.at("event").get<double>() > 0;
-    strata.push_back({{"text", text.empty() ? "no rare value" : text},
+    strata.push_back({{"text", part.at("draws")},
                       {"probability", page_number(part.at("probability"), 6)},
                       {"event", page_number(part.at(hit ? "event" : "upper"), 6)},
                       {"reached", hit}});

@@ -28,7 +28,7 @@ struct RecordsEnd {
   std::uint64_t sum = 0; ///< of that record
 };
 
-/// What follows the last valid record.
+/// The state of the file behind the last valid record.
 enum class RecordsTail {
   clean,   ///< nothing
   cut_off, ///< less than a record: left by a crash

@@ -165,7 +165,7 @@ void tell_differences(const Part& part, const Part& first, const char* file,
                                                 : fmt::format("{} values differ", all.size()))});
 }
 
-/// What must be done before a run is resumed that lost rows between others; empty if it lacks only its last ones.
+/// Advice before a part with a gap between its rows is resumed; empty if only the last rows are missing.
 std::string gap_advice(const Part& part, const RunRange& missing) {
   if (part.present.empty() || missing.first > part.present.back().first) return "";
   return fmt::format("rows were removed: delete all rows from run {} on, then ", missing.last);

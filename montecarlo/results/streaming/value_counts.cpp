@@ -82,7 +82,7 @@ Grid grid_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return {};
   std::ranges::sort(values);
-  // Of a single value the scale is unknown. Heuristic: 1e-3 of it; another scale gives coarser bins or more of them.
+  // A single value has no scale. Heuristic: 1e-3 of the value; another scale gives coarser bins or more of them.
   const Dense dense =
       values.size() > 1 ? densest(values) : Dense{values[0], std::abs(values[0]) * 1e-3};
   const double deviation = dense.deviation > 0 ? dense.deviation : 1;

@@ -199,11 +199,11 @@ TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {
   search.seen = {{0.0625, scale_with(0, 0)}, {16, scale_with(0, 0)}};
   CHECK(why_withheld(search).empty());
   search.withheld = Withheld::no_window;
-  CHECK(why_withheld(search) == "no scale that was looked at meets all requirements");
+  CHECK(why_withheld(search) == "no scale that was run meets all requirements");
   CaseResult& cut = search.seen[16].front(); // as if t_end had cut all peaks
   Verdict& verdict = cut.verdicts.front();
   verdict.decision = Decision::undecided, verdict.not_listed = verdict.cut = verdict.open = 100;
-  CHECK(why_withheld(search) == "no scale that was looked at meets all requirements; at some only "
+  CHECK(why_withheld(search) == "no scale that was run meets all requirements; at some only "
                                 "because t_end cut peaks: lengthen t_end");
   search.withheld = Withheld::no_lower_edge;
   CHECK(why_withheld(search) == "nothing fails down to 0.0625: no edge was found, and how far down "

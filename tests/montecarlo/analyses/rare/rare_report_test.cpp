@@ -189,6 +189,23 @@ TEST_CASE(
         }
 }
 
+TEST_CASE("the text of a rare event says what its first levels show as a plain sample", "[rare]") {
+  RareResult result = result_of({repeat_of(true)});
+  result.estimate.reached = true, result.estimate.draws = 1000;
+  CHECK(has(rare_text(result, {}, campaign_with(1)),
+            "of 1000 runs, show P ≤ 0.0037")); // 0.025 = (1 − P)^1000
+  result.left_out = 2e-5;                      // the first levels are then samples of strata
+  CHECK_FALSE(has(rare_text(result, {}, campaign_with(1)), "plain sample"));
+  const auto told = [&] {
+    return std::ranges::any_of(
+        doubts_of(result), [](const std::string& doubt) { return has(doubt, "not simulated"); });
+  };
+  result.estimate.probability = 1e-3;
+  CHECK_FALSE(told());
+  result.estimate.probability = 1e-4;
+  CHECK(told());
+}
+
 TEST_CASE("an event that no run has: a bound by counting is none that is estimated", "[rare]") {
   RareResult result = result_of({repeat_of(false)});
   result.estimate.interval = {0, 0.002};

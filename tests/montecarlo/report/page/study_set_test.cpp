@@ -6,6 +6,7 @@
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -34,9 +35,9 @@ Json rare_study() {
     "repeats": [ { "levels": [ { "share": 0.5, "threshold": 3.5 }, { "share": 0.125, "threshold": 0 } ] },
                  { "levels": [] } ],
     "strata": [
-      { "rare_values": {}, "probability": 0.9, "event": 1e-6, "upper": 2e-6, "reached": true },
-      { "rare_values": { "a": 1, "b": 9000 }, "probability": 1e-3, "event": 0, "upper": 0.25, "reached": false },
-      { "rare_values": { "c": 0.5 }, "probability": 1e-5, "event": 1, "upper": 1, "reached": true } ],
+      { "draws": "no rare value", "probability": 0.9, "event": 1e-6, "upper": 2e-6, "reached": true },
+      { "draws": "a = 1, b = 9000", "probability": 1e-3, "event": 0, "upper": 0.25, "reached": false },
+      { "draws": "c = 0.5", "probability": 1e-5, "event": 1, "upper": 1, "reached": true } ],
     "warnings": [ "doubt" ],
     "likeliest": { "distance": 4.5, "draws": { "a": 1, "b": 2, "c": 3 }, "z": { "a": 0.5, "b": -4, "c": 2 } } })");
 }
@@ -122,7 +123,7 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
 
   Json many = study;
   for (int k = 1; k < 20; ++k)
-    many["strata"].push_back({{"rare_values", {{"k", k}}},
+    many["strata"].push_back({{"draws", fmt::format("k = {}", k)},
                               {"probability", 1e-4},
                               {"event", 0.01 * k},
                               {"upper", 1},
@@ -144,7 +145,7 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
   CHECK((little["strata"].empty() && little["levels"].empty() && little["likeliest"].is_null()));
   for (const char* pointer :
        {"/event", "/probability", "/lower", "/upper", "/reached", "/repeats", "/repeats/0/levels",
-        "/repeats/0/levels/1/share", "/repeats/0/levels/1/threshold", "/strata/1/rare_values",
+        "/repeats/0/levels/1/share", "/repeats/0/levels/1/threshold", "/strata/1/draws",
         "/strata/1/probability", "/strata/1/upper", "/strata/1/reached", "/likeliest",
         "/likeliest/distance", "/likeliest/draws", "/likeliest/z", "/likeliest/z/b"}) {
     CAPTURE(pointer);
