@@ -39,6 +39,7 @@ typename DenseWing<Scalar>::Link DenseWing<Scalar>::make_link(const Scene& scene
   link.regularization_rate = h.friction.regularization_rate;
   link.damper = h.damper;
   link.stop = h.stop;
+  link.far_stop = h.far_stop;
   link.latch = h.latch;
   link.joint = h.joint;
   link.plate = body.plate;
@@ -144,6 +145,9 @@ Scalar DenseWing<Scalar>::moment(const Link& link, const WingState<Scalar>& stat
   if (link.stop)
     sum +=
         link.sense * stop_moment(*link.stop, travel(link.hinge, angle), Scalar(link.sense * rate));
+  if (link.far_stop) // the mirror image: its travel is the way back from the latched angle
+    sum -= link.sense * stop_moment(*link.far_stop, Scalar(-overtravel(link.hinge, angle)),
+                                    Scalar(-link.sense * rate));
   return sum;
 }
 
@@ -160,6 +164,7 @@ Scalar DenseWing<Scalar>::potential(const Link& link, const WingState<Scalar>& s
   if (link.latch)
     sum += state.engagement(link.hinge) * latch_energy(*link.latch, Scalar(angle - link.latched));
   if (link.stop) sum += stop_energy(*link.stop, travel(link.hinge, angle));
+  if (link.far_stop) sum += stop_energy(*link.far_stop, Scalar(-overtravel(link.hinge, angle)));
   return sum;
 }
 

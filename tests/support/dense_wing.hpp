@@ -135,7 +135,7 @@ private:
     TorqueLaw<Scalar> spring, harness;
     Scalar coulomb, viscous, friction_scale, regularization_rate;
     std::optional<Damper> damper;
-    std::optional<Stop> stop;
+    std::optional<Stop> stop, far_stop;
     std::optional<Latch> latch;
     std::optional<Joint> joint;
     std::optional<Plate> plate;

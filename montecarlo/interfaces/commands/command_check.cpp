@@ -164,7 +164,8 @@ int modes(const ModesOptions& options) {
       natural_modes(scene, latched_hinges(scene, options.latched));
   if (!found)
     throw SpecError({{options.file.string(), "", "a wing without rest",
-                      "latches, springs or joints that balance gravity in some position"}});
+                      "latches, stops, springs or joints that end each hinge's turning, from the "
+                      "latched angles on"}});
   fmt::print("{}", options.json ? json_text(modes_json(*found)) : modes_text(*found));
   return exit_code::done;
 }
@@ -173,8 +174,9 @@ void add_modes_options(CLI::App& command, ModesOptions& options) {
   command.add_option("file", options.file, "A scene, or a campaign for its nominal scene")
       ->required();
   command
-      .add_option("--latched", options.latched,
-                  "Hinges whose latches are engaged; the others are held stowed. Default: all")
+      .add_option(
+          "--latched", options.latched,
+          "Hinges whose latches are engaged; others with a latch are held stowed. Default: all")
       ->delimiter(',')
       ->type_name("HINGE,...");
   command.add_flag("--json", options.json, "Print the modes as JSON, with flexible bodies' joints");

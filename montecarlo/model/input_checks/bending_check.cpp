@@ -19,6 +19,8 @@ constexpr double most_off = 0.1;
 constexpr double most_raised = 0.02;
 // As a share of m L²/12; heuristic: rounded numbers are nearer, and 2 % lower the fourth frequency by some 10 %.
 constexpr double most_beyond_rod = 0.02;
+// Heuristic, in lengths: a plate 2 % off the centre changes the frequency of a panel clamped at its end by about 4 %.
+constexpr double most_off_centre = 0.02;
 
 double rod_inertia(const Body& body) {
   return body.mass * (body.plate->to - body.plate->from).squaredNorm() / 12;
@@ -81,6 +83,15 @@ void check_bending(const Scene& scene, InputWarnings& warnings) {
     const Body& body = scene.bodies[b];
     if (!body.flexible || !body.plate || !can_be_cut(body)) continue;
     const std::string at = fmt::format("/bodies/{}", b);
+    const double off = ((body.plate->from + body.plate->to) / 2).norm();
+    if (off > most_off_centre * length_of(body))
+      warnings.add(at + "/plate",
+                   fmt::format("its middle is {:.3g} m from the centre of mass, about which the "
+                               "panel's segments are even",
+                               off),
+                   "a plate whose middle is the centre of mass, as a uniform panel's is: else a "
+                   "hinge at the plate's end is none at the bending panel's, and its frequency "
+                   "another");
     const double cut = clamped_frequency(with_even_mass(body)), whole = beam_frequency(body);
     if (std::abs(cut / whole - 1) > most_off)
       warnings.add(at + "/flexible/joints",

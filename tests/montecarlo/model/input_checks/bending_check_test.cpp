@@ -44,6 +44,12 @@ TEST_CASE("a bending panel with one joint, or with more inertia than a uniform o
       "at 1.5 Hz uncut\n");
   CHECK(warnings_of(bending_scene(8, 3)) == "/bodies/0/inertia: 3 kg·m², 1.12 times m L²/12\n");
   CHECK(warnings_of(bending_scene(8, 2.6)).empty()); // its mass is nearer to the middle
+  Scene shifted = bending_scene(8);
+  for (const Eigen::Vector2d& by : {Eigen::Vector2d(0.2, 0), Eigen::Vector2d(0, -0.2)}) {
+    shifted.bodies[0].plate = Plate{Eigen::Vector2d(-1, 0) + by, Eigen::Vector2d(1, 0) + by, 1, 0};
+    CHECK_THAT(warnings_of(shifted), Catch::StartsWith("/bodies/0/plate: ") &&
+                                         Catch::Contains("0.2 m from the centre of mass"));
+  }
   Scene rigid = bending_scene(1, 3);
   rigid.bodies[0].flexible.reset();
   CHECK(warnings_of(rigid).empty());
