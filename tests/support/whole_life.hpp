@@ -167,18 +167,11 @@ private:
     }
   }
 
-  /// The hinges' own moments, those of stops at the far side included.
+  /// The hinges' own moments, with motors and elastic holds.
   [[nodiscard]] Vector<double> own_moments(const State& y, double t) const {
     Vector<double> moments = wing_.moments(state(y));
     for (int i = 0; i < size(); ++i)
       moments(i) += wing_.sense(i) * motor_torque(y, t, i) + elastic_hold(y, i);
-    for (int i = 0; i < size(); ++i) {
-      const std::optional<Stop>& stop = scene_.hinges[i].far_stop;
-      const double depth = stop ? beyond(y, i) - stop->gap : 0;
-      if (depth > 0)
-        moments(i) -= wing_.sense(i) * stop->stiffness * depth *
-                      std::max(0., 1 + stop->dissipation * along(y, i));
-    }
     return moments;
   }
 
