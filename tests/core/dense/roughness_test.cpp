@@ -1,4 +1,5 @@
 #include "core/dense/roughness.hpp"
+#include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -6,6 +7,7 @@
 #include <numbers>
 
 using namespace wingspread;
+using namespace wingspread::oracle;
 
 namespace {
 
@@ -34,6 +36,21 @@ TEST_CASE("a step over much of a swing is rough wherever it begins") {
   // odd about its middle: the even part of the difference is nothing
   CHECK(roughness_of_swing(-0.4 * pi, 0.8 * pi) > 0.3);
   CHECK(roughness_of_swing(-0.8 * pi, 1.6 * pi) > 3);
+}
+
+// A hinge may be known up to 1e8 rad, where its angle is rounded by more than a short step moves it.
+TEST_CASE("rounding makes no step rough, however far the hinge has turned and whatever is asked") {
+  for (int seed = 1; seed <= 2000; ++seed) {
+    Draws draws(seed);
+    const double angle = draws.sign() * draws.log_uniform(1e-3, 1e8);
+    const double rate = draws.sign() * draws.log_uniform(1e-6, 1);
+    Step<double> step;
+    step.t = 0, step.h = draws.log_uniform(1e-12, 1e-3);
+    step.x = {angle, rate}, step.x1 = {angle + step.h * rate, rate};
+    step.dxdt = step.dxdt1 = {rate, 0};
+    CAPTURE(seed, angle, rate, step.h);
+    CHECK(roughness(Layout{0, 1, false}, step, draws.log_uniform(1e-18, 1e-8)) < 1e-3);
+  }
 }
 
 TEST_CASE("rounding does not make a tiny step rough") {

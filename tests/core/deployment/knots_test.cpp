@@ -50,3 +50,25 @@ TEST_CASE(
     }
   }
 }
+
+// The step between the two is short, and says nothing of how long the next may be.
+TEST_CASE("two knots close together cost two steps: the next one is as long as those before") {
+  for (const double gap : {1e-2, 1e-4, 1e-6})
+    for (const char* method : {"dopri5", "dop853", "cash_karp54"}) {
+      Scene scene = unit_oscillator(1);
+      Integration how = within(1e-8, 6);
+      how.method = method;
+      const Outcome without = Deployment().run(scene, how, to_the_end);
+      constexpr int pairs = 10;
+      BaseTable::Columns still{{0}, {}, {}, {}};
+      for (int k = 1; k <= pairs; ++k)
+        still.time.push_back(0.5 * k), still.time.push_back(0.5 * k + gap);
+      still.rate.assign(still.time.size(), 0.0);
+      scene.base.motion = BaseMotion::prescribed;
+      scene.base.table = std::make_shared<const BaseTable>(still, Interpolation::linear);
+      const Outcome out = Deployment().run(scene, how, to_the_end);
+      CAPTURE(gap, method, out.reason);
+      CHECK(out.work.steps <= without.work.steps + 2 * pairs);
+      CHECK(std::abs(out.final.angles[0] - without.final.angles[0]) < 1e-7);
+    }
+}

@@ -2,6 +2,7 @@
 // formulation in an integrator of its own.
 #include "tests/core/deployment/random_lives.hpp"
 #include "tests/core/deployment/real_runs.hpp"
+#include "tests/support/closed_forms.hpp"
 #include "tests/support/random_cases.hpp"
 #include "tests/support/whole_life.hpp"
 
@@ -81,6 +82,52 @@ void check_lives(int first, int cases, bool motors) {
 
 TEST_CASE("random wings live as the dense formulation says: holds, captures, latches that let go") {
   check_lives(9000, random_cases(200, 10), false);
+}
+
+namespace {
+
+/// A panel that passes its latch too fast, is thrown back by a stop more slowly and latches then. Many such latches let the
+/// panel go again, back to where it was stowed.
+Scene caught_on_the_way_back(std::uint64_t seed) {
+  Draws draws(seed);
+  Scene scene = latching_panel();
+  Hinge& hinge = scene.hinges[0];
+  if (draws.chance(0.5)) hinge.stowed = -hinge.stowed; // mirrored
+  const double fast =
+      std::sqrt(2 * hinge.spring.torque_stowed * std::abs(hinge.stowed) / panel_inertia);
+  Latch latch{draws.log_uniform(50, 500), 0};
+  latch.dissipation = draws.log_uniform(0.01, 0.1);
+  latch.capture_rate = fast * draws.uniform(0.7, 0.98);
+  latch.holding_moment = draws.log_uniform(1, 20);
+  hinge.latch = latch;
+  hinge.far_stop =
+      Stop{draws.log_uniform(100, 1000), draws.uniform(0.2, 2), draws.uniform(0.05, 0.3)};
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE(
+    "a latch that caught the hinge on its way back and let it go awaits it at the stowed side") {
+  int awaited = 0;
+  for (int seed = 1; seed <= random_cases(100, 5); ++seed) {
+    const Scene scene = caught_on_the_way_back(static_cast<std::uint64_t>(seed));
+    const double t_end = 8, out_of_stowed = scene.hinges[0].stowed < 0 ? 1 : -1;
+    WholeLife exact(scene);
+    exact.run(t_end);
+    const Outcome out = run(scene, 1e-11, t_end);
+    CAPTURE(seed, out.reason);
+    check_events(out.missed, exact.missed);
+    check_events(events_of(out.latches), exact.latches);
+    check_events(out.let_go, exact.let_go);
+    if (out.latches.empty() || out.let_go.empty()) continue;
+    const bool on_the_way_back = out.latches[0].rates[0] * out_of_stowed < 0;
+    const double lost = out.let_go[0].time;
+    const bool again =
+        out.latches.back().time > lost || (!out.missed.empty() && out.missed.back().time > lost);
+    awaited += on_the_way_back && again;
+  }
+  CHECK(awaited >= 2);
 }
 
 TEST_CASE("random wings with motors and elastic holds live as the dense formulation says",

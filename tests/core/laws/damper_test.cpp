@@ -85,6 +85,31 @@ TEST_CASE("the largest moment of a damper over rates of both signs") {
   });
 }
 
+TEST_CASE("the range of a damper's moments over rates holds them, and no more") {
+  int braking = 0, driven_back = 0;
+  for_random_dampers([&](const DamperTerms<double>& damper, Draws& draws) {
+    const double unit = damper.law == DamperLaw::viscous ? 1 : damper.rate;
+    const double low = draws.sign() * unit * draws.log_uniform(0.1, 10);
+    const double high = low + unit * draws.log_uniform(0.1, 20);
+    double least = damper_moment(damper, low), most = least;
+    const auto take = [&](double v) {
+      if (v < low || v > high) return;
+      least = std::min(least, damper_moment(damper, v));
+      most = std::max(most, damper_moment(damper, v));
+    };
+    for (int k = 1; k <= 2000; ++k) take(low + (high - low) * k / 2000.0);
+    take(high), take(damper.rate), take(-damper.rate);
+    const ValueRange<double> range = damper_range(damper, {low, high});
+    const double size = std::max(-least, most), close = 1e-12 * size;
+    CHECK(range.low == Approx(least).margin(close));
+    CHECK(range.high == Approx(most).margin(close));
+    if (damper.law != DamperLaw::eddy_current) return;
+    braking += low < damper.rate && damper.rate < high;
+    driven_back += low < -damper.rate && -damper.rate < high;
+  });
+  CHECK(std::min(braking, driven_back) >= 10);
+}
+
 TEST_CASE("what a damper exerts beyond the linear part that its secant takes") {
   int steeper = 0, flatter = 0;
   for_random_dampers([&](const DamperTerms<double>& damper, Draws& draws) {

@@ -1,6 +1,7 @@
 // The recursion while hinges are locked, against a dense constrained solve.
 #include "core/mechanics/energy.hpp"
 #include "tests/core/mechanics/constrained_wing.hpp"
+#include "tests/support/real_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -129,6 +130,57 @@ template <BaseMotion M> void require_same_bits(const Scene& scene, std::uint64_t
 }
 
 } // namespace
+
+namespace {
+
+/// Compares an evaluation of the system, some of whose hinges are locked, with the dense constrained solve.
+/// @return how many are locked
+template <BaseMotion M> int compare_evaluation(const Scene& scene, std::uint64_t seed) {
+  const auto state = random_state(seed + 1000, scene);
+  Posed<M> at(scene, state);
+  const Layout& layout = at.system.layout();
+  Constraints constraints = random_constraints(seed, layout.bodies);
+  std::fill(constraints.added.begin(), constraints.added.end(), 0);
+  for (int i = 1; i <= layout.bodies; ++i)
+    if (constraints.locked[at.wing.hinge_of[i]])
+      at.system.set_contact(i, i % 2 == 0 ? Contact::stuck : Contact::held);
+  if (at.work.stuck == 0) return 0;
+  State<double> dxdt(at.x.size());
+  at.system(at.x, dxdt, 0.0);
+  for (int i = 1; i <= layout.bodies; ++i)
+    if (!at.system.is_locked(i)) constraints.tau[at.wing.hinge_of[i]] = at.system.moment(at.x, i);
+  const Motions<long double> expected = dense<long double>(scene, state, constraints);
+  const double size = static_cast<double>(expected.moments.cwiseAbs().maxCoeff());
+  for (int i = 1; i <= layout.bodies; ++i) {
+    const int hinge = at.wing.hinge_of[i];
+    CAPTURE(seed, i);
+    CHECK(dxdt[layout.rate(i)] ==
+          Approx(static_cast<double>(expected.hinges(hinge))).epsilon(1e-8).margin(1e-8));
+    if (at.system.is_locked(i))
+      CHECK(at.work.holding[i] ==
+            Approx(static_cast<double>(expected.moments(hinge))).margin(1e-9 * size));
+  }
+  return at.work.stuck;
+}
+
+} // namespace
+
+TEST_CASE("what locks hinges in the air and under gravity agrees with a dense constrained solve") {
+  int locked = 0;
+  for (std::uint64_t seed = 1; seed <= 90; ++seed) {
+    RandomScene options = of(1 + static_cast<int>(seed % 6), seed % 2 == 0);
+    // a fixed base under gravity is one that is driven upwards
+    options.motion = seed % 3 == 0 ? BaseMotion::free : BaseMotion::prescribed;
+    RealFeatures features{.tables = false, .measured = false, .scales = false};
+    features.dampers = features.windows = features.stops = features.backlash = false;
+    features.loops = features.preloads = features.dissipation = false;
+    const Scene scene = with_real_hinges(random_scene(seed, options), seed, features);
+    locked += scene.base.motion == BaseMotion::free
+                  ? compare_evaluation<BaseMotion::free>(scene, seed)
+                  : compare_evaluation<BaseMotion::prescribed>(scene, seed);
+  }
+  CHECK(locked > 50);
+}
 
 TEST_CASE("an evaluation with locks spares free hinges the locks' terms, with the same bits") {
   for (std::uint64_t seed = 0; seed < 90; ++seed) {

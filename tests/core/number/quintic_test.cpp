@@ -137,6 +137,25 @@ TEST_CASE("a root at the start does not count, be it simple or double") {
   }
 }
 
+TEST_CASE("whether a root at the start is double does not depend on the polynomial's unit") {
+  oracle::Draws draws(11);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double r = draws.uniform(0.1, 0.9), size = std::ldexp(1., draws.below(200) - 100);
+    const double first = trial % 2 == 0 ? draws.log_uniform(1e-6, 1) : 0; // 0: a double root
+    // s (s + first) (s − r): without its root at 0 it is below 0 up to r
+    const Quintic<double> p = from_powers({0, -first * r, first - r, 1, 0, 0});
+    Quintic<double> scaled = p;
+    for (double& c : scaled) c *= size;
+    const Quintic<double> rest = without_root_at_start(p),
+                          of_scaled = without_root_at_start(scaled);
+    CAPTURE(trial, r, first, size);
+    for (int k = 0; k < 6; ++k) CHECK(of_scaled[k] == size * rest[k]);
+    const auto next = first_nonnegative(of_scaled);
+    REQUIRE(next.has_value());
+    CHECK(*next == Approx(r).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("the only zero of a quintic is found to round-off in a few passes, steep, flat or near "
           "an end") {
   // (s − r) q(s) with q > 0: one zero, at r

@@ -66,3 +66,17 @@ TEST_CASE("how far and how fast a free base turns, against its closed form", "[p
         Approx(Swing::share * Swing::start * (1 - std::cos(0.25 * std::acos(-1.0)))).epsilon(1e-8));
   CHECK(!Deployment().run(unit_oscillator(1), within(1e-6, 1), to_the_end).base_peaks.has_value());
 }
+
+TEST_CASE("a base that spins from the start changes its rate as one at rest does", "[peaks]") {
+  const Outcome still = Deployment().run(Swing::scene(), within(1e-10, 10), to_the_end);
+  for (const double spin : {-3.0, -0.2, 0.05, 4.0}) {
+    Scene scene = Swing::scene();
+    scene.base.rate = spin;
+    const Outcome out = Deployment().run(scene, within(1e-10, 10), to_the_end);
+    CAPTURE(spin);
+    REQUIRE(out.base_peaks.has_value());
+    CHECK(out.base_peaks->rate == Approx(still.base_peaks->rate).epsilon(1e-7));
+    CHECK(std::abs(out.base_peaks->angle - std::abs(spin) * 10) <=
+          still.base_peaks->angle * (1 + 1e-7));
+  }
+}

@@ -226,3 +226,54 @@ TEST_CASE("two stretched wings in line have the largest inertia that they can ha
   CHECK(left.within <= 2e-9 * left.whole);
   CHECK(left.whirl == Approx(0.5));
 }
+
+TEST_CASE(
+    "the largest inertia that a wing with held hinges can have is no less than any that it has, "
+    "and that one where every hinge is held") {
+  int partly = 0, rigid = 0;
+  for (int k = 0; k < 120; ++k) {
+    oracle::Draws draws(900 + k);
+    oracle::RandomScene options;
+    options.bodies = 1 + k % 5, options.branching = k % 2 == 0, options.motion = BaseMotion::free;
+    Scene scene = oracle::random_scene(900 + k, options);
+    const bool all = k % 3 == 0;
+    for (Hinge& hinge : scene.hinges) {
+      hinge.latch = Latch{1e4, 100};
+      hinge.spring = {}, hinge.harness = {}, hinge.friction = {}, hinge.initial_rate = 0;
+      if (all || draws.chance(0.5)) hinge.release = Release{.time = 1e3};
+    }
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::free> system(wing, std::nullopt, work);
+    State<double> x;
+    system.start(x);
+    const Layout& at = system.layout();
+    int held = 0;
+    for (int i = 1; i <= at.bodies; ++i) {
+      if (scene.hinges[wing.hinge_of[i]].release)
+        system.set_contact(i, Contact::held), ++held;
+      else
+        system.engage(i);
+    }
+    RemainingEnergy<double> remaining;
+    remaining.prepare(system);
+    for (int state = 0; state < 20; ++state) {
+      for (int i = 1; i <= at.bodies; ++i) {
+        x[at.rate(i)] = 0;
+        if (!system.is_held(i))
+          x[at.angle(i)] = remaining.rest()[at.angle(i)] + draws.uniform(-3, 3);
+      }
+      x[BaseExcursion<double>::coordinate + at.freedoms()] = 1;
+      const auto left = remaining.energy(system, x, 0., 0.);
+      if (!left) continue;
+      const TotalMotion<double> now = total_motion(system, x, 0.);
+      const double largest = now.spin() * now.spin() / (2 * (left->whole - left->within));
+      CAPTURE(k, held, at.bodies, largest, now.central_inertia());
+      CHECK(largest >= now.central_inertia() * (1 - 1e-6));
+      ++(held == at.bodies ? rigid : partly);
+      if (held == at.bodies) CHECK(largest == Approx(now.central_inertia()).epsilon(1e-6));
+    }
+  }
+  CHECK(std::min(partly, rigid) > 100);
+}
