@@ -329,8 +329,8 @@ TEST_CASE(
   const std::string close = program.file(json);
   const auto open = program({"run", close, "--out", program.out + "3", "--runs", "20"});
   CHECK(open.code == 1);
-  CHECK_THAT(open.error, HasFacts({"7 of 20 runs", "3", "\nnote: ", "inflates the risk",
-                                   "--until 'requirement D-2'", "--seed"}));
+  CHECK_THAT(open.error, HasFacts({"7 of 20 runs", "3", "\nnote: ", "--seed", "adds a risk",
+                                   "--resume --runs"}));
   const auto longer =
       program({"run", close, "--out", program.out + "3", "--runs", "40", "--resume", "--table"});
   CHECK_THAT(longer.out,

@@ -103,7 +103,11 @@ TEST_CASE("the table of cases says of each whether its stopping goals were reach
                                        "root.latch_time@0.5 0.000001"};
   const auto shown = [&](const std::string& to, std::vector<std::string> more) {
     more.insert(more.end(), goals.begin(), goals.end());
-    return setting.run(setting.out + to, more).out;
+    const Finished end = setting.run(setting.out + to, more);
+    CHECK_THAT(end.error, HasFacts({"weak: goal not reached in 1010 runs: root.latch_time@0.5 "
+                                    "1e-06 s"}));
+    CHECK_THAT(end.error, !Catch::Contains("deployed 0.5"));
+    return end.out;
   };
   for (const char* table : {"--table", "--all"})
     CHECK_THAT(shown(table, {table}),

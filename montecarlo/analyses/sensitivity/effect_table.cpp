@@ -100,6 +100,11 @@ std::string MovedBy::table(std::string_view heading, std::string_view limits) co
         "  " +
         wrapped(fmt::format("no visible effect on {}{}", fmt::join(unmoved_, ", "), limits), 2) +
         '\n';
+  if (!unknown_.empty())
+    text +=
+        "  " +
+        wrapped(fmt::format("not known, as some rows lack it: {}", fmt::join(unknown_, ", ")), 2) +
+        '\n';
   return text;
 }
 

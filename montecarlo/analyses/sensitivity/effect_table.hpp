@@ -51,13 +51,16 @@ public:
            const std::function<double(std::size_t)>& size, double least,
            const std::function<std::string(std::size_t)>& text);
 
+  /// Adds an output whose effects are unknown, because some rows lack it.
+  void add_unknown(const std::string& output) { unknown_.push_back(output); }
+
   /// A line for each output, then one with all outputs that nothing moves. @param heading of the second column
   /// @param limits what the method cannot see, after the names of these outputs
   [[nodiscard]] std::string table(std::string_view heading, std::string_view limits = "") const;
 
 private:
   std::string lines_;
-  std::vector<std::string> unmoved_;
+  std::vector<std::string> unmoved_, unknown_;
 };
 
 /// An output with cut peaks (finality.hpp).

@@ -67,8 +67,10 @@ Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
         {"incomplete", "rows in which one of the points does not have the output: where there are "
                        "any, it has no indices"},
         {"deployed", "1 deployed, 0 otherwise"},
+        {"do_not_vary", "the same draw in all rows: their indices are unknown, not 0"},
         {"moves_nothing", "all outputs of all rows are the same without it, bit for bit"}}},
       {"outputs", outputs},
+      {"do_not_vary", all.unvaried},
       {"moves_nothing", all.idle()}};
 }
 
@@ -115,6 +117,10 @@ std::string moved_by_table(const SobolSensitivity& all, std::string_view title) 
   MovedBy moved;
   for (const auto& [name, indices, cut] : all.outputs) {
     const SobolIndices& found = indices;
+    if (found.incomplete > 0) {
+      moved.add_unknown(name);
+      continue;
+    }
     const auto total = [&](std::size_t i) { return found.effects[i].total.value; };
     moved.add(name, all.dispersions.size(), total, least, [&](std::size_t i) {
       return fmt::format("{} {:.0f} %", all.dispersions[i], 100 * total(i));
@@ -131,6 +137,10 @@ std::vector<std::string> warnings(const SobolSensitivity& all) {
   warn_of_t_end(cut, all.open_latches, all.runs, list);
   if (const std::vector<std::string> idle = all.idle(); !idle.empty())
     list.push_back(fmt::format("no output of any run changes with {}", quoted(idle)));
+  if (!all.unvaried.empty())
+    list.push_back(fmt::format("the draws of {} do not vary in these rows: values that are not "
+                               "drawn have no part in the indices",
+                               quoted(all.unvaried)));
   if (all.bounds.replicates == 1) list.emplace_back(one_replicate);
   if (const std::vector<std::string> names = incomplete(all); !names.empty())
     list.push_back(fmt::format("no indices of {}: some points of the design have no value (rank "

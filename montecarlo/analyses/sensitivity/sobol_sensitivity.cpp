@@ -15,6 +15,7 @@ std::vector<std::string> SobolSensitivity::idle() const {
     const auto known = [](const Output& output) {
       return output.indices.rows > output.indices.incomplete;
     };
+    if (std::ranges::find(unvaried, dispersions[i]) != unvaried.end()) continue;
     if (std::ranges::all_of(outputs, inert) && std::ranges::any_of(outputs, known))
       names.push_back(dispersions[i]);
   }
@@ -31,6 +32,11 @@ SobolSensitivity sobol_sensitivity(const Results& results, std::vector<std::stri
                        bounds,
                        std::move(coordinates),
                        {}};
+  for (const Column& draw : results.draws)
+    if (results.size() > 0 &&
+        std::ranges::find(all.dispersions, draw.name) != all.dispersions.end() &&
+        std::ranges::all_of(draw.values, [&](double x) { return x == draw.values[0]; }))
+      all.unvaried.push_back(draw.name);
   for (const Column& output : results.outputs)
     all.outputs.push_back(
         {output.name, sobol_indices(output.values, d, bounds), count_cut(results, output.name)});

@@ -25,7 +25,8 @@ struct SobolSensitivity {
   std::vector<Output> outputs;
   long open_latches =
       0; ///< deployed runs of which it is not proven that their latches stay engaged
-  /// Dispersions without any effect: changing them alone changes no bit of any output, in any row.
+  std::vector<std::string> unvaried{}; ///< dispersions with constant draws
+  /// Other dispersions without any effect: changing them alone changes no bit of any output, in any row.
   [[nodiscard]] std::vector<std::string> idle() const;
 };
 

@@ -59,12 +59,12 @@ void print_not_met(std::string_view of_case, const Verdict& verdict, std::string
 }
 
 /// Prints how adding runs affects verdicts that are undecided, or that were judged before.
-void print_notes(const Summary& summary) {
+void print_notes(const Summary& summary, bool may_stop) {
   if (!summary.interim.before.empty() && !summary.requirements.empty())
     print_message(
         "note: analysis {} of the same draws, after {} runs: a requirement passes if the "
         "risk of a wrong pass at any of them is at most 1 - confidence (summary.json states "
-        "it); without it, take another --seed and a number of runs fixed beforehand\n",
+        "it)\n",
         summary.interim.count(), fmt::join(summary.interim.before, ", "));
   const auto is_open = [](const Verdict& verdict) {
     // more of the same run decide nothing, nor do more runs whose peaks t_end cuts
@@ -72,15 +72,23 @@ void print_notes(const Summary& summary) {
            !rests_on_cut_peaks(verdict);
   };
   if (std::ranges::any_of(summary.requirements, is_open))
-    print_message(
-        "note: adding runs until a requirement passes inflates the risk. To decide it, use "
-        "--until {}, or another --seed and a number of runs fixed beforehand\n",
-        shell_word("requirement " +
-                   name_of(std::ranges::find_if(summary.requirements, is_open)->requirement)));
+    print_message("note: each further test after a failed one, with more runs or another --seed, "
+                  "adds a risk of a wrong pass{}\n",
+                  may_stop ? ""
+                           : ". `run --resume --runs N` adds runs and judges all analyses together "
+                             "at the promised confidence");
+}
+
+/// Prints the goals that all runs together have not reached.
+void print_open_goals(std::string_view of_case, const Summary& summary) {
+  for (const GoalFound& each : summary.until)
+    if (!each.met)
+      print_message("note: {}goal not reached in {}: {}\n", of_case,
+                    counted(summary.runs, "run", "runs"), to_string(each.goal));
 }
 
 /// Prints each requirement that some case does not meet, with its worst case, and the notes once.
-void report_cases(const std::vector<CaseSummary>& cases) {
+void report_cases(const std::vector<CaseSummary>& cases, bool may_stop) {
   for (std::size_t i = 0; i < cases.front().summary.requirements.size(); ++i) {
     const CaseSummary& worst = cases[worst_case(cases, i)];
     std::vector<std::string> others;
@@ -97,7 +105,8 @@ void report_cases(const std::vector<CaseSummary>& cases) {
                                [](const Verdict& verdict) { return !is_decided(verdict); });
   };
   const auto open = std::ranges::find_if(cases, is_open);
-  print_notes(open == cases.end() ? cases.front().summary : open->summary);
+  print_notes(open == cases.end() ? cases.front().summary : open->summary, may_stop);
+  for (const CaseSummary& each : cases) print_open_goals(each.name + ": ", each.summary);
 }
 
 } // namespace
@@ -184,14 +193,15 @@ int judge_results(const StoredCampaign& stored, const Summary& summary) {
   if (!stored.stamp.is_part()) {
     for (const Verdict& verdict : summary.requirements)
       if (verdict.decision != Decision::pass) print_not_met("", verdict, "");
-    print_notes(summary);
+    print_notes(summary, !stored.campaign.until.empty());
+    print_open_goals("", summary);
   }
   return judge_quietly(stored, summary);
 }
 
 int judge_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases) {
   end_table();
-  if (!whole.stamp.shard && !cases.empty()) report_cases(cases);
+  if (!whole.stamp.shard && !cases.empty()) report_cases(cases, !whole.campaign.until.empty());
   int worst = exit_code::done;
   for (const CaseSummary& each : cases)
     worst = std::max(worst,

@@ -107,7 +107,9 @@ Json write_goal(const DecisionGoal& goal) { return {{"requirement", goal.require
 std::string text_of(const WidthGoal& goal) {
   const std::string quantile = goal.quantile ? fmt::format("@{}", *goal.quantile) : "";
   if (goal.relative) return fmt::format("{}{} {:.10g}%", goal.output, quantile, 100 * goal.width);
-  return fmt::format("{}{} {}", goal.output, quantile, goal.width);
+  const std::string unit = goal.quantile ? parse_output_name(goal.output).unit : "";
+  return fmt::format("{}{} {}{}{}", goal.output, quantile, goal.width, unit.empty() ? "" : " ",
+                     unit);
 }
 
 std::string text_of(const DecisionGoal& goal) {

@@ -135,7 +135,7 @@ Bounds limits_of(const RankedRequired& values, long runs, const ToleranceLimitSp
   return limits;
 }
 
-/// Sets the values of the output. If the requirement is passed, the guaranteed value is at least as good as the limit.
+/// Sets the values of the output. If the requirement is passed, both are at least as good as the limit.
 void add_values(const RankedRequired& values, Verdict& verdict) {
   const Requirement& requirement = verdict.requirement;
   const bool is_min = requirement.min.has_value();
@@ -150,9 +150,10 @@ void add_values(const RankedRequired& values, Verdict& verdict) {
   if (verdict.allowed)
     verdict.guaranteed = number_of(from_worst(*verdict.allowed),
                                    is_min ? &OrderStatistic::lower : &OrderStatistic::upper);
-  if (verdict.guaranteed && verdict.decision == Decision::pass)
-    verdict.guaranteed = is_min ? std::max(*verdict.guaranteed, *requirement.min)
-                                : std::min(*verdict.guaranteed, *requirement.max);
+  if (verdict.decision == Decision::pass) // the exact count of runs beyond the limit says so
+    for (std::optional<double>* value : {&verdict.guaranteed, &verdict.observed})
+      if (*value)
+        *value = is_min ? std::max(**value, *requirement.min) : std::min(**value, *requirement.max);
   if (verdict.guaranteed)
     verdict.margin = limit_of(requirement) - sign_of(requirement) * *verdict.guaranteed;
   if (values.numbers().count() > 0)

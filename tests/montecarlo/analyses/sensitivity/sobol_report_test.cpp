@@ -15,7 +15,7 @@
 using namespace wingspread;
 using namespace wingspread::test;
 
-TEST_CASE("Sobol' indices as JSON, CSV and a table; what changes nothing is named", "[parallel]") {
+TEST_CASE("Sobol' indices as JSON, CSV and a table; what does not vary is named", "[parallel]") {
   Json json = quick_campaign(1);
   json["dispersions"].push_back({{"name", "none"},
                                  {"distribution", {{"type", "constant"}, {"value", 1}}},
@@ -26,13 +26,16 @@ TEST_CASE("Sobol' indices as JSON, CSV and a table; what changes nothing is name
   const long runs = saltelli_runs(12, campaign.dispersions.size());
   const SobolSensitivity all = sobol_sensitivity(rows_of(plan, {0, runs}), plan.coordinates().names,
                                                  12, "random", {.resamples = 50});
-  CHECK(all.idle() == std::vector<std::string>{"none"});
-  CHECK(warnings(all) == std::vector<std::string>{"no output of any run changes with \"none\""});
+  CHECK(all.unvaried == std::vector<std::string>{"none"});
+  CHECK(all.idle().empty());
+  REQUIRE(warnings(all).size() == 1);
+  CHECK_THAT(warnings(all)[0], Catch::Contains("\"none\" do not vary"));
   const Json read = parse_json(json_text(sensitivity_json(all, {})));
   CHECK(read["samples"] == 12);
   CHECK(read["runs"] == runs);
   CHECK(read["partial"] == false);
-  CHECK(read["moves_nothing"] == Json::array({"none"}));
+  CHECK(read["do_not_vary"] == Json::array({"none"}));
+  CHECK(read["moves_nothing"].empty());
   CHECK(read["warnings"] == Json(warnings(all)));
   const Json& effects = read["outputs"]["root.latch_time"]["dispersions"];
   CHECK(effects["none"]["total"]["value"] == 0);
@@ -97,6 +100,22 @@ TEST_CASE("the short table has shares of the variance") {
   CHECK(moved_by_table(all, "t") == "t\n\nOUTPUT                          moved by (share of the "
                                     "variance, interactions included)\n"
                                     "  root.latch_time               c 70 %\n");
+}
+
+TEST_CASE("the short table has outputs without indices as not known, and warns of constant draws") {
+  SobolSensitivity all;
+  all.dispersions = {"a"};
+  SobolIndices known{10, 0, 1, 1, {{{0, {}}, {0.9, {}}, false}}}, some = known;
+  some.incomplete = 1, some.effects[0].total.value = std::nan("");
+  all.outputs.push_back({"root.latch_time", known});
+  all.outputs.push_back({"deployment_time", some});
+  const std::string table = moved_by_table(all, "t");
+  CHECK_THAT(table, Catch::Contains("root.latch_time               a 90 %") &&
+                        Catch::Contains("not known") && Catch::Contains(": deployment_time\n") &&
+                        !Catch::Contains("no visible effect"));
+  all.unvaried = {"a"};
+  CHECK_THAT(warnings(all).at(0), Catch::Contains("\"a\" do not vary"));
+  CHECK(sensitivity_json(all, {})["do_not_vary"] == Json{"a"});
 }
 
 TEST_CASE("indices of peaks that t_end cut are told to be those of the cut values") {

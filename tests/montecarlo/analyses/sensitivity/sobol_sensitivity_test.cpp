@@ -19,3 +19,18 @@ TEST_CASE("a Saltelli design counts its runs: made so far, and in all") {
       CHECK(all.total == saltelli_runs(10, dispersions));
     }
 }
+
+TEST_CASE("a draw that does not vary in a design is named, and is not one without an effect") {
+  Results results(ResultNames{{"k", "s", "t"}, {"y"}});
+  for (long run = 0; run < 40; ++run) // A, B, and A with one column of B, row by row
+    results.append({run,
+                    Status::deployed,
+                    {1, static_cast<double>(run % 7), static_cast<double>(run % 3)},
+                    {static_cast<double>(run / 5)},
+                    "",
+                    ""});
+  const SobolSensitivity all =
+      sobol_sensitivity(results, {"k", "s", "t"}, 8, "random", {.resamples = 20});
+  CHECK(all.unvaried == std::vector<std::string>{"k"});
+  CHECK(all.idle() == std::vector<std::string>{"s", "t"});
+}

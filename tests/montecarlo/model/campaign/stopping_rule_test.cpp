@@ -28,7 +28,7 @@ TEST_CASE("Widths to stop at are read from words, and written as a campaign has 
     const char *text, *json;
   };
   for (const auto& [text, json] :
-       {Case{"root.latch_time@0.99 0.5",
+       {Case{"root.latch_time@0.99 0.5 s",
              R"([{"output":"root.latch_time","quantile":0.99,"width":0.5}])"},
         Case{"root.latch_time@0.5 2%",
              R"([{"output":"root.latch_time","quantile":0.5,"relative_width":0.02}])"},
@@ -45,7 +45,7 @@ TEST_CASE("Widths to stop at are read from words, and written as a campaign has 
   CHECK(parse_stopping_goal("root.held 1%") ==
         parse_json(R"({ "output": "root.held", "width": 0.01 })"));
   for (const char* text : {"root.latch_time@0.5 20 ms", "root.latch_time@0.5 20ms"})
-    CHECK(to_string(rule_of(text)[0]) == "root.latch_time@0.5 0.02");
+    CHECK(to_string(rule_of(text)[0]) == "root.latch_time@0.5 0.02 s");
   CHECK(parse_stopping_goal("my hinge.latch_rate@0.5 3 deg/s") ==
         parse_json(R"({ "output": "my hinge.latch_rate", "quantile": 0.5, "width": "3 deg/s" })"));
   for (const char* text : {"", " ", "deployed", "deployed x", "x@half 1", "deployed 1e999", "%",

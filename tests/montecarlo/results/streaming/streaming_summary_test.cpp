@@ -344,3 +344,34 @@ TEST_CASE("a histogram without rows has no bin without width") {
     CHECK(std::accumulate(counts.begin(), counts.end(), 0L) == runs);
   }
 }
+
+TEST_CASE("without rows a passed requirement's quantiles are not beyond its limit, an atom too") {
+  constexpr long runs = 3000;
+  constexpr double limit = 2.5495097567963922;
+  Json json = quick_campaign(static_cast<int>(runs));
+  json["requirements"] = {
+      {{"output", "root.latch_time"}, {"max", limit}, {"probability", 0.65}, {"confidence", 0.9}},
+      {{"output", "root.latch_time"}, {"min", limit}, {"probability", 0.55}, {"confidence", 0.9}}};
+  const Campaign campaign = campaign_of(json);
+  const ResultNames names = RunPlan(campaign).names();
+  const auto row = [&](long run) { // 40 % below the limit, 30 % at it, 30 % above
+    const double value = run % 10 < 4 ? limit - 0.1 : run % 10 < 7 ? limit : limit + 0.1;
+    return ResultRow{run,
+                     Status::deployed,
+                     std::vector<double>(names.draws.size(), 1.0),
+                     std::vector<double>(names.outputs.size(), value),
+                     "root>mid>tip",
+                     ""};
+  };
+  Results pilot(names);
+  for (long run = 0; run < 300; ++run) pilot.append(row(run));
+  StreamingStatistics statistics(campaign, names, pilot);
+  for (long run = 0; run < runs; ++run) (void)statistics.add(row(run), {});
+  const Summary found =
+      streaming_summary({"r", campaign, stamp_of(campaign, {})}, statistics, campaign.statistics);
+  for (const Verdict& verdict : found.requirements) {
+    REQUIRE(verdict.decision == Decision::pass);
+    CHECK(verdict.observed == limit);
+    CHECK(verdict.guaranteed == limit);
+  }
+}
