@@ -187,8 +187,7 @@ void add_merge_options(CLI::App& command, MergeOptions& options) {
                   "The results folder to write: new, empty, or an earlier preview")
       ->required();
   command.add_flag("--preview", options.preview,
-                   "Merge the runs made so far, of any shards of `run`, finished or not (not of "
-                   "--no-rows)");
+                   "Merge the runs made so far, of any shards with rows, finished or not");
   add_display_options(command, options.display);
   command.footer(
       std::string("The result is the same, byte for byte, as running the campaign at once.\n") +

@@ -105,10 +105,9 @@ TEST_CASE("a campaign is not continued with fewer runs, nor where draws or looks
                                "a new folder"));
   std::filesystem::remove_all(path);
   (void)run_into(path, sized("random", 4));
-  CHECK_THAT(
-      refused(sized("random", 3)),
-      Catch::EndsWith("found 4, expected 3: more can be added to them, but none taken away; run "
-                      "it into a new folder"));
+  CHECK_THAT(refused(sized("random", 3)), Catch::Contains("found 4, expected 3: ") &&
+                                              Catch::Contains("none taken away") &&
+                                              Catch::Contains("--runs 4 "));
   CHECK_THAT(
       refused(sized("random", 6, "deployed 0.1")),
       Catch::Contains("found 4, expected 6: the interim analyses of a campaign that may stop early "
