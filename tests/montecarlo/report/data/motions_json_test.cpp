@@ -222,7 +222,7 @@ TEST_CASE("a run of each status that some run has is shown, however many require
   const std::vector<std::string> outputs{"root.peak_moment", "mid.peak_moment", "tip.peak_moment",
                                          "root.latch_time",  "mid.latch_time",  "tip.latch_time",
                                          "root.peak_force",  "mid.peak_force",  "tip.peak_force"};
-  for (int k = 0; k < 40; ++k) {
+  for (int k = 0; k < 15; ++k) {
     Json json = full_campaign(60);
     json["requirements"] = Json::array();
     const std::size_t requirements = random() % (outputs.size() + 1);

@@ -86,7 +86,7 @@ TEST_CASE("the page's bounds hold together over all interim analyses, with rows 
 TEST_CASE("the worst run of a requirement is the same with rows and without, of x and of |x|",
           "[page]") {
   std::mt19937_64 random(3);
-  for (int k = 0; k < 30; ++k) {
+  for (int k = 0; k < 10; ++k) {
     std::vector<Json> requirements{{{"min", -100}}, {{"max", 100}}, {{"max", 100}, {"abs", true}}};
     std::shuffle(requirements.begin(), requirements.end(), random);
     Json json = quick_campaign(25);
