@@ -165,6 +165,26 @@ class ChangeChecks:
         self.assertEqual(mirror(9.5), [f"Without a requirement: tip peak moment reaches 9.50 N·m in {sets[0]}; its mirror image root peak moment, which has one, reaches 10.0 N·m."])
         self.assertEqual(mirror(8.5), [])
 
+    def test_a_hinge_and_its_mirror_image_are_each_other_s(self):
+        """Of two wings with as many hinges, in any order; of other wings no hinge has one."""
+        self.open(pages.made_up("plain"))
+        mirrored = lambda wings, hinges: self.run_script("""const set = { wing_orders: arguments[0].map(hinges => ({ wing: hinges[0], hinges })) };
+            return arguments[1].map(hinge => W.mirrored(set, `${hinge}.peak_force`))""", wings, hinges)
+        for one, other in ((["a"], ["b"]), (["a", "b"], ["c", "d"]), (["d.x", "b", "a"], ["c", "a.x", "b.x"])):
+            self.assertEqual(mirrored([one, other], [*one, *other, "none"]), [*(f"{hinge}.peak_force" for hinge in [*other, *one]), None])
+            for wings in ([one], [one, [*other, "more"]], [[*one, "more"], other], [one, other, ["third"]]):
+                self.assertEqual(mirrored(wings, [*one, *other]), [None] * (len(one) + len(other)), wings)
+
+    def test_of_mirror_images_each_is_told_where_the_other_is_judged(self):
+        self.open(pages.made_up("cases"))
+        for judged, other in (("root", "tip"), ("tip", "root")):
+            (text,) = self.run_script("""W.sets.forEach(set => { set.unjudged = []; set.wing_orders = ["root", "tip"].map(name => ({ wing: name, hinges: [name], orders: [], order_kinds: 0, without_latch: 0 }));
+                const [judged, other] = [...arguments].map(name => set.outputs.find(one => one.name === name + ".peak_moment"));
+                Object.assign(judged, { min: 0, max: 10, limits: [0] }); Object.assign(other, { min: -9.5, max: 0, limits: [] }); });
+                W.outcomes(); return [...document.querySelectorAll('.unjudged')].map(one => one.textContent)""", judged, other)
+            self.assertIn(f"{other} peak moment reaches 9.50 N·m", text)
+            self.assertIn(f"its mirror image {judged} peak moment, which has one, reaches 10.0 N·m", text)
+
     def test_dispersions_are_named_in_words(self):
         """In the tornado and the inputs; two with the same words keep their names; the name stays in the inputs."""
         self.open(pages.made_up("plain"))

@@ -135,3 +135,15 @@ class PoseChecks:
         x = self.scale("history", "x")
         box = self.run_script("const box = document.querySelector('figure.history .axis.x .domain').getBBox(); return [box.x, box.x + box.width]")
         self.near([box], [(x(max(0, first - room)), x(min(end, last + 5 * room)))], "while latching")
+
+    def test_of_many_hinges_those_with_the_largest_peaks_are_named(self):
+        self.open(pages.made_up("forty"))
+        count = self.run_script("return W.set().wing.hinges.length")
+        for peaks in (random.Random(1).sample(range(1, 10 * count), count), list(range(1, count + 1)), list(range(count, 0, -1)), [5] * (count - 13) + [9] * 13):
+            self.run_script("W.set().motions.forEach(motion => motion.moments = arguments[0].map((peak, at) => motion.t.map((_, k) => (at % 2 ? -1 : 1) * peak * (k % 7) / 6))); W.wing()", peaks)
+            pages.settle(self.driver)
+            names, strokes = self.run_script("""const figure = document.querySelector('figure.history');
+                return [[...figure.querySelectorAll('.legend g')].map(one => one.textContent), [...figure.querySelectorAll('.trace')].map(one => [one.querySelector('title').textContent, one.style.stroke])]""")
+            largest = sorted(sorted(range(count), key=lambda at: -peaks[at])[:13])
+            self.assertEqual(names, [*(f"h{at + 1}" for at in largest), f"{count - 13} others"])
+            self.assertEqual({name for name, stroke in strokes if stroke != "var(--none)"}, set(names[:-1]))

@@ -196,6 +196,23 @@ class Deployments(InFolder):
                 model(np.zeros(shape))
         self.assertEqual(len(wingspread.Model(SCENE, paths).outputs), 16)
 
+    def test_every_setting_of_evaluate_and_of_a_model_is_that_of_simulate(self):
+        campaign = small(cases=[{"name": name, "scale": {"hinges.*.spring.scale": by}} for name, by in (("cold", 0.9), ("hot", 1.2))])
+        paths, x, outputs = ["bodies.panel_1.mass"], [[10]], ["root.peak_moment", "root.latch_time"]
+        settings = [{}, {"case": "hot"}, {"rtol": 1e-5}, {"atol": 1e-4}, {"t_end": 4}, {"method": "dop853"}, {"latch": "smoothed:1e-3"},
+                    *({"method": "runge_kutta4", "step": step, "rtol": 1e-4} for step in (1e-3, 5e-4)), {"set": {"hinges.root.spring.scale": 0.95}}]
+        seen = set()
+        for setting in settings:
+            with self.subTest(str(setting)):
+                whole = {"case": "cold", **setting}
+                outcome = wingspread.simulate(campaign, **whole).outcome
+                times = [one["time"] for one in outcome["latches"] if one["hinge"] == "root"]
+                expected = [[outcome["peak_moment"]["root"]["value"], *(times or [np.nan])]]
+                self.same(wingspread.evaluate(campaign, paths, x, outputs, **whole), expected)
+                self.same(wingspread.Model(campaign, paths, outputs, **whole)(x), expected)
+                seen.add(str(expected))
+        self.assertEqual(len(seen), len(settings))
+
     def test_scipy_finds_the_springs_that_deploy_in_four_fifths_of_the_time(self):
         from scipy import optimize
         model = wingspread.Model(SCENE, ["hinges.*.spring.scale"], ["deployment_time"])

@@ -263,12 +263,17 @@ Json chosen_json(const PageSource& source, const RunPlan& plan, const ChosenRun&
 
 std::vector<ChosenRun> chosen_runs(const PageSource& source, std::size_t most) {
   Choice choice(source.results, most);
+  const auto kept_free =
+      static_cast<std::size_t>(std::ranges::count_if(other_statuses, [&](Status status) {
+        return !fewest_latched(source.results, status, 1).empty();
+      }));
+  const auto has_room = [&] { return choice.size() + kept_free < most; };
   add_median(source, choice);
   for (const Verdict& verdict : source.summary.requirements)
-    if (choice.size() + other_statuses.size() < most) add_worst_of(source, verdict, choice);
+    if (has_room()) add_worst_of(source, verdict, choice);
   if (source.summary.requirements.empty())
     for (const char* family : {"peak_moment", "peak_force", "deployment_time"})
-      add_largest_of(source, family, choice);
+      if (has_room()) add_largest_of(source, family, choice);
   add_statuses(source, choice);
   return choice.take();
 }

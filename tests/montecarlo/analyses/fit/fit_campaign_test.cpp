@@ -47,3 +47,36 @@ TEST_CASE("fitted dispersions become columns with their effects, others stay as 
     CHECK(parameter.in(std::as_const(one)) == parameter.in(std::as_const(other)));
   }
 }
+
+TEST_CASE("a case keeps its laws of what is not fitted, whatever their names begin with") {
+  const std::vector<std::string> names{"a", "ab", "a_b", "b"};
+  Json json = quick_campaign(4);
+  json["dispersions"] = Json::array();
+  Json laws = Json::object();
+  for (const std::string& name : names) {
+    json["dispersions"].push_back(
+        {{"name", name},
+         {"distribution", {{"type", "normal"}, {"mean", 0}, {"std", 0.1}}},
+         {"apply", "add"},
+         {"to", {"hinges.root.spring.torque_stowed"}}});
+    laws[name] = {{"type", "normal"}, {"mean", 0.2}, {"std", 0.3}};
+  }
+  json["cases"] = {{{"name", "hot"}, {"distributions", laws}}};
+  const Campaign campaign = campaign_of(json);
+  for (unsigned set = 1; set < 16; ++set) {
+    std::vector<std::size_t> fitted;
+    std::vector<std::string> kept, lost;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if ((set >> i & 1) != 0)
+        fitted.push_back(i), lost.push_back("hot: " + names[i]);
+      else
+        kept.push_back(names[i]);
+    CAPTURE(set);
+    CHECK(lost_laws(campaign, fitted) == lost);
+    std::vector<std::string> found;
+    const Json written = predicting_campaign(campaign, fitted);
+    for (const auto& [name, law] : written["cases"][0]["distributions"].items())
+      found.push_back(name);
+    CHECK(found == kept);
+  }
+}

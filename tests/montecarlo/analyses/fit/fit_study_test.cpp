@@ -287,3 +287,24 @@ TEST_CASE("threads and lanes do not change a bit") {
   CHECK(traces_csv(a, spec) == traces_csv(b, spec));
   CHECK(fit_json(a, spec, {}) == fit_json(b, spec, {}));
 }
+
+TEST_CASE("what is not fitted is held at its median, and told with the mean and sd of its law") {
+  const double lower = 0.5, mode = 0.6, upper = 2.5; // skew: the median is far from the mean
+  const Folder folder;
+  Json json = panel_campaign();
+  json["dispersions"][1]["distribution"] = {
+      {"type", "triangular"}, {"lower", lower}, {"mode", mode}, {"upper", upper}};
+  const Campaign campaign = campaign_of(json);
+  const double median = upper - std::sqrt((upper - lower) * (upper - mode) / 2);
+  Json tests = parse_json(R"({ "tests": [ { "name": "watch",
+      "values": [ { "output": "root.latch_time", "value": 0, "std": 0.01 } ] } ],
+    "fit": { "parameters": ["spring"], "samples": 200, "starts": 1 } })");
+  tests["tests"][0]["values"][0]["value"] = panel_latch_time(1.02, median);
+  const FitResult result = fitted(campaign, read_fit(tests, "tests.json", folder.path(), campaign));
+  REQUIRE(result.held.size() == 1);
+  CHECK(result.held[0].name == "friction");
+  CHECK(result.held[0].median == Approx(median).epsilon(1e-9));
+  CHECK(result.held[0].prior_mean == Approx((lower + mode + upper) / 3).epsilon(1e-9));
+  // what is told is what the runs have: with friction at its median the watch gives this spring
+  CHECK(result.parameters[0].mode == Approx(1.02).epsilon(2e-3));
+}

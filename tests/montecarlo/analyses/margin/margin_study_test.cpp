@@ -330,3 +330,44 @@ TEST_CASE("margin and run judge the same draws alike, whatever else a run record
           }) == is_cut);
   }
 }
+
+TEST_CASE("the quantile of a requirement on |x| is that of the absolute values", "[margin]") {
+  Json json = one_panel_margin(200);
+  json["requirements"][1] = {{"output", "root.latch_rate"},
+                             {"abs", true},
+                             {"max", 0.8},
+                             {"probability", 0.95},
+                             {"confidence", 0.5}};
+  const Campaign campaign = campaign_of(json);
+  const MarginResult result = margin_of(campaign);
+  const Results rows = rows_of(RunPlan(campaign), {0, 200});
+  std::vector<double> sizes;
+  for (const double value :
+       std::ranges::find(rows.outputs, "root.latch_rate", &Column::name)->values)
+    if (!std::isnan(value)) sizes.push_back(std::abs(value));
+  std::ranges::sort(sizes);
+  const auto rank = std::ceil(0.95 * static_cast<double>(sizes.size()) - 1e-9);
+  const CaseResult& present = result.searches.front().seen.at(1).front();
+  CHECK(present.quantiles[1] == Approx(sizes[static_cast<std::size_t>(rank) - 1]).epsilon(1e-6));
+}
+
+TEST_CASE("members of a group take the runs that their share of the risk takes", "[margin]") {
+  for (int members = 1; members <= 4; ++members)
+    for (const double probability : {0.9, 0.97}) {
+      const double risk = 0.1 / members;
+      const int least = static_cast<int>(std::ceil(std::log(risk) / std::log(probability)));
+      Json json = one_panel_margin(least - 1);
+      json["requirements"] = Json::array();
+      for (int k = 0; k < members; ++k)
+        json["requirements"].push_back({{"output", "root.latch_rate"},
+                                        {"min", -0.8 - 0.1 * k},
+                                        {"name", "R-" + std::to_string(k)},
+                                        {"group", "rates"},
+                                        {"probability", probability},
+                                        {"confidence", 0.9}});
+      CAPTURE(members, probability);
+      CHECK_THAT(message_of([&] { return margin_of(campaign_of(json)).runs; }),
+                 Catch::Contains("/sampling/runs") &&
+                     Catch::Contains("at least " + std::to_string(least) + ":"));
+    }
+}

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <tuple>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -52,5 +54,29 @@ TEST_CASE("of each standard the drive of the lowest margin below 0 is told, wher
     CAPTURE(first_is_weaker);
     for (const Shortfall& each : below) CHECK(each.drive == (first_is_weaker ? "root" : "second"));
     CHECK(below[1].margin == Approx(0.2 / (3 * 0.2) - 1).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("of several cases each static margin is that of the case that it names", "[margin]") {
+  Json json = one_panel_margin(100);
+  json["dispersions"] = Json::array();
+  json["cases"] = parse_json(R"([ { "name": "hot" },
+    { "name": "cold", "scale": { "hinges.root.spring.torque_latched": 0.8 } },
+    { "name": "dusty", "scale": { "hinges.root.friction.coulomb": 1.5, "hinges.root.friction.static": 1.5 } } ])");
+  const Campaign campaign = campaign_of(json);
+  const std::vector<Campaign> campaigns = campaigns_of(campaign);
+  const std::vector<SceneParameter>& springs = campaign.margin->scaled;
+  const auto all = lowered_margins(campaigns, springs, 0.7);
+  REQUIRE(all.size() == 12);
+  const auto key = [](const Shortfall& each) {
+    return std::tuple(each.drive, each.kind, each.margin, each.present);
+  };
+  for (std::size_t k = 0; k < campaigns.size(); ++k) {
+    const auto own = lowered_margins({&campaigns[k], 1}, springs, 0.7);
+    REQUIRE(own.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      CHECK(own[i].drive == "root (" + campaign.cases[k].name + ")");
+      CHECK(key(own[i]) == key(all[4 * k + i]));
+    }
   }
 }

@@ -109,6 +109,22 @@ TEST_CASE("of a campaign with cases the library runs the one that is named") {
   CHECK(message_of([&] { return api::run(as_input(json)); }).find("cold") != std::string::npos);
 }
 
+TEST_CASE("the library refuses a case that the campaign does not have, with cases and without") {
+  for (const bool has_cases : {false, true}) {
+    Json json = quick_campaign(2);
+    if (has_cases) json["cases"] = parse_json(R"([ { "name": "cold" } ])");
+    CAPTURE(has_cases);
+    const std::vector<std::string> said{
+        message_of([&] { return api::run(as_input(json), {.of_case = "hot"}).size(); }),
+        message_of([&] { return api::simulate(as_input(json), {.of_case = "hot"}).status; }),
+        message_of([&] {
+          return api::Model(as_input(json), {"hinges.root.spring.scale"}, {}, {.of_case = "hot"})
+              .parameters();
+        })};
+    for (const std::string& each : said) CHECK_THAT(each, Catch::Contains("hot"));
+  }
+}
+
 TEST_CASE("a case of the library changes the wing that the settings have changed") {
   Json json = quick_campaign(8);
   json["cases"] = parse_json(R"([ { "name": "hot", "scale": { "hinges.*.spring.scale": 1.25 } },

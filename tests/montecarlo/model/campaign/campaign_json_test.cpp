@@ -363,6 +363,8 @@ TEST_CASE("An extended campaign's looks are its own, and none of another seed's"
   CHECK(read(campaign.resolved).resolved == campaign.resolved);
   override_sampling(campaign, 2000, std::nullopt);
   CHECK(campaign.resolved["sampling"]["extended_from"] == Json::array({1000}));
+  override_sampling(campaign, 8000, campaign.sampling.seed); // given, but its own: the same draws
+  CHECK(interim_analyses(campaign).count() == 2);
   override_sampling(campaign, 8000, 77);
   CHECK_FALSE(campaign.resolved["sampling"].contains("extended_from"));
   CHECK(interim_analyses(campaign).count() == 1);

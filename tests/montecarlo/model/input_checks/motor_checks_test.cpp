@@ -89,3 +89,39 @@ TEST_CASE("a motor's table and its scale are warned of as the scaled table is", 
   }
   CHECK(warned > 100);
 }
+
+TEST_CASE("the time that a hold keeps a hinge does not change what is said of its motor",
+          "[warnings]") {
+  std::mt19937_64 random(11);
+  const Scene plain = read_scene_file(test::three_panel_file());
+  std::size_t warned = 0;
+  for (int k = 0; k < 200; ++k) {
+    const double held = 60 * test::uniform(random), latched = 1 + 20 * test::uniform(random);
+    const std::vector<double> time{0, 5, 10, 15, 20, 40};
+    std::vector<double> rates;
+    for (std::size_t i = 0; i < time.size(); ++i) rates.push_back(test::uniform(random) - 0.4);
+    const bool latches = k % 4 != 0;
+    const auto told = [&](double released) {
+      Scene scene = plain;
+      scene.hinges[1].spring = {};
+      scene.hinges[1].latch->holding_moment = 20;
+      Motor& motor = scene.hinges[1].motor.emplace();
+      motor.gain = 100, motor.torque_limit = 500;
+      motor.time = time, motor.rates = rates;
+      motor.table = std::make_shared<Curve>(time, rates, Interpolation::linear);
+      Outcome nominal;
+      if (released > 0) nominal.releases = {{1, released}};
+      if (latches) nominal.latches = {{1, released + latched, {0, 0.1, 0}}};
+      Integration how;
+      how.t_end = released + 30;
+      InputWarnings warnings(ScenePlace{"scene.json"});
+      check_motors(scene, how, nominal, warnings);
+      std::vector<std::string> lines;
+      for (const InputWarning& each : warnings.list()) lines.push_back(each.pointer + each.found);
+      return lines;
+    };
+    CHECK(told(held) == told(0));
+    warned += told(0).size();
+  }
+  CHECK(warned > 50);
+}

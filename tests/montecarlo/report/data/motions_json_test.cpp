@@ -2,11 +2,14 @@
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/results/results_folder/replay.hpp"
 #include "tests/montecarlo/report/data/page_support.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <array>
 #include <functional>
+#include <map>
+#include <random>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -210,5 +213,43 @@ TEST_CASE("a motion has the base's path beside those of the hinges, each in its 
       least = std::min(least, value), most = std::max(most, value);
     }
     CHECK(most - least > columns[c].swing);
+  }
+}
+
+TEST_CASE("a run of each status that some run has is shown, however many requirements there are",
+          "[page]") {
+  std::mt19937_64 random(8);
+  const std::vector<std::string> outputs{"root.peak_moment", "mid.peak_moment", "tip.peak_moment",
+                                         "root.latch_time",  "mid.latch_time",  "tip.latch_time",
+                                         "root.peak_force",  "mid.peak_force",  "tip.peak_force"};
+  for (int k = 0; k < 15; ++k) {
+    Json json = full_campaign(60);
+    json["requirements"] = Json::array();
+    const std::size_t requirements = random() % (outputs.size() + 1);
+    for (std::size_t i = 0; i < requirements; ++i)
+      json["requirements"].push_back(
+          {{"output", outputs[i]}, {"max", 2}, {"probability", 0.2}, {"confidence", 0.5}});
+    const Campaign campaign = campaign_of(json);
+    Results results(RunPlan(campaign).names());
+    std::map<Status, long> seen;
+    for (long run = 0; run < 60; ++run) {
+      const std::array some{Status::stalled, Status::timed_out, Status::failed};
+      const Status status = run < 50 ? Status::deployed : some[random() % some.size()];
+      ResultRow row{run, status,         std::vector<double>(results.draws.size(), 1.0), {}, "root",
+                    "",  PeaksFinal::yes};
+      for (std::size_t i = 0; i < results.outputs.size(); ++i)
+        row.outputs.push_back(status == Status::deployed ? uniform(random) : nothing);
+      results.append(row);
+      ++seen[status];
+    }
+    const auto source = source_of(campaign, std::move(results));
+    const std::size_t most = 4 + random() % 9;
+    CAPTURE(requirements, most);
+    const auto chosen = chosen_runs(*source, most);
+    CHECK(chosen.size() <= most);
+    std::map<Status, long> shown;
+    for (const ChosenRun& each : chosen)
+      ++shown[source->results.status[static_cast<std::size_t>(each.run)]];
+    for (const auto& [status, count] : seen) CHECK(shown[status] > 0);
   }
 }

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <numeric>
+#include <random>
 #include <tuple>
 
 using namespace wingspread;
@@ -138,4 +139,39 @@ TEST_CASE(
       }
   }
   CHECK(limited > 10);
+}
+
+TEST_CASE("without rows a histogram keeps its ends and its runs, however many bins the page has",
+          "[page]") {
+  std::mt19937_64 random(5);
+  Json json = quick_campaign(400);
+  for (int k = 0; k < 5; ++k) {
+    json["statistics"] = {{"bins", 20 + k}};
+    const auto source = made(json);
+    const Campaign& campaign = source->stored.campaign;
+    source->streaming =
+        std::make_unique<StreamingStatistics>(campaign, RunPlan(campaign).names(), source->results);
+    for (std::size_t row = 0; row < source->results.size(); ++row)
+      (void)source->streaming->add(source->results.row(row), {});
+    PageDetail detail;
+    detail.bins = 1 + static_cast<std::size_t>(random() % 19);
+    const Json outputs = outputs_json(*source, detail, 1);
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      const Histogram& own = source->summary.outputs[i].histogram;
+      const auto edges = outputs[i]["histogram"]["edges"].get<std::vector<double>>();
+      const auto counts = outputs[i]["histogram"]["counts"].get<std::vector<long>>();
+      REQUIRE(edges.size() == counts.size() + 1);
+      CHECK(counts.size() <= detail.bins);
+      CHECK(edges.front() == Approx(own.edges.front()).epsilon(1e-9));
+      CHECK(edges.back() == Approx(own.edges.back()).epsilon(1e-9));
+      for (std::size_t bin = 0; bin < counts.size(); ++bin) { // as many values as between its edges
+        long within = 0;
+        for (std::size_t fine = 0; fine < own.counts.size(); ++fine) {
+          const double middle = (own.edges[fine] + own.edges[fine + 1]) / 2;
+          within += edges[bin] < middle && middle < edges[bin + 1] ? own.counts[fine] : 0;
+        }
+        CHECK(counts[bin] == within);
+      }
+    }
+  }
 }

@@ -4,8 +4,12 @@
 #include "montecarlo/report/data/set_json.hpp"
 #include "montecarlo/results/streaming/streaming_folder.hpp"
 #include "tests/montecarlo/report/data/page_support.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <random>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -77,4 +81,48 @@ TEST_CASE("the page's bounds hold together over all interim analyses, with rows 
   CHECK(streaming->summary.runs == 5000);
   CHECK(set_json(*streaming, {}, 1)["orders"][0]["count"] ==
         set_json(*rows, {}, 1)["orders"][0]["count"]);
+}
+
+TEST_CASE("the worst run of a requirement is the same with rows and without, of x and of |x|",
+          "[page]") {
+  std::mt19937_64 random(3);
+  for (int k = 0; k < 10; ++k) {
+    std::vector<Json> requirements{{{"min", -100}}, {{"max", 100}}, {{"max", 100}, {"abs", true}}};
+    std::shuffle(requirements.begin(), requirements.end(), random);
+    Json json = quick_campaign(25);
+    for (const Json& each : requirements) {
+      Json requirement{{"output", "mid.latch_rate"}, {"probability", 0.5}, {"confidence", 0.5}};
+      requirement.update(each);
+      json["requirements"].push_back(requirement);
+    }
+    const Campaign campaign = campaign_of(json);
+    const ResultNames names = RunPlan(campaign).names();
+    const auto filled = [&](std::uint64_t seed) {
+      std::mt19937_64 values(seed);
+      Results results(names);
+      for (long run = 0; run < 25; ++run) {
+        ResultRow row{run, Status::deployed, std::vector<double>(names.draws.size(), 1.0),
+                      {},  "root",           ""};
+        if (names.peaks_final) row.peaks_final = PeaksFinal::yes;
+        for (std::size_t i = 0; i < names.outputs.size(); ++i)
+          row.outputs.push_back(2 * uniform(values) - 1);
+        results.append(row);
+      }
+      return results;
+    };
+    const std::uint64_t seed = random();
+    const auto rows = source_of(campaign, filled(seed)),
+               rowless = source_of(campaign, filled(seed));
+    rowless->streaming = std::make_unique<StreamingStatistics>(campaign, names, rowless->results);
+    for (std::size_t row = 0; row < 25; ++row)
+      (void)rowless->streaming->add(rowless->results.row(row), {});
+    rowless->results = Results(names); // none is broken, so none is kept
+    for (const Verdict& verdict : rows->summary.requirements) {
+      const auto expected = broken_runs_of(*rows, verdict, 5).worst,
+                 found = broken_runs_of(*rowless, verdict, 5).worst;
+      REQUIRE((expected && found));
+      CHECK(found->run == expected->run);
+      CHECK(found->value == expected->value);
+    }
+  }
 }

@@ -129,6 +129,33 @@ TEST_CASE("static margins of the page are of 1000 draws, or of all of a design, 
   CHECK(cases["hinges"][1]["least"] < cases["hinges"][0]["least"]);
 }
 
+TEST_CASE("a required static margin is that of the hinge of its name, not of names that contain it",
+          "[page][motorization]") {
+  const std::vector<std::string> names{"root", "root2", "oot", "2root", "r"};
+  for (const std::string& first : names)
+    for (const std::string& second : names) {
+      if (first == second) continue;
+      Json json = one_panel_margin(4);
+      json.erase("margin");
+      Json& scene = json["scene"];
+      Json hinge = scene["hinges"][0], panel = scene["bodies"][0];
+      hinge["name"] = second, hinge["child"] = panel["name"] = "other";
+      scene["hinges"][0]["name"] = first;
+      scene["bodies"].push_back(panel), scene["hinges"].push_back(hinge);
+      json["dispersions"] = Json::array();
+      json["requirements"] = {{{"motorization", "NASA"},
+                               {"hinge", second},
+                               {"min", 0.2},
+                               {"probability", 0.5},
+                               {"confidence", 0.5}}};
+      const Json hinges = static_margins_json(campaign_of(json))["hinges"];
+      REQUIRE(hinges.size() == 2);
+      CAPTURE(first, second);
+      for (const Json& each : hinges)
+        CHECK(each["required"] == (each["hinge"] == second ? 0.2 : 0));
+    }
+}
+
 TEST_CASE("a folder of a margin study is a set without runs, by hand", "[page]") {
   const Folder folder;
   folder.write(

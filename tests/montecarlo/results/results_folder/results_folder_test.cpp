@@ -261,3 +261,28 @@ TEST_CASE("a run that is missing before a later one is a gap, in a shard as in t
       }
   }
 }
+
+TEST_CASE("a campaign stopped at its own confidence, and is as complete when analyzed at another") {
+  const Folder folder;
+  Json json = quick_campaign(2000);
+  json["until"] =
+      parse_json(R"([{ "output": "root.latch_time", "quantile": 0.5, "relative_width": 0.006 },
+                                 { "output": "deployed", "width": 0.01 }])");
+  const Campaign campaign = campaign_of(json);
+  REQUIRE(run_into(folder.path() / "r", campaign, {.threads = 2}) == 1000);
+  StoredCampaign stored = read_stored_campaign(folder.path() / "r");
+  const Results results = read_stored_results(stored).results;
+  const auto widths = [&] {
+    const Summary summary = stored_summary(stored, results, stored.campaign.statistics, 1);
+    CHECK(summary.stopped);
+    std::vector<std::optional<double>> found;
+    for (const GoalFound& each : summary.until) found.push_back(each.width);
+    return found;
+  };
+  const std::vector<std::optional<double>> own = widths();
+  for (const double confidence : {0.5, 0.8, 0.99, 0.9999999}) {
+    stored.campaign.statistics.confidence = confidence;
+    CHECK(widths() == own);
+    CHECK(is_complete(stored, results));
+  }
+}

@@ -48,3 +48,30 @@ TEST_CASE("without rows: a folder makes each of its runs once, those of the pilo
   CHECK(folder.resumed() == 0);
   CHECK(evaluator.made() == made);
 }
+
+TEST_CASE(
+    "without rows: the broken runs that are read are those whose lines end within the bytes told") {
+  const Folder place;
+  const Campaign campaign = campaign_of(full_campaign(300));
+  const RunPlan plan(campaign);
+  ThreadEvaluator evaluator({.threads = 2}, never);
+  StreamingFolder folder(place.path() / "r", plan, std::nullopt, false);
+  REQUIRE(folder.begin(evaluator));
+  folder.finish();
+  const StoredCampaign stored = read_stored_campaign(place.path() / "r");
+  const std::string text = read_text(stored.folder / broken_runs_file).value();
+  REQUIRE(std::ranges::count(text, '\n') > 5);
+  std::vector<long> expected;
+  for (const Results all = rows_of(plan, {0, 300}); const long run : all.runs)
+    if (all.status[static_cast<std::size_t>(run)] != Status::deployed) expected.push_back(run);
+  std::size_t rows = 0;
+  for (std::size_t end = text.find('\n') + 1; true; end = text.find('\n', end) + 1, ++rows) {
+    CAPTURE(rows);
+    const Results read = read_broken_runs(stored, end);
+    CHECK(std::ranges::equal(read.runs, std::span(expected).first(rows)));
+    if (end == text.size()) break;
+    CHECK(read_broken_runs(stored, text.find('\n', end)).size() ==
+          rows); // a byte of the next is missing
+  }
+  CHECK(rows == expected.size());
+}

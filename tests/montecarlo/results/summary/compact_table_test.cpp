@@ -88,3 +88,22 @@ TEST_CASE("an output is shown if it varies in any case, and lines keep within th
     CHECK(count_characters(line) <= table_width + 6); // names of cases stand as they are
   }
 }
+
+TEST_CASE("an output that varies in any one case has its line in every block of cases") {
+  const auto count = [](const std::string& text, const std::string& part) {
+    long found = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  for (std::size_t varied = 0; varied < 9; ++varied) {
+    std::vector<CaseSummary> cases;
+    for (std::size_t k = 0; k < 9; ++k)
+      cases.push_back(compact_case("case_" + std::to_string(k), 0, k == varied ? 0.02 : 0));
+    const std::string table = compact_cases_table(cases, "title", "out");
+    const long blocks = count(table, "\nOUTPUT, ");
+    CHECK(blocks > 1);
+    CHECK(count(table, "\n  root.overtravel ") == blocks);
+    cases[varied] = compact_case("case", 0, 0);
+    CHECK(count(compact_cases_table(cases, "title", "out"), "\n  root.overtravel ") == 0);
+  }
+}

@@ -1,6 +1,7 @@
 // The runs and reasons that a summary lists: how many, in which order, and what of a part of the runs.
 #include "montecarlo/results/summary/judge_campaign.hpp"
 #include "montecarlo/results/summary/reason_pattern.hpp"
+#include "montecarlo/results/summary/summary_json.hpp"
 #include "montecarlo/results/summary/table.hpp"
 #include "tests/montecarlo/sample_support.hpp"
 
@@ -90,4 +91,21 @@ TEST_CASE("of a part of the runs no verdict says pass, disproved or what is guar
       CHECK((of_part.failures() == whole[k].failures() && of_part.observed == whole[k].observed));
     }
   }
+}
+
+TEST_CASE(
+    "summary.json counts the runs that break a requirement and are not shown, listed or not") {
+  for (const std::size_t listed : {0, 1, 5, 1000})
+    for (const long not_listed : {0L, 1L, 70L}) {
+      Summary summary = summarize(beyond(0), {});
+      Verdict& verdict = summary.requirements.emplace_back();
+      verdict.requirement = {"", "root.peak_moment", 0, {}, .5, .5};
+      for (std::size_t run = 0; run < listed; ++run)
+        verdict.broken.push_back(static_cast<long>(run));
+      verdict.not_listed = not_listed;
+      const Json json = summary_json(summary, {})["requirements"][0];
+      CHECK(std::ssize(json["broken"]) + json["broken_omitted"].get<long>() ==
+            static_cast<long>(listed) + not_listed);
+      CHECK(json["failures"]["seen"] == static_cast<long>(listed) + not_listed);
+    }
 }
