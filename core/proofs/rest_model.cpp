@@ -1,10 +1,9 @@
 #include "core/proofs/rest_model.hpp"
 
 #include "core/laws/driven_base.hpp"
+#include "core/proofs/rest_search.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -37,9 +36,11 @@ public:
 
   bool make_linear(const double* angles, const std::vector<char>& is_held) {
     begin(angles);
-    if (!(converge_to_rest(is_held) && is_stable_rest())) {
+    RestSearch search(m_.angles, m_.stiffness, residual_, m_.moment,
+                      [&] { find_balance(is_held); });
+    if (!search.converge()) {
       begin(angles);
-      if (!descend_to_rest(is_held)) return false;
+      if (!search.descend()) return false;
     }
     add_damping(std::vector<double>(n_, 0.0).data());
     add_dissipation(), add_loops();
@@ -48,8 +49,6 @@ public:
   }
 
 private:
-  static constexpr double settled = 1e-12; ///< rad: a way that counts as none
-
   void begin(const double* angles) {
     resize();
     for (int i = 1; i <= n_; ++i) {
@@ -156,79 +155,6 @@ private:
       m_.stiffness.row(i).setZero(), m_.stiffness.col(i).setZero();
       m_.stiffness(i, i) = 1, residual_(i) = 0;
     }
-  }
-
-  /// Newton's method with the push in K. A hinge that nothing holds stays: the least solution does not move it. Eight
-  /// full steps and eight half steps by turns end cycles about the kink of a linear table or of a strand.
-  bool converge_to_rest(const std::vector<char>& is_held) {
-    for (int pass = 0; pass < 100; ++pass) {
-      find_balance(is_held);
-      const Eigen::VectorXd way = m_.stiffness.completeOrthogonalDecomposition().solve(residual_);
-      m_.angles += (pass % 16 < 8 ? 1 : 0.5) * way;
-      if (!(way.lpNorm<Eigen::Infinity>() > settled)) return true; // or not a number
-    }
-    return false;
-  }
-
-  /// Whether moments balance, to rounding, and no mode grows. @pre find_balance
-  [[nodiscard]] bool is_stable_rest() const {
-    const auto scale = m_.stiffness.cwiseAbs().rowwise().sum().array();
-    const auto least = 1e-9 * m_.moment.array().abs() + 10 * settled * scale;
-    if (!(residual_.array().abs() <= least).all()) return false;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(m_.stiffness,
-                                                               Eigen::EigenvaluesOnly);
-    return modes.eigenvalues()(0) >= -1e-9 * modes.eigenvalues()(n_ - 1);
-  }
-
-  /// Descends the potential, whose gradient is −r and whose second derivative K: along each eigenvector q of K by
-  /// q·r/|λ|, at most 0.3 rad, and not beyond the first place at which the way no longer descends. So it ends at a
-  /// stable rest, the one that hinges reach that creep from here.
-  /// @return false if there is none within the passes: hinges turn on and on
-  bool descend_to_rest(const std::vector<char>& is_held) {
-    constexpr int passes = 300; // of at most 0.3 rad: more than ten turns
-    find_balance(is_held);
-    for (int pass = 0; pass < passes; ++pass) {
-      if (!m_.stiffness.allFinite() || !residual_.allFinite()) return false;
-      const Eigen::VectorXd way = descent();
-      if (!(way.lpNorm<Eigen::Infinity>() > settled)) return is_stable_rest();
-      follow(way, is_held);
-    }
-    return false;
-  }
-
-  [[nodiscard]] Eigen::VectorXd descent() const {
-    constexpr double longest = 0.3, nudge = 1e-3; // rad
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(m_.stiffness);
-    const double stiffest = modes.eigenvalues().cwiseAbs().maxCoeff();
-    Eigen::VectorXd way = Eigen::VectorXd::Zero(n_);
-    for (int k = 0; k < n_; ++k) {
-      const auto q = modes.eigenvectors().col(k);
-      const double along = q.dot(residual_), lambda = modes.eigenvalues()(k);
-      double turn = 0;
-      if (std::abs(along) > 1e-14 * stiffest)
-        turn = along / std::max(std::abs(lambda), std::abs(along) / longest);
-      else if (lambda < -1e-9 * stiffest)
-        turn = nudge; // off an unstable rest
-      way += turn * q;
-    }
-    return way;
-  }
-
-  /// Goes along the way, at most to where it no longer descends.
-  void follow(const Eigen::VectorXd& way, const std::vector<char>& is_held) {
-    constexpr int halvings = 30;
-    const Eigen::VectorXd from = m_.angles;
-    const double steep = 0.1 * residual_.dot(way);
-    double low = 0, high = 1, step = 1;
-    for (int k = 0; k < halvings; ++k, step = (low + high) / 2) {
-      m_.angles = from + step * way;
-      find_balance(is_held);
-      const double slope = residual_.dot(way);
-      if (std::abs(slope) <= steep || (step == 1 && slope > 0)) return;
-      (slope > 0 ? low : high) = step;
-    }
-    m_.angles = from + low * way;
-    find_balance(is_held);
   }
 
   /// The push on body k, f at each unit of mass, has the stiffness Y_k·f against the turning of body k. A loop's hinge
