@@ -211,7 +211,7 @@ def comparison(sets, first, second):
             rows.append({"output": one["name"], "difference": step, "lower": step - half, "upper": step + half,
                          "relative": step / abs(one["mean"]), "runs": one["count"], "magnitude": False})
     rates = [(one["status"], two["rate"] - one["rate"]) for one, two in zip(sets[first]["statuses"], sets[second]["statuses"])]
-    return {"sets": [first, second], "folders": not sets[first]["case"], "paired": True, "runs": sets[second]["runs"], "outputs": rows,
+    return {"sets": [first, second], "folders": not sets[first]["case"], "paired": True, "runs": sets[second]["runs"], "confidence": 0.95, "outputs": rows,
             "text": f"{sets[second]['label']} − {sets[first]['label']}, run by run over the {sets[second]['runs']} runs with the same random numbers",
             "statuses": [{"status": s, "difference": d, "lower": d - 0.004, "upper": d + 0.004} for s, d in rates]}
 
