@@ -107,7 +107,7 @@ template <class L> void check_truncation(const L& law, Truncation truncation, Ch
     checker.expect(truncated(law, truncation).mass >= std::numeric_limits<double>::min(),
                    "truncate",
                    joined({"[", text(truncation.lower), ", ", text(truncation.upper), "]"}),
-                   "an interval in which the law has some probability");
+                   "an interval in which the law has a probability that doubles can hold");
 }
 
 } // namespace

@@ -67,6 +67,8 @@ namespace detail {
 
 template <class T> struct Stretch { Sampled<T> a, b; };
 
+/// 2^-17 of a step: below, a stretch counts as a point. Heuristic: more cost samples where a function lies close to 0 over a
+/// stretch, fewer end the search before the root is separated.
 inline constexpr int most_halvings = 17;
 
 /// Intervals still to be decided, last in, first out: at most one per halving, and the last one's twin.
@@ -142,7 +144,8 @@ template <class T, class Function, class Bulges>
 first_positive(const Function& f, const T& first, const T& last, const Bulges& rise, const T& close,
                const T& shortest, Sampled<T>& crest) {
   if (first > T(0)) {
-    constexpr double width = 1e-3;
+    constexpr double width =
+        1e-3; // of the step; heuristic: the slope is only the start of an iteration
     return RisingRoot<T>{T(0), (f(T(width)) - first) / T(width)};
   }
   detail::OpenStretches<T> open;

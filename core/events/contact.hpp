@@ -2,12 +2,12 @@
 ///
 /// A sliding hinge has the constant friction −τ_c sign φ̇ until its rate reaches zero (first_rest). A stuck hinge is
 /// a locked hinge of the recursion (locked.hpp) until the friction that holds it passes the static limit τ_s
-/// (holding.hpp). Both are events. After each, sort_contacts decides anew which of the hinges at rest stick.
+/// (slipping.hpp). Both are events. After each, sort_contacts decides anew which of the hinges at rest stick.
 #pragma once
 
 #include "core/dense/step.hpp"
-#include "core/events/holding.hpp"
 #include "core/events/instant.hpp"
+#include "core/events/slipping.hpp"
 #include "core/mechanics/system.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ template <class T, class AnySystem>
   for (int i = 1; i <= at.bodies; ++i) {
     if (!system.wing().hinges[i].can_stick() || system.is_held(i)) continue;
     const T& rate = x[at.rate(i)];
-    if (rate == T(0)) rests[i] = system.sticks(i) ? Rest::as_before : Rest::just_now;
+    if (rate == T(0)) rests[i] = system.is_locked(i) ? Rest::as_before : Rest::just_now;
     system.set_contact(i, rate == T(0) ? Contact::stuck : sliding(rate));
   }
   return rests;
@@ -49,18 +49,18 @@ template <class T, class AnySystem>
 
 /// The stuck hinges whose friction exceeds `slack` times its limit by more than release_margin, with the sense in which
 /// they start to slide.
-/// @param let_go a hinge that is released whatever its friction; 0: none
+/// @param slides a hinge that begins to slide whatever its friction; 0: none
 template <class T, class AnySystem>
 [[nodiscard]] Contacts too_weakly_held(const AnySystem& system, const State<T>& x, const T& slack,
-                                       int let_go) {
+                                       int slides) {
   using std::abs;
   Contacts moves;
   for (int i = 1; i <= system.layout().bodies; ++i) {
-    if (!system.sticks(i)) continue;
+    if (!system.is_locked(i)) continue;
     const T friction = system.locking_moment(x, i);
     const T limit = system.static_limit(x, i);
     const T most = fused(slack, limit, release_margin(system, x, i, limit));
-    if (i == let_go || abs(friction) > most) moves.emplace_back(i, sliding(T(-friction)));
+    if (i == slides || abs(friction) > most) moves.emplace_back(i, sliding(T(-friction)));
   }
   return moves;
 }
@@ -72,10 +72,10 @@ template <class T, class AnySystem>
                                                 const std::vector<Rest>& rests) {
   Contacts moves;
   for (int i = 1; i <= system.layout().bodies; ++i) {
-    if (rests[i] == Rest::none || system.sticks(i)) continue;
+    if (rests[i] == Rest::none || system.is_locked(i)) continue;
     const T along = T(sliding_sense(system, i)) * dxdt[system.layout().rate(i)];
     const T none =
-        T(release_tolerance) * system.static_limit(x, i) / system.wing().bodies[i].central_inertia;
+        T(slip_tolerance) * system.static_limit(x, i) / system.wing().bodies[i].central_inertia;
     if (!(along > -none)) moves.emplace_back(i, Contact::stuck);
   }
   return moves;
@@ -99,17 +99,17 @@ inline void keep_newly_at_rest(Contacts& moves, const std::vector<Rest>& rests, 
 /// of sliding stick again. After 16 rounds one hinge changes per round, the first wrong one [Murty 1974: least-index
 /// pivoting ends for a positive definite mass matrix; the contacts are unique where τ_s = τ_c]. After 64 more rounds per
 /// hinge, which no tested wing has needed, the contacts stay as they are (heuristic limit).
-/// @param let_go a hinge whose release is due, even if rounding leaves it within its limit; 0: none
+/// @param slides a hinge that begins to slide, even if rounding leaves it within its limit; 0: none
 template <class T, class AnySystem>
-void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T& t, int let_go) {
+void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T& t, int slides) {
   std::vector<detail::Rest> rests = detail::lock_hinges_at_rest(system, x);
-  const T slack(let_go != 0 ? 1 + release_tolerance : 1 + 1e-12);
+  const T slack(slides != 0 ? 1 + slip_tolerance : 1 + 1e-12);
   const std::size_t together = 16, most = together + 64 * rests.size();
   for (std::size_t round = 0;; ++round) {
     system(x, dxdt, t);
-    detail::Contacts moves = detail::too_weakly_held(system, x, slack, let_go);
-    detail::keep_newly_at_rest(moves, rests, let_go);
-    let_go = 0;
+    detail::Contacts moves = detail::too_weakly_held(system, x, slack, slides);
+    detail::keep_newly_at_rest(moves, rests, slides);
+    slides = 0;
     if (moves.empty() || round > together) {
       const detail::Contacts back = detail::running_against_friction(system, x, dxdt, rests);
       moves.insert(moves.end(), back.begin(), back.end());

@@ -4,10 +4,10 @@
 
 #include "core/events/contact.hpp"
 #include "core/events/edge_crossing.hpp"
-#include "core/events/holding.hpp"
 #include "core/events/kink_search.hpp"
 #include "core/events/latches.hpp"
 #include "core/events/releases.hpp"
+#include "core/events/slipping.hpp"
 
 #include <optional>
 #include <vector>
@@ -74,7 +74,7 @@ public:
     };
     const auto may_happen = [&](int i) { return !search.hinges || (*search.hinges)[i] != 0; };
     for_each_edge(system_, [&](int i, Edge edge) {
-      if (system_.sticks(i) || !may_happen(i)) return;
+      if (system_.is_locked(i) || !may_happen(i)) return;
       const std::optional<T> s = first_crossing(system_, step, i, edge);
       if (s && (!first || *s < first->s)) first = Due<T>{Event::edge, i, *s, T(0), edge};
     });
@@ -85,7 +85,7 @@ public:
       if (latches_.may_let_go(i)) offer(Event::let_go, i, first_letting_go(system_, step, i), T(0));
       if (releases_.held() > 0) offer(Event::seen, i, releases_.first_passage(step, i), T(0));
     }
-    if (search.releases && system_.work().stuck > 0) {
+    if (search.releases && system_.work().locked > 0) {
       const auto release = holding_.first_release(system_, step, x, dxdt);
       if (release)
         offer(release->graze ? Event::graze : Event::release, release->hinge, release->s,

@@ -23,7 +23,7 @@ public:
     if (!limit_.refused) search_hinges();
     const int motors = static_cast<int>(system_.wing().motors.size());
     for (int i = 1; i < motors; ++i)
-      if (!system_.sticks(i) && system_.motor_runs(i)) search_motor(i);
+      if (!system_.is_locked(i) && system_.motor_runs(i)) search_motor(i);
     const int loops = static_cast<int>(system_.wing().loops.size());
     for (int l = 0; l < loops; ++l) search_loop(l);
     if (system_.layout().smoothed && !limit_.leaps_only)
@@ -46,7 +46,7 @@ private:
   void search_hinges() {
     const int hinges = static_cast<int>(system_.wing().real.size());
     for (int i = 1; i < hinges; ++i)
-      if (!system_.sticks(i)) search_hinge(i);
+      if (!system_.is_locked(i)) search_hinge(i);
   }
 
   void search_hinge(int i) {
@@ -130,7 +130,7 @@ private:
 
   void search_loop(int l) {
     const LoopTerms<T>& loop = system_.wing().loops[l];
-    if (system_.sticks(loop.first) && system_.sticks(loop.second)) return;
+    if (system_.is_locked(loop.first) && system_.is_locked(loop.second)) return;
     const bool only_jumps = limit_.leaps_only;
     if (only_jumps && !jumps(loop)) return;
     const Quintic<T> elastic = elastic_over_step(system_, step_, l);

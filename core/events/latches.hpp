@@ -94,7 +94,7 @@ public:
   [[nodiscard]] bool may_engage(int i) const { return is_open(i) && !may_miss(i); }
   /// Whether hinge i has an engaged latch that may let go now.
   [[nodiscard]] bool may_let_go(int i) const {
-    return system_.wing().can_let_go && system_.work().engaged[i] && !system_.sticks(i) &&
+    return system_.wing().can_let_go && system_.work().engaged[i] && !system_.is_locked(i) &&
            system_.wing().real[i].capture.may_let_go();
   }
 
@@ -154,7 +154,8 @@ public:
 
 private:
   [[nodiscard]] bool is_open(int i) const {
-    return system_.wing().hinges[i].has_latch && !system_.work().engaged[i] && !system_.sticks(i);
+    return system_.wing().hinges[i].has_latch && !system_.work().engaged[i] &&
+           !system_.is_locked(i);
   }
   [[nodiscard]] bool may_miss(int i) const { return has_capture(system_.wing(), i); }
 

@@ -91,7 +91,7 @@ public:
 
   /// Whether a hold may still let go, before t_end or after, where no open hinge will latch any more.
   /// @param rests whether no hinge will move any more
-  [[nodiscard]] bool may_let_go(bool rests) const {
+  [[nodiscard]] bool may_release(bool rests) const {
     for (int i = 1; held_ > 0 && i < size(); ++i)
       if (is_held(i) && (due_[i] < T(never) || (watches(i) && !rests && awaited_hinge_is_free(i))))
         return true;
@@ -121,7 +121,7 @@ public:
   }
 
   /// The held hinges, in the scene's numbering, whose hold may let go after t_end.
-  /// @param no_latch whether no open hinge will latch any more @param rests as of may_let_go
+  /// @param no_latch whether no open hinge will latch any more @param rests as of may_release
   [[nodiscard]] std::vector<int> may_release_later(bool no_latch, bool rests) const {
     std::vector<int> later;
     for (int i = 1; held_ > 0 && i < size(); ++i)

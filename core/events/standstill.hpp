@@ -52,7 +52,7 @@ template <class T, class Topology, BaseMotion M>
 /// Whether every hinge sticks under loads that are constant: no hinge moves any more.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] bool is_stuck_for_good(const System<T, Topology, M>& system, const State<T>& x) {
-  return system.work().stuck >= system.layout().bodies && loads_are_constant(system, x);
+  return system.work().locked >= system.layout().bodies && loads_are_constant(system, x);
 }
 
 } // namespace wingspread

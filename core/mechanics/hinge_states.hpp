@@ -55,7 +55,7 @@ public:
 
   /// Sets the state of hinge i's exact friction or rigid hold.
   void set_contact(int i, Contact contact) {
-    work_.stuck += wingspread::is_locked(contact) - wingspread::is_locked(work_.contact[i]);
+    work_.locked += wingspread::is_locked(contact) - wingspread::is_locked(work_.contact[i]);
     work_.contact[i] = contact;
     if constexpr (is_one_number<T>)
       if (contact == Contact::held && !wing_.motors.empty()) work_.motors[i] = idle_motor<T>();
@@ -106,8 +106,6 @@ public:
     return wing_.motors.empty() ? T(0) : motor_drive(wing_.motors[i], work_.motors[i]);
   }
 
-  /// Whether hinge i is locked: stuck by friction, or held by a rigid hold.
-  [[nodiscard]] bool sticks(int i) const { return wingspread::is_locked(work_.contact[i]); }
   /// Whether hinge i is held by a rigid hold; for a pack: in which lanes.
   [[nodiscard]] Truth<T> is_held(int i) const {
     if constexpr (is_one_number<T>)
@@ -115,10 +113,10 @@ public:
     else
       return work_.locks[i] > T(1);
   }
-  /// Whether hinge i is locked; for a pack: in which lanes.
+  /// Whether hinge i is locked, stuck by friction or held by a rigid hold; for a pack: in which lanes.
   [[nodiscard]] Truth<T> is_locked(int i) const {
     if constexpr (is_one_number<T>)
-      return sticks(i);
+      return wingspread::is_locked(work_.contact[i]);
     else
       return work_.locks[i] > T(0);
   }
@@ -142,7 +140,7 @@ public:
 
   /// Moment of hinge i, N·m; of a locked hinge, the moment on its axis at the last evaluation.
   [[nodiscard]] T moment(const State<T>& x, int i) const {
-    return sticks(i) ? work_.holding[i] : sliding_moment(x, i);
+    return wingspread::is_locked(work_.contact[i]) ? work_.holding[i] : sliding_moment(x, i);
   }
 
   /// Moment of the friction, or of the hold, that keeps hinge i at rest, N·m.

@@ -104,7 +104,7 @@ public:
   void factorize(const System<T, Topology, M>& system, const State<T>& x, const T& t,
                  AddedInertia&& added) {
     factorize_with(system, x, t, [&](int i) {
-      return HingeConstraint<T>{added(i), system.sticks(i)};
+      return HingeConstraint<T>{added(i), system.is_locked(i)};
     });
     loops_.clear();
   }

@@ -118,7 +118,7 @@ private:
   [[gnu::always_inline]] void evaluate(const State<T>& x, State<T>& dxdt, const T& t) {
     ++work_.evaluations;
     if (!wing_.motors.empty()) set_commands(t);
-    if (work_.stuck > 0) {
+    if (work_.locked > 0) {
       evaluate_with_locks<forces>(x, dxdt, t);
     } else if (!wing_.plates.empty()) {
       evaluate_in_air(x, dxdt, t);
@@ -132,8 +132,8 @@ private:
 
   /// Not inlined: the frames are in memory anyway. @pre the system is placed, with its motors' commands; there is no air
   [[gnu::noinline]] void evaluate_placed(const State<T>& x, State<T>& dxdt, const T& t) {
-    work_.stuck > 0 ? evaluate<true, false, true, true>(work_.frames, x, dxdt, t)
-                    : evaluate<true, false, false, true>(work_.frames, x, dxdt, t);
+    work_.locked > 0 ? evaluate<true, false, true, true>(work_.frames, x, dxdt, t)
+                     : evaluate<true, false, false, true>(work_.frames, x, dxdt, t);
   }
 
   /// Not inlined: see evaluate_in_air. Leaves the moments that hold locked hinges if `held`.

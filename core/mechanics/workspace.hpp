@@ -59,7 +59,8 @@ template <class T> struct Workspace {
   std::vector<T>
       locks; ///< 1 … n, packs only: 1 in lanes where the hinge is stuck, 2 where it is held, else 0
   std::vector<T> holding; ///< 1 … n: axis moments, N·m, at the last evaluation with a locked hinge
-  int stuck = 0;          ///< number of locked hinges, of all lanes together
+  int locked =
+      0; ///< number of locked hinges (stuck or rigidly held); of a pack, of all lanes together
   std::vector<Crossing<T>> crossings; ///< 0 … n: of the last evaluation while hinges are locked
   Conserved<T> conserved{};           ///< of a free base whose momenta every step keeps
   bool keeps_momenta = false; ///< whether every step restores `conserved`: a free base without air
@@ -91,7 +92,7 @@ template <class T> struct Workspace {
     motors.assign(motors.size(), idle_motor<T>());
     pieces.assign(pieces.size(), no_table_piece<T>());
     if constexpr (!is_one_number<T>) locks.assign(n + 1, T(0));
-    stuck = 0, evaluations = 0, keeps_momenta = false;
+    locked = 0, evaluations = 0, keeps_momenta = false;
   }
 };
 

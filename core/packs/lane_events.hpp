@@ -5,8 +5,8 @@
 #pragma once
 
 #include "core/events/contact.hpp"
-#include "core/events/holding.hpp"
 #include "core/events/latches.hpp"
+#include "core/events/slipping.hpp"
 #include "core/packs/fields.hpp"
 #include "core/packs/pack_engine.hpp"
 
@@ -220,14 +220,14 @@ public:
       before_[i].v[lane] = sticks ? task->held_before[i] : 0;
       excess_before_[i].v[lane] = sticks ? task->excess_before[i] : 0;
     }
-    work.stuck += (task ? task->work.stuck : 0) - stuck_[lane];
-    stuck_[lane] = task ? task->work.stuck : 0;
-    holds_.v[lane] = stuck_[lane] > 0 ? 1 : 0;
+    work.locked += (task ? task->work.locked : 0) - locked_[lane];
+    locked_[lane] = task ? task->work.locked : 0;
+    holds_.v[lane] = locked_[lane] > 0 ? 1 : 0;
   }
 
   /// @param moved whether the lane's state is no longer that of the task
   void unload(int lane, LaneResult& result, bool moved) const {
-    if (stuck_[lane] == 0) return;
+    if (locked_[lane] == 0) return;
     get_lane(lane, at_end_, result.held_at_end);
     if (!moved) return;
     get_lane(lane, before_, result.held_before);
@@ -280,8 +280,8 @@ private:
   std::vector<P> before_, excess_before_; ///< at the step's start
   std::vector<P> at_end_, excess_at_end_;
   HeldLoadBound<P> bound_;
-  std::array<int, W> stuck_{}; ///< hinges that stick in each lane
-  P holds_;                    ///< 1 where any does, else 0
+  std::array<int, W> locked_{}; ///< number of locked hinges in each lane
+  P holds_;                     ///< 1 where any does, else 0
 };
 
 } // namespace wingspread

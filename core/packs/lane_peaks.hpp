@@ -83,7 +83,7 @@ public:
     locked_.clear();
     Mask in_doubt{};
     if (shape_.moments) in_doubt = search_moments(system, step, accepted, held_before);
-    if (shape_.holds && system.work().stuck > 0) search_holds(system, step, accepted, held_before);
+    if (shape_.holds && system.work().locked > 0) search_holds(system, step, accepted, held_before);
     if (!locked_.empty())
       in_doubt = in_doubt || search_locked(system, step, accepted && !(asks || in_doubt));
     asks_for_moments_ = in_doubt;
@@ -136,7 +136,7 @@ private:
     for (int i = 1; i < static_cast<int>(moments_.size()); ++i) {
       may_rise_[i] = may_rise_inside_[i] = Mask{};
       Mask slides = accepted;
-      if (system.work().stuck > 0) {
+      if (system.work().locked > 0) {
         const Mask locked = system.is_locked(i);
         search_held_moment(system, step, i, accepted && locked, held_before[i]);
         slides = accepted && !locked;

@@ -194,7 +194,7 @@ private:
   /// As Stepping::wanted_step, for the next trial step.
   [[nodiscard]] P limit_by_base(const Mask& accepted, const P& next) const {
     if constexpr (M != BaseMotion::prescribed) return next;
-    if (work_.stuck == 0) return next;
+    if (work_.locked == 0) return next;
     const P from = select(accepted, P(step_.t + step_.h), step_.t);
     const P most = time_of_base(wing_.base, work_.driven, from, P(end_of_stretch_ - from));
     return select(holds_.lanes(), smaller(next, most), next);
@@ -229,7 +229,7 @@ private:
     }
     asks_after_[1] = asks = asks || kinks_;
     releases_ = Mask{};
-    if (work_.stuck > 0) releases_ = accepted && holds_.may_release(system_, step_);
+    if (work_.locked > 0) releases_ = accepted && holds_.may_release(system_, step_);
     asks_after_[2] = asks = asks || releases_;
     peaks_.keep_forces_at_end(system_);
     asks = asks || (accepted && may_turn_or_end_at_event());
@@ -254,7 +254,7 @@ private:
       motor_energy_[i] = select(accepted && events_.waits(i), P(motor_energy_[i] + motor_work_[i]),
                                 motor_energy_[i]);
     peaks_.accept(accepted);
-    if (work_.stuck > 0) holds_.accept(accepted);
+    if (work_.locked > 0) holds_.accept(accepted);
     step_.t = select(accepted, P(step_.t + step_.h), step_.t);
     update_history(accepted, these);
     step_.h = select(these, judgement.next, step_.h);

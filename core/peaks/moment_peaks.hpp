@@ -10,7 +10,7 @@
 
 #include "core/dense/step.hpp"
 #include "core/dense/step_interpolant.hpp"
-#include "core/events/held_load.hpp"
+#include "core/events/stuck_load.hpp"
 #include "core/mechanics/system.hpp"
 #include "core/peaks/maximum.hpp"
 #include "core/peaks/peak.hpp"

@@ -284,7 +284,8 @@ std::optional<HingeBounds> ModalBounds::bound_in_reach(const ModeVector& start, 
 std::optional<HingeBounds> ModalBounds::find_bounds(const ModeVector& start,
                                                     const std::optional<double>& energy,
                                                     double spin, const Reach* inside) const {
-  constexpr int passes = 12;
+  constexpr int passes =
+      12; // heuristic: fewer find no bounds where they contract slowly, more cost time in vain
   Box box{wider * (start + swung_), {}, model_->spin + wider * model_->rigid * spin};
   box.accelerations = product(swing_, box.modes);
   for (int pass = 0; pass <= passes; ++pass) {

@@ -112,7 +112,7 @@ bool Modes::find_two(const RestModel& model, int column) {
 /// @return the eigenvalue to which λ and x converge; none if they do not, or if λ swings and the
 /// eigenvalue does not
 std::optional<Complex> Modes::converge_from(const RestModel& model, Complex value) {
-  constexpr int passes = 8;
+  constexpr int passes = 8;        // heuristic: two or three are usual; more are left to QR
   constexpr double settled = 1e-9; // the error after a pass is the square of its step, or less
   const bool swings = value.imag() > 0;
   for (int k = 0; k < passes; ++k) {

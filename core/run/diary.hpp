@@ -67,7 +67,7 @@ public:
     constexpr double rounding = 1 + 1e-14; // a multiple of the interval may be the end of the run
     for (double t = time_of_sample(); t <= end * rounding; t = time_of_sample()) {
       const T s = smaller(T(1), T((T(t) - step.t) / step.h));
-      if (run_.system.work().stuck > 0 && !run_.goal.sample_motion_only)
+      if (run_.system.work().locked > 0 && !run_.goal.sample_motion_only)
         run_.evaluate_at(s); // moments on stuck hinges follow from accelerations
       else if (!(s < T(1) && by_method(s)))
         step.interpolate(run_.at, s, run_.x);

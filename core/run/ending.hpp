@@ -140,7 +140,7 @@ private:
   /// Whether all latches are engaged, and a hold may still let go. Where latches are left, the proof of a stall asks.
   [[nodiscard]] bool may_release() const {
     return !latches_left() &&
-           events_.releases().may_let_go(is_stuck_for_good(run_.system, run_.step.x));
+           events_.releases().may_release(is_stuck_for_good(run_.system, run_.step.x));
   }
   /// Whether any motion changes an output. @see motor_energy.hpp for what counts as a motor's energy
   [[nodiscard]] bool waits_for_rest() const {
@@ -153,7 +153,7 @@ private:
   }
 
   [[nodiscard]] bool is_stuck() const {
-    return is_stuck_for_good(run_.system, run_.step.x) && !events_.releases().may_let_go(true);
+    return is_stuck_for_good(run_.system, run_.step.x) && !events_.releases().may_release(true);
   }
 
   /// Whether an engaged latch may let go, as far as its holding moment tells.
@@ -178,7 +178,7 @@ private:
 
   /// Keeps the time since which every hinge sticks.
   void watch_standstill() {
-    if (run_.system.work().stuck < run_.at.bodies)
+    if (run_.system.work().locked < run_.at.bodies)
       standstill_.reset();
     else if (!standstill_)
       standstill_ = run_.step.t;
@@ -211,7 +211,7 @@ private:
   /// wing.
   [[nodiscard]] bool cannot_prove_stall() const {
     if (stall_ || !latches_left()) return false;
-    if (events_.releases().may_let_go(is_stuck())) return true;
+    if (events_.releases().may_release(is_stuck())) return true;
     return !is_stuck() && events_.latches_left() != events_.releases().latches_held() &&
            !energy_bound_holds(run_.system);
   }

@@ -75,14 +75,14 @@ public:
 
   /// Whether a lane of an engine for this method can go on from here.
   [[nodiscard]] bool fits_lane(Method method) const {
-    return stepping_.method() == method && run_.system.work().stuck < run_.at.bodies &&
+    return stepping_.method() == method && run_.system.work().locked < run_.at.bodies &&
            !peaks_.watches_elastic_hold();
   }
 
   /// @pre fits_lane(the engine's method)
   [[nodiscard]] LaneTask lane_task() {
     const Goal& goal = run_.goal;
-    const bool holds = run_.system.work().stuck > 0;
+    const bool holds = run_.system.work().locked > 0;
     return {.step = run_.step,
             .h = asked_.h,
             .work = run_.system.work(),
@@ -214,16 +214,16 @@ private:
   }
 
   /// Evaluates the new right-hand side at t⁺, and begins the method anew.
-  /// @param let_go the hinge that begins to slide; 0: none
-  void restart(int let_go) {
-    begin_anew(let_go);
+  /// @param slides the hinge that begins to slide; 0: none
+  void restart(int slides) {
+    begin_anew(slides);
     diary_.notify();
     stepping_.restart(diary_.any_latch(), landing_.at_friction());
     diary_.begin_phase(stepping_.method(), stepping_.steps());
   }
 
-  void begin_anew(int let_go) {
-    evaluate_anew(let_go);
+  void begin_anew(int slides) {
+    evaluate_anew(slides);
     if (settle_edges(run_.system, run_.step.x, run_.step.dxdt)) evaluate_anew(0);
     peaks_.include_start();
     begin_step();
@@ -231,15 +231,15 @@ private:
 
   /// Keeps what holds stuck hinges at the start of the next step. @pre the workspace has it
   void begin_step() {
-    if (run_.system.work().stuck == 0) return;
+    if (run_.system.work().locked == 0) return;
     run_.held_before = run_.system.work().holding;
     events_.begin_step(run_.step.x);
   }
 
-  void evaluate_anew(int let_go) {
+  void evaluate_anew(int slides) {
     Step<T>& step = run_.step;
     if (run_.system.wing().can_stick)
-      sort_contacts(run_.system, step.x, step.dxdt, step.t, let_go);
+      sort_contacts(run_.system, step.x, step.dxdt, step.t, slides);
     else
       run_.system(step.x, step.dxdt, step.t);
   }
@@ -315,7 +315,7 @@ private:
     if (landing_.at_jump()) landing_.cross_jump();
     Step<T>& step = run_.step;
     diary_.watch_energy();
-    if (run_.system.work().stuck > 0) {
+    if (run_.system.work().locked > 0) {
       run_.system.writable_workspace().holding = peaks_.held_at_end();
       run_.system.set_commands(step.t);
       begin_step();
@@ -323,7 +323,7 @@ private:
     diary_.notify();
     const bool at_knot = run_.system.enter_piece(step.t);
     if (landing_.apply_events(diary_.record())) {
-      if (diary_.is_watched() || !ending_.ends_at_latch()) restart(landing_.let_go());
+      if (diary_.is_watched() || !ending_.ends_at_latch()) restart(landing_.slides());
     } else {
       if (stepping_.choose_method()) diary_.begin_phase(stepping_.method(), stepping_.steps());
       if (at_knot)

@@ -75,7 +75,7 @@ public:
     step.h = smaller(T(step.h + way), longest_);
     // forces and accelerations at the new end
     if (run_.goal.peak_moment || run_.goal.peak_force || due_->event == Event::kink ||
-        run_.system.work().stuck > 0)
+        run_.system.work().locked > 0)
       run_.system(step.x1, step.dxdt1, step.t + step.h);
     return true;
   }
@@ -121,7 +121,7 @@ public:
   }
 
   /// The stuck hinge that was due to slide; 0: none.
-  [[nodiscard]] int let_go() const {
+  [[nodiscard]] int slides() const {
     return due_ && due_->event == Event::release ? due_->hinge : 0;
   }
 

@@ -88,7 +88,7 @@ public:
   /// @return the first doubt: the fraction of the step to which the method must make a step
   [[nodiscard]] std::optional<T> first_doubt(const LaneSearch& by_lane) {
     made_inner_steps_ = held_is_bounded_ = false, searched_ = by_lane.done;
-    if (run_.system.work().stuck > 0) held_at_end_ = run_.system.work().holding;
+    if (run_.system.work().locked > 0) held_at_end_ = run_.system.work().holding;
     hinge_ = hold_ = 0;
     doubt_.reset(), held_at_.reset(), borne_at_.reset();
     locked_.begin();
@@ -117,7 +117,7 @@ public:
   /// was there
   void include_end() {
     const T end = run_.step.t + run_.step.h;
-    if (run_.system.work().stuck > 0) held_at_end_ = run_.system.work().holding;
+    if (run_.system.work().locked > 0) held_at_end_ = run_.system.work().holding;
     include_moments(run_.step.x1, end);
     if (run_.goal.peak_force) forces_.sample(run_.system, end);
   }
@@ -186,7 +186,7 @@ private:
   [[nodiscard]] std::optional<T> doubtful_moment(Rise rise) {
     PeakOf<T>& peak = moments_[hinge_];
     if (rise == Rise::none) return std::nullopt;
-    if (run_.system.sticks(hinge_)) {
+    if (run_.system.is_locked(hinge_)) {
       const HeldMoments<T> ends{run_.held_before[hinge_], held_at_end_[hinge_]};
       if (rise == Rise::to_ends) {
         raise_to_ends(peak, ends, run_.step);

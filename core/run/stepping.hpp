@@ -335,7 +335,7 @@ private:
 
   /// @param rest time to end_of_stretch(), s
   [[nodiscard]] T wanted_step(const T& rest) const {
-    if (AnySystem::base_motion == BaseMotion::prescribed && run_.system.work().stuck > 0 &&
+    if (AnySystem::base_motion == BaseMotion::prescribed && run_.system.work().locked > 0 &&
         !is_stuck_for_good(run_.system, run_.step.x))
       return smaller(
           h_, time_of_base(run_.system.wing().base, run_.system.work().driven, run_.step.t, rest));

@@ -90,7 +90,7 @@ TEST_CASE("values and weights pair up and weigh something") {
 }
 
 TEST_CASE("a truncation is an interval of a continuous law that holds some probability") {
-  const std::string none = ", an interval in which the law has some probability";
+  const std::string none = ", an interval in which the law has a probability that doubles can hold";
   CHECK(report(Normal{}, Truncation{1, 1}) == "truncate/upper: 1, > lower (1)");
   CHECK(report(Normal{}, Truncation{not_a_number, 1}) == "truncate/lower: nan, a number");
   CHECK(report(Normal{}, Truncation{0, not_a_number}) == "truncate/upper: nan, a number");

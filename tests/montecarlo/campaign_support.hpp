@@ -106,7 +106,7 @@ inline long run_into(const std::filesystem::path& path, const Campaign& campaign
   ThreadEvaluator evaluator({.threads = session.threads}, stop);
   while (!stop && folder.remaining().size() > 0)
     (void)evaluator.make(plan, folder.remaining(), {keep, true});
-  (void)write_statistics(folder.stored(), folder.results(), campaign.statistics);
+  (void)write_statistics(folder.stored(), folder.results());
   return made;
 }
 

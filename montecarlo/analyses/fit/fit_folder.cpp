@@ -6,7 +6,7 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/results/checkpoint/checkpoint.hpp"
+#include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 
 #include <algorithm>
@@ -15,18 +15,6 @@ namespace wingspread {
 namespace {
 
 constexpr std::array<double, 3> predicted_quantiles{0.05, 0.5, 0.95};
-
-void refuse_unsuitable(const std::filesystem::path& folder, bool resume) {
-  const bool has_log = std::filesystem::exists(folder / fit_log_file);
-  const auto refuse = [&](const char* found, const char* expected) {
-    throw SpecError({{folder.string(), "", found, expected}});
-  };
-  if (!resume && has_log)
-    refuse("an interrupted study", "a new or an empty folder (--resume continues this one)");
-  if (!resume) return refuse_used_folder(folder, "a new or an empty folder");
-  if (!has_log && !std::filesystem::exists(folder / fit_json_file) && !is_new_folder(folder))
-    refuse("no interrupted study", "one to continue, or a new or an empty folder");
-}
 
 /// An output of the first runs.
 struct OutputOfRuns {
@@ -58,14 +46,9 @@ std::vector<OutputOfRuns> sorted_outputs(const Campaign& campaign, ThreadPool po
 
 FitFolder::FitFolder(std::filesystem::path folder, const Json& about, bool resume)
     : folder_(std::move(folder)), about_(about) {
-  refuse_unsuitable(folder_, resume);
-  lock_.emplace(folder_);
-  refuse_unsuitable(folder_, resume); // it may have changed before the lock
-  const auto log = folder_ / fit_log_file;
-  if (std::filesystem::exists(folder_ / fit_json_file) && !std::filesystem::exists(log))
-    refuse_other_study(folder_ / fit_json_file, parse_json_file(folder_ / fit_json_file), about);
-  else
-    log_.emplace(log, about);
+  lock_study_folder(folder_, fit_json_file, resume, lock_);
+  if (!is_finished_study(folder_, fit_json_file, about))
+    log_.emplace(folder_ / checkpoint_file, about);
 }
 
 void FitFolder::write(FitResult& result, const Campaign& campaign, const FitSpec& spec,
@@ -81,7 +64,7 @@ void FitFolder::write(FitResult& result, const Campaign& campaign, const FitSpec
   write_file(folder_ / fit_json_file, json_text(fit_json(result, spec, about_)));
   if (!result.finished) return log_->sync();
   log_.reset();
-  std::filesystem::remove(folder_ / fit_log_file);
+  remove_checkpoint(folder_);
 }
 
 std::vector<PredictedOutput> predicted_outputs(const Campaign& before, const Campaign& after,

@@ -9,15 +9,11 @@
 
 namespace wingspread {
 
-/// The checkpoint of an unfinished fit.
-inline constexpr const char* fit_log_file = "looks.log";
-
 /// A folder with posterior.csv, campaign.json, traces.csv and fit.json; until the chains are finished, with a
 /// checkpoint.
 class FitFolder {
 public:
-  /// Without `resume` the folder must be new or empty. With `resume` it may have the checkpoint of the same study.
-  /// @throws SpecError for another folder; MachineError if another process holds the folder, or it cannot be written
+  /// Opens or creates the folder, as lock_study_folder and is_finished_study (study_folder.hpp).
   FitFolder(std::filesystem::path folder, const Json& about, bool resume);
 
   /// Whether an earlier session finished the study.

@@ -66,6 +66,7 @@ std::vector<double> residuals_of(const FitData& data, const Channel& channel,
 
 std::vector<std::size_t> outliers_of(std::span<const double> residuals, std::optional<double> std) {
   constexpr double far = 6, normal = 1.4826;
+  // of fewer than five residuals the median says nothing; heuristic
   constexpr std::size_t least = 5, one_of = 20;
   if (residuals.size() < least) return {};
   std::vector<double> sizes;

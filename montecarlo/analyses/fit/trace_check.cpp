@@ -16,6 +16,9 @@
 namespace wingspread {
 namespace {
 
+// Heuristics. A trace is refused only where it misses all runs of the prior by 30 % of its range and another column,
+// unit or sense fits to 10 % and five times better: with less, a good trace of an unlikely unit would be refused; with
+// more, a trace in degrees would pass. 16 runs show the prior's spread; 10 to 500 numbers of a trace are enough to tell.
 constexpr long prior_runs = 16;
 constexpr std::size_t least_compared = 10, most_compared = 500;
 constexpr double own_misfit = 0.3, other_fit = 0.1, times_better = 5;

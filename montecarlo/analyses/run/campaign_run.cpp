@@ -19,12 +19,12 @@ namespace wingspread {
 namespace {
 
 /// Adds up the tallies of the cases, which run one after the other.
-class OverallTally {
+class OverallCounts {
 public:
   /// @param runs number of runs of all cases together
-  explicit OverallTally(long runs) : ended_{.total = runs} {}
+  explicit OverallCounts(long runs) : ended_{.total = runs} {}
 
-  /// The tally of all cases so far. @param own the tally of the case that is running
+  /// The counts of all cases so far. @param own the counts of the case that is running
   [[nodiscard]] RunCounts with(const RunCounts& own) const {
     RunCounts all = ended_;
     all.done += own.done;
@@ -47,49 +47,48 @@ private:
 
 /// Counts the runs that a folder has before run_folder makes the others. In a new folder of streaming statistics it
 /// first makes the pilot. @return false if the evaluator was stopped during the pilot
-bool count_earlier_runs(const FolderWriter& folder, Evaluator& /*evaluator*/, RunCounts& tally) {
+bool count_earlier_runs(const FolderWriter& folder, Evaluator& /*evaluator*/, RunCounts& counts) {
   const Results& results = folder.results();
-  tally.done = std::ssize(results.runs);
-  tally.invalid = std::ranges::count(results.status, Status::invalid);
-  tally.failed = std::ranges::count(results.status, Status::failed);
-  tally.stalled = std::ranges::count(results.status, Status::stalled);
-  tally.timed_out = std::ranges::count(results.status, Status::timed_out);
-  tally.before = tally.done;
+  counts.done = std::ssize(results.runs);
+  counts.invalid = std::ranges::count(results.status, Status::invalid);
+  counts.failed = std::ranges::count(results.status, Status::failed);
+  counts.stalled = std::ranges::count(results.status, Status::stalled);
+  counts.timed_out = std::ranges::count(results.status, Status::timed_out);
+  counts.before = counts.done;
   return true;
 }
-bool count_earlier_runs(StreamingFolder& folder, Evaluator& evaluator, RunCounts& tally) {
+bool count_earlier_runs(StreamingFolder& folder, Evaluator& evaluator, RunCounts& counts) {
   if (!folder.begin(evaluator)) return false;
   const StreamingStatistics& made = folder.statistics();
-  tally.done = made.runs();
-  tally.invalid = made.count_of(Status::invalid);
-  tally.failed = made.count_of(Status::failed);
-  tally.stalled = made.count_of(Status::stalled);
-  tally.timed_out = made.count_of(Status::timed_out);
-  tally.before = folder.resumed();
+  counts.done = made.runs();
+  counts.invalid = made.count_of(Status::invalid);
+  counts.failed = made.count_of(Status::failed);
+  counts.stalled = made.count_of(Status::stalled);
+  counts.timed_out = made.count_of(Status::timed_out);
+  counts.before = folder.resumed();
   return true;
 }
 
 /// Makes the runs that a folder lacks, and writes timing.json. @return whether they were interrupted
 template <class Folder>
 bool complete_runs(Folder& folder, const RunPlan& plan, const ThreadPool& pool,
-                   const RunCallbacks& callbacks, OverallTally& overall) {
+                   const RunCallbacks& callbacks, OverallCounts& overall) {
   const auto start = std::chrono::steady_clock::now();
   const auto evaluator = evaluator_of(pool, callbacks.begin_runs());
-  RunCounts tally{.total = folder.stored().runs().size()};
-  if (!count_earlier_runs(folder, *evaluator, tally)) return true;
+  RunCounts counts{.total = folder.stored().runs().size()};
+  if (!count_earlier_runs(folder, *evaluator, counts)) return true;
   const auto show = [&](const RunCounts& own) { callbacks.show_progress(overall.with(own)); };
-  show(tally);
-  const bool interrupted = make_runs(folder, plan, *evaluator, tally, show);
+  show(counts);
+  const bool interrupted = make_runs(folder, plan, *evaluator, counts, show);
   folder.finish();
-  overall.add_case(tally);
+  overall.add_case(counts);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  write_timing(folder.stored().folder, {tally, seconds.count(), interrupted}, pool, *evaluator);
+  write_timing(folder.stored().folder, {counts, seconds.count(), interrupted}, pool, *evaluator);
   return interrupted;
 }
 
 Summary write_folder_statistics(const FolderWriter& folder, int threads) {
-  const StoredCampaign& stored = folder.stored();
-  return write_statistics(stored, folder.results(), stored.campaign.statistics, threads);
+  return write_statistics(folder.stored(), folder.results(), threads);
 }
 Summary write_folder_statistics(const StreamingFolder& folder, int /*threads*/) {
   return write_streaming_statistics(folder.stored(), folder.statistics(),
@@ -100,7 +99,7 @@ Summary write_folder_statistics(const StreamingFolder& folder, int /*threads*/) 
 /// statistics were left for later
 template <class Folder>
 bool run_folder(const Campaign& campaign, const std::filesystem::path& out,
-                const RunRequest& request, const RunCallbacks& callbacks, OverallTally& overall,
+                const RunRequest& request, const RunCallbacks& callbacks, OverallCounts& overall,
                 CampaignResults& results) {
   const RunPlan plan(campaign);
   Folder folder(out, plan, request.shard, request.resume);
@@ -129,8 +128,8 @@ CampaignResults run_cases(const RunRequest& request, const RunCallbacks& callbac
   const std::vector<CaseSpec> chosen = chosen_cases(campaign, request.cases);
   const CasesFolder folder(request.out, campaign, request.shard, request.resume);
   std::filesystem::remove(request.out / cases_file); // it compares cases whose results will change
-  OverallTally overall(std::ssize(chosen) *
-                       shard_runs(campaign.sampling.runs, request.shard).size());
+  OverallCounts overall(std::ssize(chosen) *
+                        shard_runs(campaign.sampling.runs, request.shard).size());
   CampaignResults results;
   for (const CaseSpec& spec : chosen)
     if (!run_folder<FolderWriter>(campaign_of_case(campaign, spec), request.out / spec.name,
@@ -161,7 +160,7 @@ CampaignResults run_campaign(const RunRequest& request, const RunCallbacks& call
           "simulate` makes it)"}});
   if (!request.streaming && !campaign.cases.empty()) return run_cases(request, callbacks);
   if (campaign.cases.empty()) (void)chosen_cases(campaign, request.cases); // no case may be named
-  OverallTally overall(shard_runs(campaign.sampling.runs, request.shard).size());
+  OverallCounts overall(shard_runs(campaign.sampling.runs, request.shard).size());
   CampaignResults results;
   const auto run = request.streaming ? run_folder<StreamingFolder> : run_folder<FolderWriter>;
   run(campaign, request.out, request, callbacks, overall, results);
@@ -172,8 +171,8 @@ Results run_in_memory(const StoredCampaign& stored, const RunPlan& plan, const T
                       const std::atomic<bool>& stop) {
   RowsInMemory rows(stored, plan.names());
   const auto evaluator = evaluator_of(pool, stop);
-  RunCounts tally;
-  make_runs(rows, plan, *evaluator, tally, [](const RunCounts&) {});
+  RunCounts counts;
+  make_runs(rows, plan, *evaluator, counts, [](const RunCounts&) {});
   return std::move(rows).take();
 }
 

@@ -44,7 +44,7 @@ struct RunCallbacks {
   /// Called when a results folder is open and its first run is about to begin.
   /// @return a flag that stops the runs once it is true; it must live until the next call or the end of run_campaign
   std::function<const std::atomic<bool>&()> begin_runs;
-  /// Called with the tally over all cases, before a folder's first batch and after every batch. Calls come one at a
+  /// Called with the counts over all cases, before a folder's first batch and after every batch. Calls come one at a
   /// time, from any thread of the pool.
   std::function<void(const RunCounts&)> show_progress;
   /// Called when the folder's runs are on disk and only its statistics are missing.

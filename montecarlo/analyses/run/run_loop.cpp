@@ -4,15 +4,15 @@
 
 namespace wingspread {
 
-void count_rows(const Batch& batch, RunCounts& tally) {
+void count_rows(const Batch& batch, RunCounts& counts) {
   const auto count = [&](Status status) {
     return std::ranges::count(batch.rows, status, &ResultRow::status);
   };
-  tally.done += std::ssize(batch.rows);
-  tally.invalid += count(Status::invalid);
-  tally.failed += count(Status::failed);
-  tally.stalled += count(Status::stalled);
-  tally.timed_out += count(Status::timed_out);
+  counts.done += std::ssize(batch.rows);
+  counts.invalid += count(Status::invalid);
+  counts.failed += count(Status::failed);
+  counts.stalled += count(Status::stalled);
+  counts.timed_out += count(Status::timed_out);
 }
 
 RunRange RowsInMemory::remaining() const {

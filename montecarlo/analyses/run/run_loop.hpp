@@ -9,8 +9,8 @@
 
 namespace wingspread {
 
-/// Counts rows by their status into the tally.
-void count_rows(const Batch& batch, RunCounts& tally);
+/// Counts rows by their status into the counts.
+void count_rows(const Batch& batch, RunCounts& counts);
 
 /// Collects rows in memory, with the functions of FolderWriter that make_runs calls.
 class RowsInMemory {
@@ -34,16 +34,16 @@ private:
 /// Makes the runs that `rows` still lacks. If the campaign may stop early, `rows.remaining()` ends at the next interim
 /// analysis; it is called again after these runs.
 /// @param rows  FolderWriter, StreamingFolder or RowsInMemory
-/// @param tally counts of the runs that `rows` has already; updated with every batch
-/// @param show  called with the tally after every batch, one call at a time
+/// @param counts counts of the runs that `rows` has already; updated with every batch
+/// @param show  called with the counts after every batch, one call at a time
 /// @return whether the evaluator was stopped before the last run
 template <class Rows, class Show>
-bool make_runs(Rows& rows, const RunPlan& plan, Evaluator& evaluator, RunCounts& tally,
+bool make_runs(Rows& rows, const RunPlan& plan, Evaluator& evaluator, RunCounts& counts,
                const Show& show) {
   const auto keep = [&](const Batch& batch) {
     rows.add(batch);
-    count_rows(batch, tally);
-    show(tally);
+    count_rows(batch, counts);
+    show(counts);
   };
   for (RunRange next = rows.remaining(); next.size() > 0; next = rows.remaining())
     if (evaluator.make(plan, next, {keep, Rows::wants_csv}) < next.size()) return true;

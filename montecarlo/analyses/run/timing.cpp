@@ -35,7 +35,7 @@ std::string math_library() {
 
 void write_timing(const std::filesystem::path& folder, const SessionTiming& timing,
                   const ThreadPool& pool, const Evaluator& evaluator) {
-  const long made = timing.tally.done - timing.tally.before;
+  const long made = timing.counts.done - timing.counts.before;
   const Occupancy& lanes = evaluator.occupancy();
   const Json occupancy =
       lanes.trial_steps > 0
@@ -58,7 +58,7 @@ void write_timing(const std::filesystem::path& folder, const SessionTiming& timi
                         {"lane_occupancy", occupancy},
                         {"outside_lanes", lanes.trial_steps > 0 ? outside : Json()},
                         {"runs", made},
-                        {"runs_before", timing.tally.before},
+                        {"runs_before", timing.counts.before},
                         {"seconds", timing.seconds},
                         {"runs_per_second", runs_per_second},
                         {"interrupted", timing.interrupted}}));

@@ -11,7 +11,7 @@ namespace wingspread {
 
 /// How long a session took to make runs.
 struct SessionTiming {
-  RunCounts tally;    ///< at its end
+  RunCounts counts;   ///< at its end
   double seconds = 0; ///< wall time
   bool interrupted = false;
 };

@@ -8,6 +8,7 @@
 namespace wingspread {
 namespace {
 
+// Newton's method, which converges in fewer than ten iterations or not at all; heuristic.
 constexpr int most_iterations = 30;
 constexpr double converged = 1e-10, same = 1e-6;
 

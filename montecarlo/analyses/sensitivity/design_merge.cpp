@@ -17,23 +17,6 @@ void refuse_other_folder(const std::filesystem::path& out, const SaltelliDesign&
     refuse_used_folder(out, "a new or an empty folder for the merged runs");
 }
 
-void write_rows(std::vector<Part> parts, const RunPlan& plan, const std::filesystem::path& file) {
-  constexpr std::size_t block_bytes = 1 << 16;
-  std::ranges::sort(parts, {}, [](const Part& part) { return part.own.first; });
-  WholeFile out(file);
-  std::string lines;
-  append_header(lines, plan.names());
-  const auto take = [&](const ResultRow& row) {
-    append_row(lines, row);
-    if (lines.size() < block_bytes) return;
-    out.write(lines);
-    lines.clear();
-  };
-  for (const Part& part : parts) (void)for_each_design_row(part.folder, plan, part.own, take);
-  out.write(lines);
-  out.finish();
-}
-
 } // namespace
 
 void merge_designs(const std::vector<std::filesystem::path>& folders,
@@ -61,7 +44,10 @@ void merge_designs(const std::vector<std::filesystem::path>& folders,
   const FolderLock lock(out);
   refuse_other_folder(out, whole);
   write_file(out / design_file, design_text(whole));
-  write_rows(std::move(parts), plan, out / design_runs_file);
+  write_in_order(std::move(parts), plan.names(), out / design_runs_file,
+                 [&](const Part& part, const auto& take) {
+                   (void)for_each_design_row(part.folder, plan, part.own, take);
+                 });
 }
 
 } // namespace wingspread

@@ -1,6 +1,6 @@
 /// The plan that all runs of a campaign share: how to draw them, what to compute, and which outputs to keep.
 ///
-///   run k → point of the unit cube → dependence → quantiles → draws (→ scene: campaign.hpp)
+///   run k → point of the unit cube → copula → quantiles → draws (→ scene: campaign.hpp)
 #pragma once
 
 #include "distributions/design.hpp"

@@ -164,6 +164,14 @@ public:
     const auto at = find(key);
     return at ? at->read(out, dimension) : true;
   }
+  bool optional(std::string_view key, std::optional<double>& out, const Dimension& dimension) {
+    double value = 0;
+    const auto at = find(key);
+    if (!at) return true;
+    if (!at->read(value, dimension)) return false;
+    out = value;
+    return true;
+  }
   /// Reads a quantity with a condition; the dimension has the condition in words.
   bool required(std::string_view key, double& out, const Dimension& dimension,
                 Holds<double> holds) {

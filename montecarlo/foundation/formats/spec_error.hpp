@@ -10,7 +10,7 @@ namespace wingspread {
 /// One error in the input.
 struct Problem {
   std::string file;     ///< as the user named it; empty for text without a file
-  std::string pointer;  ///< JSON pointer (RFC 6901); empty for the whole document
+  std::string pointer;  ///< JSON pointer (RFC 6901) or an option ("--case"); empty: the whole
   std::string found;    ///< the value, as the user wrote it
   std::string expected; ///< the condition it breaks
 };

@@ -100,19 +100,8 @@ std::string quantile_name(double p) {
 }
 
 std::string paragraph(std::string_view text, std::size_t indent) {
-  const std::string margin(indent, ' ');
-  constexpr std::size_t width = table_width;
-  std::string lines;
-  std::size_t column = 0;
-  std::istringstream words{std::string(text)};
-  for (std::string word; words >> word;) {
-    const std::size_t length = count_characters(word);
-    const bool fits = column > 0 && column + 1 + length <= width;
-    lines += fits ? " " : column == 0 ? margin : '\n' + margin;
-    column = fits ? column + 1 + length : indent + length;
-    lines += word;
-  }
-  return lines.empty() ? "" : lines + '\n';
+  const std::string lines = wrapped(text, indent);
+  return lines.empty() ? "" : std::string(indent, ' ') + lines + '\n';
 }
 
 std::string percent(double share, int decimals) {

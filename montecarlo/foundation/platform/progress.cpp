@@ -29,9 +29,9 @@ std::string bar(double share) {
 namespace {
 
 /// From 0 to 1.
-double share_of(const RunCounts& tally) {
-  if (tally.total == 0) return 1;
-  return std::min(1.0, static_cast<double>(tally.done) / static_cast<double>(tally.total));
+double share_of(const RunCounts& counts) {
+  if (counts.total == 0) return 1;
+  return std::min(1.0, static_cast<double>(counts.done) / static_cast<double>(counts.total));
 }
 
 } // namespace
@@ -39,29 +39,29 @@ double share_of(const RunCounts& tally) {
 bool is_terminal(std::FILE* stream) { return isatty(fileno(stream)) == 1; }
 
 RunCounts counts_of(const StudyProgress& progress, long before) {
-  RunCounts tally{.done = progress.runs, .total = progress.most_runs, .before = before};
-  tally.analysis = progress.analysis;
-  tally.analyses = progress.most_analyses;
-  tally.at_most = true;
-  return tally;
+  RunCounts counts{.done = progress.runs, .total = progress.most_runs, .before = before};
+  counts.analysis = progress.analysis;
+  counts.analyses = progress.most_analyses;
+  counts.at_most = true;
+  return counts;
 }
 
-std::string progress_line(const RunCounts& tally, double seconds) {
-  std::string text = bar(share_of(tally));
-  if (tally.analyses > 0)
-    text += fmt::format(" analysis {} of at most {} ·", tally.analysis, tally.analyses);
-  text += tally.at_most ? fmt::format(" {} of at most {} runs", tally.done, tally.total)
-                        : fmt::format(" {}/{} runs", tally.done, tally.total);
-  const double rate = static_cast<double>(tally.done - tally.before) / seconds;
+std::string progress_line(const RunCounts& counts, double seconds) {
+  std::string text = bar(share_of(counts));
+  if (counts.analyses > 0)
+    text += fmt::format(" analysis {} of at most {} ·", counts.analysis, counts.analyses);
+  text += counts.at_most ? fmt::format(" {} of at most {} runs", counts.done, counts.total)
+                         : fmt::format(" {}/{} runs", counts.done, counts.total);
+  const double rate = static_cast<double>(counts.done - counts.before) / seconds;
   if (rate > 0 && std::isfinite(rate)) {
     text += fmt::format(" · {:.0f} runs/s", rate);
-    if (tally.done < tally.total && !tally.at_most)
-      text += " · " + duration(static_cast<double>(tally.total - tally.done) / rate) + " left";
+    if (counts.done < counts.total && !counts.at_most)
+      text += " · " + duration(static_cast<double>(counts.total - counts.done) / rate) + " left";
   }
-  if (tally.stalled > 0) text += fmt::format(" · {} stalled", tally.stalled);
-  if (tally.timed_out > 0) text += fmt::format(" · {} timed out", tally.timed_out);
-  if (tally.invalid > 0) text += fmt::format(" · {} invalid", tally.invalid);
-  if (tally.failed > 0) text += fmt::format(" · {} failed", tally.failed);
+  if (counts.stalled > 0) text += fmt::format(" · {} stalled", counts.stalled);
+  if (counts.timed_out > 0) text += fmt::format(" · {} timed out", counts.timed_out);
+  if (counts.invalid > 0) text += fmt::format(" · {} invalid", counts.invalid);
+  if (counts.failed > 0) text += fmt::format(" · {} failed", counts.failed);
   return text;
 }
 
@@ -78,16 +78,16 @@ double Progress::seconds() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
-void Progress::show(const RunCounts& tally) {
+void Progress::show(const RunCounts& counts) {
   if (!stream_) return;
   const auto now = Clock::now();
-  if (shown_ && tally.done < tally.total && now - last_ < std::chrono::milliseconds(100)) return;
-  if (share_of(tally) < share_) return;
-  share_ = share_of(tally);
+  if (shown_ && counts.done < counts.total && now - last_ < std::chrono::milliseconds(100)) return;
+  if (share_of(counts) < share_) return;
+  share_ = share_of(counts);
   last_ = now;
   shown_ = true;
   // "\x1b[K" clears the rest of the line, which may show the end of a longer one.
-  fmt::print(stream_, "\r{}\x1b[K", progress_line(tally, seconds()));
+  fmt::print(stream_, "\r{}\x1b[K", progress_line(counts, seconds()));
   std::fflush(stream_);
 }
 

@@ -31,7 +31,7 @@ struct StudyProgress {
 /// One line: a bar, done of total, runs per second, time left, and counts of runs that did not deploy. The time left
 /// is omitted if the total is an upper bound.
 /// @param seconds since this session began
-[[nodiscard]] std::string progress_line(const RunCounts& tally, double seconds);
+[[nodiscard]] std::string progress_line(const RunCounts& counts, double seconds);
 
 /// Shows the line on a terminal. Writes nothing to other streams.
 class Progress {
@@ -43,7 +43,7 @@ public:
 
   /// Rewrites the line at most ten times a second, and always when all runs are done. Does nothing if the share done is
   /// smaller than one shown before, so that the bar never runs backwards.
-  void show(const RunCounts& tally);
+  void show(const RunCounts& counts);
 
   /// Ends the line, so that other text can be printed; the next line is shown below that text.
   void pause();

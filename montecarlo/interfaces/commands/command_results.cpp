@@ -131,11 +131,11 @@ void print_missing_runs(const StoredCampaign& stored, const Results& results,
 Summary summarize_again(StoredCampaign& stored, const std::filesystem::path& to) {
   if (to != stored.folder) copy_rows(stored.folder, to);
   stored.folder = to;
-  const StatisticsSpec& spec = stored.campaign.statistics;
   if (is_streaming_folder(to))
-    return write_streaming_statistics(stored, read_streaming_statistics(stored).statistics, spec);
+    return write_streaming_statistics(stored, read_streaming_statistics(stored).statistics,
+                                      stored.campaign.statistics);
   const Results results = read_stored_results(stored).results;
-  Summary summary = write_statistics(stored, results, spec);
+  Summary summary = write_statistics(stored, results);
   print_missing_runs(stored, results, summary);
   return summary;
 }

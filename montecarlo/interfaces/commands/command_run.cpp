@@ -85,7 +85,7 @@ int run(const RunOptions& options) {
   std::string last_words; // outlives the interrupt, which prints them
   std::optional<Interrupt> interrupt;
   const auto begin_runs = [&]() -> const std::atomic<bool>& { return interrupt.emplace().flag(); };
-  const auto show_progress = [&](const RunCounts& tally) { progress.show(tally); };
+  const auto show_progress = [&](const RunCounts& counts) { progress.show(counts); };
   const auto begin_statistics = [&](const RunsKept& runs) {
     if (runs.interrupted) progress.pause();
     last_words =

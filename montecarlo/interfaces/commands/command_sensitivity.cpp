@@ -144,11 +144,11 @@ bool make_design_runs(const RunPlan& plan, RunRange own, RunRange remaining, con
   const Interrupt interrupt;
   Progress progress(stderr);
   const long before = remaining.first - own.first;
-  RunCounts tally{.done = before, .total = own.size(), .before = before};
+  RunCounts counts{.done = before, .total = own.size(), .before = before};
   const auto keep = [&](const Batch& batch) {
     sink.take(batch);
-    tally.done += std::ssize(batch.rows);
-    progress.show(tally);
+    counts.done += std::ssize(batch.rows);
+    progress.show(counts);
   };
   return evaluator_of(pool, interrupt.flag())->make(plan, remaining, {keep, sink.wants_csv}) <
          remaining.size();

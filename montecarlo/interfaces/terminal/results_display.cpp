@@ -81,7 +81,7 @@ void print_notes(const Summary& summary, bool may_stop) {
 
 /// Prints the goals that all runs together have not reached.
 void print_open_goals(std::string_view of_case, const Summary& summary) {
-  for (const GoalFound& each : summary.until)
+  for (const GoalState& each : summary.until)
     if (!each.met)
       print_message("note: {}goal not reached in {}: {}\n", of_case,
                     counted(summary.runs, "run", "runs"), to_string(each.goal));

@@ -2,6 +2,7 @@
 
 #include "core/scene/scene.hpp"
 #include "distributions/prepared_distribution.hpp"
+#include "distributions/reached_correlation.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
 
 #include <fmt/format.h>
@@ -346,6 +347,7 @@ void check_spread(const Campaign& campaign, InputWarnings& warnings) {
 }
 
 void check_correlations(const Campaign& campaign, InputWarnings& warnings) {
+  constexpr double least_left = 0.9; // heuristic: rank correlations are rarely known better
   const auto& all = campaign.wanted_correlations;
   const auto name = [&](std::size_t which) { return campaign.dispersions[which].name; };
   for (std::size_t k = 0; k < all.size(); ++k)
@@ -354,6 +356,16 @@ void check_correlations(const Campaign& campaign, InputWarnings& warnings) {
           fmt::format("/correlations/{}", k),
           fmt::format("{} of {} and {}", all[k].spearman, name(all[k].first), name(all[k].second)),
           usual_cause);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto law = [&](std::size_t which) { return campaign.dispersions[which].distribution; };
+    const double left = reached_correlation(law(all[k].first), law(all[k].second), all[k].spearman);
+    if (left != 0 && std::abs(left) < least_left * std::abs(all[k].spearman))
+      warnings.add(
+          fmt::format("/correlations/{}", k),
+          fmt::format("{} of {} and {}, of which ties leave {:.2g}", all[k].spearman,
+                      name(all[k].first), name(all[k].second), left),
+          "laws without values that many draws share: the correlation is that before ties");
+  }
   for (std::size_t k = 0; k < all.size(); ++k)
     for (const std::size_t which : {all[k].first, all[k].second})
       if (!varies(campaign.dispersions[which].distribution))

@@ -40,10 +40,7 @@ void read_friction(const JsonCursor& at, Friction& friction) {
   object.optional("viscous", friction.viscous, Dimension{"N·m·s/rad", "≥ 0"});
   const bool known = object.optional_choice("model", friction.model, friction_model_names);
   object.optional("regularization_rate", friction.regularization_rate, Dimension{"rad/s", "> 0"});
-  double static_level = 0;
-  if (const auto level = object.find("static");
-      level && level->read(static_level, Dimension{"N·m", "≥ coulomb"}))
-    friction.static_level = static_level;
+  object.optional("static", friction.static_level, Dimension{"N·m", "≥ coulomb"});
   if (known && friction.model == FrictionModel::regularized) refuse_static(object);
   object.optional("scale", friction.scale, "a number, ≥ 0");
   object.refuse_others();
@@ -166,18 +163,14 @@ void read_latch(const JsonCursor& at, std::optional<Latch>& latch) {
   }
   object.optional("backlash", latch->backlash,
                   Dimension{"rad", "≥ 0: the total play, half of it on either side"});
-  const auto read_limit = [&](const char* key, std::optional<double>& limit, Dimension dimension) {
-    double value = 0;
-    if (const auto found = object.find(key); found && found->read(value, dimension)) limit = value;
-  };
-  read_limit("capture_rate", latch->capture_rate, Dimension{"rad/s", "≥ 0"});
+  object.optional("capture_rate", latch->capture_rate, Dimension{"rad/s", "≥ 0"});
   if (const auto moment = object.find("holding_moment"))
     moment->note(
         Question::What::quantity,
         "a number, N·m, > 0, or a string of a number and its unit, such as \"12 N*m\": a load "
         "towards stowed opens the engaged latch from this moment on; a load the other way "
         "never does");
-  read_limit("holding_moment", latch->holding_moment, Dimension{"N·m", "> 0"});
+  object.optional("holding_moment", latch->holding_moment, Dimension{"N·m", "> 0"});
   object.refuse_others();
 }
 

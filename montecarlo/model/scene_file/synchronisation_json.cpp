@@ -85,10 +85,7 @@ LoopEnds read_synchronisation(const JsonCursor& at, Synchronisation& loop) {
   if (const auto ratio = object.require("ratio", expected_ratio)) read_ratio(*ratio, loop);
   object.required("stiffness", loop.stiffness, Dimension{"N·m/rad", "≥ 0"});
   object.optional("damping", loop.damping, Dimension{"N·m·s/rad", "≥ 0"});
-  double preload = 0;
-  if (const auto level = object.find("preload");
-      level && level->read(preload, Dimension{"N·m", "> 0"}))
-    loop.preload = preload;
+  object.optional("preload", loop.preload, Dimension{"N·m", "> 0"});
   object.refuse_others();
   return ends;
 }

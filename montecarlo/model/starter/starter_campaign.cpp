@@ -42,6 +42,7 @@ AnnotatedLine driven(std::string_view path, std::string_view factors, std::strin
           std::string(note)};
 }
 
+/// Effects of the temperature. The factors are examples of a plausible size, for the user to replace by measured ones.
 AnnotatedLines temperature(const WingDesign& design) {
   Elements effects;
   if (design.damper.value_or(0) > 0)

@@ -11,16 +11,6 @@ bool is_point_count(const std::int64_t& number) {
 
 bool is_at_least_2(const std::int64_t& number) { return number >= 2; }
 
-/// A number ≥ 0 with a dimension.
-void read_size(JsonObject& object, std::string_view key, std::string_view unit, double& size) {
-  const Dimension dimension{unit, "≥ 0"};
-  const auto at = object.find(key);
-  double read = 0;
-  if (!at || !at->read(read, dimension)) return;
-  if (read < 0) return void(at->refuse(expected_number(dimension)));
-  size = read;
-}
-
 /// A factor or term and its key.
 template <class Owner> struct Key {
   const char* name;
@@ -37,7 +27,7 @@ constexpr std::array ecss_keys{Key<EcssFactors>{"inertia", &EcssFactors::inertia
                                Key<EcssFactors>{"motorization", &EcssFactors::motorization},
                                Key<EcssFactors>{"acceleration", &EcssFactors::acceleration},
                                Key<EcssFactors>{"available", &EcssFactors::available}};
-// Without `acceleration`, because that factor does not enter static margins.
+// Without NasaFactors::acceleration: static margins have no inertial torque to deliver.
 constexpr std::array nasa_keys{Key<NasaFactors>{"fixed", &NasaFactors::fixed},
                                Key<NasaFactors>{"variable", &NasaFactors::variable}};
 constexpr std::array phase_keys{Key<PhaseFactors>{"known", &PhaseFactors::known},
@@ -100,7 +90,7 @@ void read_torques(const JsonCursor& at, const Scene* scene, std::vector<TorqueTe
     if (const auto hinge = hinges.find(scene->hinges[i].name)) {
       JsonObject object(*hinge, "an object with torques");
       for (const auto& [name, member] : torque_keys)
-        read_size(object, name, "N·m", torques[i].*member);
+        object.optional(name, torques[i].*member, Dimension{"N·m", "≥ 0"}, is_not_negative);
       object.refuse_others();
     }
   hinges.refuse_others();
@@ -111,7 +101,7 @@ void read_rates(const JsonCursor& at, const Scene* scene, std::vector<double>& r
   hinges.keys_are_names();
   if (!scene) return;
   for (std::size_t i = 0; i < scene->hinges.size(); ++i)
-    read_size(hinges, scene->hinges[i].name, "rad/s", rates[i]);
+    hinges.optional(scene->hinges[i].name, rates[i], Dimension{"rad/s", "≥ 0"}, is_not_negative);
   hinges.refuse_others();
 }
 

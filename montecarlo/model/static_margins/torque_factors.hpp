@@ -3,7 +3,7 @@
 ///   symbol  term (N·m, each ≥ 0)                                         class
 ///   T       the torque of spring and motor, in the deploying sense
 ///   I       inertial load that resists                                   fixed (known)
-///   S       spring or motor that resists                                      fixed (known)
+///   S       spring or motor that resists                                 fixed (known)
 ///   HM      a motor's magnetic losses                                    variable
 ///   FR      friction                                                     variable
 ///   HY      hysteresis                                                   variable

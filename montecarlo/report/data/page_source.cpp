@@ -12,10 +12,9 @@ namespace wingspread {
 namespace {
 
 void read_rows(PageSource& source, int threads) {
-  const StatisticsSpec& spec = source.stored.campaign.statistics;
   source.results = std::move(read_stored_results(source.stored).results);
   source.replication = replication_of(source.stored.campaign.sampling, source.results);
-  source.summary = stored_summary(source.stored, source.results, spec, threads);
+  source.summary = stored_summary(source.stored, source.results, threads);
   source.orders = std::make_unique<OrderSplit>(source.results, source.stored.campaign.scene);
 }
 

@@ -200,7 +200,7 @@ std::string html_page(const Json& data) {
   page += "<script type=\"application/json\" id=\"data\">";
   page += page_text(data);
   page += "</script>";
-  return page += page_behind_data;
+  return page += page_after_data;
 }
 
 } // namespace wingspread

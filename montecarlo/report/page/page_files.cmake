@@ -49,6 +49,6 @@ file(CONFIGURE OUTPUT ${OUT} @ONLY NEWLINE_STYLE UNIX CONTENT [[
 #include "montecarlo/report/page/page_files.hpp"
 namespace wingspread {
 const std::string_view page_before_data = R"page~file(@before@)page~file";
-const std::string_view page_behind_data = R"page~file(@after@)page~file";
+const std::string_view page_after_data = R"page~file(@after@)page~file";
 } // namespace wingspread
 ]])

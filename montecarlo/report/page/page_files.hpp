@@ -6,6 +6,6 @@
 namespace wingspread {
 
 /// The page's text before and after its data.
-extern const std::string_view page_before_data, page_behind_data;
+extern const std::string_view page_before_data, page_after_data;
 
 } // namespace wingspread

@@ -28,6 +28,11 @@ std::string moved_text(const CheckedOutput& output) {
   return fmt::format("{} moves by {:.2g} %: {}", output.name, 100 * share, both);
 }
 
+/// Whether neither run has the output.
+bool is_missing(double value, double reference) {
+  return std::isnan(value) && std::isnan(reference);
+}
+
 std::vector<std::string> warnings_of(const RunCheck& check) {
   std::vector<std::string> lines;
   if (!check.agrees)
@@ -53,7 +58,7 @@ Json check_json(const std::optional<RunCheck>& check) {
     outputs.push_back({{"output", name},
                        {"value", json_number(value)},
                        {"reference", json_number(reference)},
-                       {"digits", digits},
+                       {"digits", is_missing(value, reference) ? Json(nullptr) : Json(digits)},
                        {"moved", moved}});
   return {{"reference_method", check->method}, {"reference_rtol", check->rtol},
           {"status", check->status},           {"latch_order", check->latch_order},
@@ -68,10 +73,10 @@ std::string check_text(const std::optional<RunCheck>& check) {
                   fmt::format("CHECK by {} at rtol {:g}", check->method, check->rtol), "unit",
                   "value", "reference", "digits");
   for (const auto& [name, value, reference, digits, moved] : check->outputs) {
-    const bool none = std::isnan(value) && std::isnan(reference);
-    text += fmt::format("{}{:<6}{}{}{}\n", in_column("  " + name, 40), parse_output_name(name).unit,
-                        right_aligned(number(value), 20), right_aligned(number(reference), 20),
-                        right_aligned(none ? "–" : std::to_string(digits), 8));
+    text +=
+        fmt::format("{}{:<6}{}{}{}\n", in_column("  " + name, 40), parse_output_name(name).unit,
+                    right_aligned(number(value), 20), right_aligned(number(reference), 20),
+                    right_aligned(is_missing(value, reference) ? "–" : std::to_string(digits), 8));
   }
   const std::vector<std::string> lines = warnings_of(*check);
   if (!lines.empty()) text += "\nWARNING\n";

@@ -28,7 +28,7 @@ Json by_hinge(const Scene& scene, const std::vector<double>& values) {
 }
 
 /// The same of the hinges that travel: not of elastic joints.
-Json by_judged_hinge(const Scene& scene, const std::vector<double>& values) {
+Json by_travelling_hinge(const Scene& scene, const std::vector<double>& values) {
   Json json = Json::object();
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!scene.hinges[i].joint) json[scene.hinges[i].name] = json_number(values[i]);
@@ -106,7 +106,7 @@ Json motors_json(const Scene& scene, const Outcome& outcome) {
 
 Json overtravel_json(const Scene& scene, const Outcome& outcome) {
   if (outcome.overtravel.empty() || outcome.status == Status::failed) return nullptr;
-  return by_judged_hinge(scene, outcome.overtravel);
+  return by_travelling_hinge(scene, outcome.overtravel);
 }
 
 /// Whether the peaks are final; null without peaks.
@@ -208,7 +208,7 @@ Json outcome_json(const Scene& scene, const Outcome& outcome) {
             {"peaks_final", peaks_final_json(outcome)},
             {"overtravel", overtravel_json(scene, outcome)},
             {"final_angle", has_run(outcome) && !outcome.final_angle.empty()
-                                ? by_judged_hinge(scene, outcome.final_angle)
+                                ? by_travelling_hinge(scene, outcome.final_angle)
                                 : Json(nullptr)},
             {"warnings", outcome_warnings(scene, outcome)},
             {"final", if_ran(final_json(scene, outcome.final))},

@@ -30,26 +30,37 @@ void refuse_unsuitable(const std::filesystem::path& folder, const char* last, bo
 
 } // namespace
 
+void lock_study_folder(const std::filesystem::path& folder, const char* last, bool resume,
+                       std::optional<FolderLock>& lock) {
+  refuse_unsuitable(folder, last, resume);
+  lock.emplace(folder);
+  refuse_unsuitable(folder, last, resume); // it may have changed before the lock
+}
+
+bool is_finished_study(const std::filesystem::path& folder, const char* last, const Json& about) {
+  if (!std::filesystem::exists(folder / last) || std::filesystem::exists(folder / checkpoint_file))
+    return false;
+  refuse_other_study(folder / last, parse_json_file(folder / last), about);
+  return true;
+}
+
+void remove_checkpoint(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / checkpoint_file;
+  if (unlink(file.c_str()) != 0 && errno != ENOENT)
+    refuse_path(file, errno, "a file that can be taken away");
+  sync_folder(folder);
+}
+
 StudyFolder::StudyFolder(std::filesystem::path folder, const Json& about, const char* last,
                          bool resume)
     : folder_(std::move(folder)) {
-  refuse_unsuitable(folder_, last, resume);
-  lock_.emplace(folder_);
-  refuse_unsuitable(folder_, last, resume); // it may have changed before the lock
-  const bool finished = std::filesystem::exists(folder_ / last) &&
-                        !std::filesystem::exists(folder_ / checkpoint_file);
-  if (finished)
-    refuse_other_study(folder_ / last, parse_json_file(folder_ / last), about);
-  else
-    log_.emplace(folder_ / checkpoint_file, about);
+  lock_study_folder(folder_, last, resume, lock_);
+  if (!is_finished_study(folder_, last, about)) log_.emplace(folder_ / checkpoint_file, about);
 }
 
 void StudyFolder::finish() {
-  const std::filesystem::path file = folder_ / checkpoint_file;
   log_.reset();
-  if (unlink(file.c_str()) != 0 && errno != ENOENT)
-    refuse_path(file, errno, "a file that can be taken away");
-  sync_folder(folder_);
+  remove_checkpoint(folder_);
 }
 
 void warn_if_damaged(const Checkpoint& log, const std::filesystem::path& folder) {

@@ -99,8 +99,8 @@ std::vector<CaseSummary> complete_cases(const StoredCampaign& whole,
     }
     const StoredCampaign stored = read_stored_campaign(whole.folder / spec.name);
     const FolderLock lock(stored.folder);
-    all.push_back(case_summary(stored, write_statistics(stored, read_stored_results(stored).results,
-                                                        stored.campaign.statistics)));
+    all.push_back(
+        case_summary(stored, write_statistics(stored, read_stored_results(stored).results)));
   }
   return all;
 }

@@ -34,25 +34,6 @@ void find_present(Part& part, const StoredCampaign& whole) {
                             [&](const ResultRow& row) { part.add(row.run); });
 }
 
-/// Writes the rows in the order of their runs.
-/// @param parts complete and disjoint
-void write_in_order(std::vector<Part> parts, const StoredCampaign& whole) {
-  constexpr std::size_t block_bytes = 1 << 16;
-  std::ranges::sort(parts, {}, [](const Part& part) { return part.own.first; });
-  WholeFile out(whole.folder / runs_file);
-  std::string lines;
-  append_header(lines, RunPlan(whole.campaign).names());
-  const auto take = [&](const ResultRow& row) {
-    append_row(lines, row);
-    if (lines.size() < block_bytes) return;
-    out.write(lines);
-    lines.clear();
-  };
-  for (const Part& part : parts) (void)for_each_stored_row(stored_in(part, whole), take);
-  out.write(lines);
-  out.finish();
-}
-
 /// @throws SpecError unless `out` is new or empty, an interrupted merge of the same folders, or an earlier preview
 void refuse_other_folder(const std::filesystem::path& out, const std::string& text) {
   const auto there = read_text(out / campaign_file);
@@ -149,8 +130,11 @@ Summary write_merged(Merging&& merging) {
   refuse_other_folder(whole.folder, text);
   if (read_text(whole.folder / campaign_file) != text) drop_preview(whole.folder);
   write_file(whole.folder / campaign_file, text);
-  write_in_order(std::move(parts), whole);
-  return write_statistics(whole, read_stored_results(whole).results, whole.campaign.statistics);
+  write_in_order(std::move(parts), RunPlan(whole.campaign).names(), whole.folder / runs_file,
+                 [&](const Part& part, const auto& take) {
+                   (void)for_each_stored_row(stored_in(part, whole), take);
+                 });
+  return write_statistics(whole, read_stored_results(whole).results);
 }
 
 } // namespace

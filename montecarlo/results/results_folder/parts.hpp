@@ -3,9 +3,12 @@
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
+#include "montecarlo/engine/runs/results.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/spec_error.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -64,6 +67,28 @@ struct ShardMaker {
 /// @param file name of the file in each folder that has the stamp
 /// @throws SpecError with each folder of another campaign, seed or version than the first folder, and each preview
 void refuse_other_campaigns(const std::vector<Part>& parts, const char* file);
+
+/// Writes the rows of parts as one file, in the order of their runs.
+/// @param parts complete and disjoint
+/// @param for_each_row calls its second argument with each row of a part
+template <class ForEachRow>
+void write_in_order(std::vector<Part> parts, const ResultNames& names,
+                    const std::filesystem::path& file, const ForEachRow& for_each_row) {
+  constexpr std::size_t block_bytes = 1 << 16;
+  std::ranges::sort(parts, {}, [](const Part& part) { return part.own.first; });
+  WholeFile out(file);
+  std::string lines;
+  append_header(lines, names);
+  const auto take = [&](const ResultRow& row) {
+    append_row(lines, row);
+    if (lines.size() < block_bytes) return;
+    out.write(lines);
+    lines.clear();
+  };
+  for (const Part& part : parts) for_each_row(part, take);
+  out.write(lines);
+  out.finish();
+}
 
 /// Adds a problem for each folder that repeats runs of an earlier one.
 void find_doubles(const std::vector<Part>& parts, PartFaults& faults);

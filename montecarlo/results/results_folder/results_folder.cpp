@@ -43,7 +43,7 @@ Json about(const StoredCampaign& stored, const Summary& summary) {
 }
 
 /// The goals of the stopping rule, by the campaign's own requirements and confidence, not the summary's.
-std::vector<GoalFound> goals_of(const StoredCampaign& stored, const Results& results) {
+std::vector<GoalState> goals_of(const StoredCampaign& stored, const Results& results) {
   const auto decides = [](const StoppingGoal& goal) {
     return std::holds_alternative<DecisionGoal>(goal);
   };
@@ -53,8 +53,8 @@ std::vector<GoalFound> goals_of(const StoredCampaign& stored, const Results& res
   const InterimAnalyses interim = interim_analyses(own);
   if (std::ranges::any_of(own.until, decides)) verdicts = judge_campaign(own, results, interim);
   const auto& statistics = own.resolved.at("statistics"); // as before `analyze`
-  return find_goals(own.until, results, own.requirements, verdicts,
-                    interim.confidence_of_bound(statistics.at("confidence").get<double>()));
+  return evaluate_goals(own.until, results, own.requirements, verdicts,
+                        interim.confidence_of_bound(statistics.at("confidence").get<double>()));
 }
 
 void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, Summary& summary) {
@@ -271,9 +271,9 @@ std::vector<StrangeDraws> strange_draws(const Campaign& campaign, const Results&
   return found;
 }
 
-Summary stored_summary(const StoredCampaign& stored, const Results& results,
-                       const StatisticsSpec& spec, int threads) {
+Summary stored_summary(const StoredCampaign& stored, const Results& results, int threads) {
   const Campaign& campaign = stored.campaign;
+  const StatisticsSpec& spec = campaign.statistics;
   const InterimAnalyses interim = interim_analyses(campaign);
   StatisticsSpec at_an_analysis = spec;
   at_an_analysis.confidence = interim.confidence_of_bound(spec.confidence);
@@ -294,11 +294,8 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results,
   if (stored.stamp.is_part()) withdraw_of_part(summary);
   const bool whole = std::ssize(results.runs) == stored.runs().size();
   summary.stopped = !whole && is_complete(stored, results);
-  if (!stored.foreign && !stored.stamp.shard && (whole || summary.stopped)) {
-    Campaign asked = campaign;
-    asked.statistics = spec;
-    summary.accuracy = measure_accuracy(asked, results, {.threads = threads});
-  }
+  if (!stored.foreign && !stored.stamp.shard && (whole || summary.stopped))
+    summary.accuracy = measure_accuracy(campaign, results, {.threads = threads});
   return summary;
 }
 
@@ -311,9 +308,8 @@ void write_summary_files(const StoredCampaign& stored, const Summary& summary) {
   write_file(stored.folder / histograms_csv_file, histograms_csv(summary));
 }
 
-Summary write_statistics(const StoredCampaign& stored, const Results& results,
-                         const StatisticsSpec& spec, int threads) {
-  Summary summary = stored_summary(stored, results, spec, threads);
+Summary write_statistics(const StoredCampaign& stored, const Results& results, int threads) {
+  Summary summary = stored_summary(stored, results, threads);
   write_summary_files(stored, summary);
   return summary;
 }

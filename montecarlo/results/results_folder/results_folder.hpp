@@ -104,7 +104,7 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
 /// risk of each bound.
 /// @param threads as of thread_count (thread_pool.hpp)
 [[nodiscard]] Summary stored_summary(const StoredCampaign& stored, const Results& results,
-                                     const StatisticsSpec& spec, int threads = 0);
+                                     int threads = 0);
 
 /// Draws outside the values that the campaign's laws can give. An unbounded law counts as ending where a tail of 1e-15
 /// is left.
@@ -122,7 +122,6 @@ void write_summary_files(const StoredCampaign& stored, const Summary& summary);
 /// and this program made them.
 /// @param threads as of thread_count (thread_pool.hpp)
 /// @throws SpecError if the files cannot be written
-Summary write_statistics(const StoredCampaign& stored, const Results& results,
-                         const StatisticsSpec& spec, int threads = 0);
+Summary write_statistics(const StoredCampaign& stored, const Results& results, int threads = 0);
 
 } // namespace wingspread

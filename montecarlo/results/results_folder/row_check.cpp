@@ -58,6 +58,13 @@ std::optional<RowFault> RowCheck::fault_of_status(const ResultRow& row) const {
     if (deployed && std::isnan(row.outputs[column]))
       return RowFault{hinge + ".latch_time", "nothing in a deployed run",
                       "a time: every latch of a deployed run is engaged"};
+  if (deployed && deployment_time_)
+    for (const auto& [hinge, column] : latches_)
+      if (row.outputs[column] > row.outputs[*deployment_time_])
+        return RowFault{
+            "deployment_time",
+            fmt::format("{} s, before {} latched", row.outputs[*deployment_time_], hinge),
+            "the largest latch time"};
   if (!deployment_time_ || std::isnan(row.outputs[*deployment_time_]) != deployed)
     return std::nullopt;
   if (deployed)

@@ -18,7 +18,7 @@ struct RowFault {
 
 /// Checks, as far as the columns exist:
 /// - magnitudes, counts and times are ≥ 0;
-/// - a deployed run has all latch times and a deployment time, and no other run has a deployment time;
+/// - a deployed run has all latch times and a deployment time not before them, and no other run has a deployment time;
 /// - the latch order names hinges, each once, by ascending latch times.
 class RowCheck {
 public:

@@ -71,22 +71,18 @@ double quantile_of(const OutputSummary& output, std::size_t index) {
   return output.quantiles[index].all.value;
 }
 
-std::string compact_quantile_name(double p) {
-  return p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * p);
-}
-
 /// The heading names the two quantiles.
 std::string compact_outputs(CompactCases all, CompactCases cases) {
   const std::vector<OutputSummary>& outputs = cases.front().summary.outputs;
   if (outputs.empty()) return "";
   const auto& quantiles = outputs.front().quantiles;
   const std::size_t last = quantiles.empty() ? 0 : quantiles.size() - 1;
-  std::string text = compact_heading(
-      quantiles.empty() ? "OUTPUT, mean"
-      : last == 0       ? fmt::format("OUTPUT, {}", compact_quantile_name(quantiles[0].p))
-                        : fmt::format("OUTPUT, {} and {}", compact_quantile_name(quantiles[0].p),
-                                      compact_quantile_name(quantiles[last].p)),
-      cases);
+  std::string text =
+      compact_heading(quantiles.empty() ? "OUTPUT, mean"
+                      : last == 0       ? fmt::format("OUTPUT, {}", quantile_name(quantiles[0].p))
+                                  : fmt::format("OUTPUT, {} and {}", quantile_name(quantiles[0].p),
+                                                quantile_name(quantiles[last].p)),
+                      cases);
   bool explained = false; // whether it needs the note
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const auto of = [i](const CaseSummary& each) -> const OutputSummary& {

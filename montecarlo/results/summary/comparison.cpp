@@ -213,7 +213,7 @@ std::string stopping_lines(const std::vector<CaseSummary>& cases) {
   for (std::size_t i = 0; i < goals; ++i)
     for (const CaseSummary& each : cases) {
       if (i >= each.summary.until.size()) continue;
-      const GoalFound& found = each.summary.until[i];
+      const GoalState& found = each.summary.until[i];
       const bool first = &each == &cases.front();
       text += fmt::format(
           "{}{}{:>20}{:>20}\n", in_column(first ? "  " + to_string(found.goal) : "", goal_width),

@@ -21,9 +21,9 @@ long hits_of(const std::string& share, const Results& results) {
   return hits;
 }
 
-GoalFound find(const WidthGoal& goal, const Results& results,
+GoalState find(const WidthGoal& goal, const Results& results,
                std::span<const Requirement> requirements, double confidence) {
-  GoalFound found{goal, {}, false};
+  GoalState found{goal, {}, false};
   if (results.size() == 0) return found;
   if (!goal.quantile) {
     const long hits = hits_of(goal.output, results);
@@ -49,8 +49,8 @@ GoalFound find(const WidthGoal& goal, const Results& results,
 }
 
 /// Met if a requirement has this name, and every one with this name is passed or disproved.
-GoalFound find(const DecisionGoal& goal, std::span<const Verdict> verdicts) {
-  GoalFound found{goal, {}, false};
+GoalState find(const DecisionGoal& goal, std::span<const Verdict> verdicts) {
+  GoalState found{goal, {}, false};
   for (const Verdict& verdict : verdicts) {
     if (name_of(verdict.requirement) != goal.requirement) continue;
     found.met = is_decided(verdict);
@@ -61,10 +61,10 @@ GoalFound find(const DecisionGoal& goal, std::span<const Verdict> verdicts) {
 
 } // namespace
 
-std::vector<GoalFound> find_goals(const StoppingRule& rule, const Results& results,
-                                  std::span<const Requirement> requirements,
-                                  std::span<const Verdict> verdicts, double confidence) {
-  std::vector<GoalFound> found;
+std::vector<GoalState> evaluate_goals(const StoppingRule& rule, const Results& results,
+                                      std::span<const Requirement> requirements,
+                                      std::span<const Verdict> verdicts, double confidence) {
+  std::vector<GoalState> found;
   for (const StoppingGoal& goal : rule)
     if (const WidthGoal* width = std::get_if<WidthGoal>(&goal))
       found.push_back(find(*width, results, requirements, confidence));
@@ -73,8 +73,8 @@ std::vector<GoalFound> find_goals(const StoppingRule& rule, const Results& resul
   return found;
 }
 
-bool are_met(std::span<const GoalFound> goals) {
-  return !goals.empty() && std::ranges::all_of(goals, &GoalFound::met);
+bool are_met(std::span<const GoalState> goals) {
+  return !goals.empty() && std::ranges::all_of(goals, &GoalState::met);
 }
 
 } // namespace wingspread

@@ -12,7 +12,7 @@
 namespace wingspread {
 
 /// A goal and its state. A quantile and its interval are over all runs, as in the summary.
-struct GoalFound {
+struct GoalState {
   StoppingGoal goal;
   std::optional<double> width; ///< of the interval, absolute; nothing if a bound does not exist
   bool met = false;
@@ -24,12 +24,13 @@ struct GoalFound {
 /// @param verdicts   on the campaign's requirements, at their confidence for one analysis
 /// @param confidence of each interval, two-sided
 /// @pre draws of runs are independent; the results have the outputs
-[[nodiscard]] std::vector<GoalFound> find_goals(const StoppingRule& rule, const Results& results,
-                                                std::span<const Requirement> requirements,
-                                                std::span<const Verdict> verdicts,
-                                                double confidence);
+[[nodiscard]] std::vector<GoalState> evaluate_goals(const StoppingRule& rule,
+                                                    const Results& results,
+                                                    std::span<const Requirement> requirements,
+                                                    std::span<const Verdict> verdicts,
+                                                    double confidence);
 
 /// Whether every goal is met; false without goals.
-[[nodiscard]] bool are_met(std::span<const GoalFound> goals);
+[[nodiscard]] bool are_met(std::span<const GoalState> goals);
 
 } // namespace wingspread

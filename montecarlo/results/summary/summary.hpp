@@ -157,7 +157,7 @@ struct Summary {
   std::vector<std::string> jump_forces{};    ///< forces_of_jumps of the nominal run
   std::vector<StrangeDraws> strange_draws{}; ///< only of runs of another tool
   std::optional<PeaksCount> peaks{};         ///< nothing if not recorded
-  std::vector<GoalFound> until{};            ///< goals of the stopping rule
+  std::vector<GoalState> until{};            ///< goals of the stopping rule
   bool stopped = false;                      ///< all goals were met before all runs were made
   InterimAnalyses interim{};                 ///< which share the risk of every bound and verdict
   bool without_rows = false;                 ///< computed from streaming statistics

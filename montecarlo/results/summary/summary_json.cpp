@@ -275,7 +275,7 @@ Json groups_json(std::span<const GroupVerdict> groups) {
 /// The goals of the stopping rule, and how far they are reached.
 Json until_json(const Summary& summary) {
   Json goals = Json::array();
-  for (const GoalFound& found : summary.until) {
+  for (const GoalState& found : summary.until) {
     Json json = write_stopping_rule({found.goal}).front();
     if (std::holds_alternative<WidthGoal>(found.goal)) json["found"] = json_number(found.width);
     if (found.relative) json["found_relative"] = *found.relative;

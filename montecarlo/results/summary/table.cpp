@@ -306,7 +306,7 @@ std::string requirements(const Summary& summary, std::string_view folder) {
 
 } // namespace
 
-std::string found_text(const GoalFound& found) {
+std::string found_text(const GoalState& found) {
   const WidthGoal* goal = std::get_if<WidthGoal>(&found.goal);
   if (!goal) return found.met ? "decided" : "open";
   if (found.relative) return percent(*found.relative);
@@ -320,7 +320,7 @@ std::string stopping(const Summary& summary) {
   if (summary.until.empty()) return "";
   std::string text =
       fmt::format("\n{:<58}{:>20}{:>20}\n", "STOPPING GOAL, interval width", "found", "reached");
-  for (const GoalFound& found : summary.until)
+  for (const GoalState& found : summary.until)
     text += fmt::format("{}{:>20}{:>20}\n", in_column("  " + to_string(found.goal), 58),
                         found_text(found), found.met ? "yes" : "no");
   return text;

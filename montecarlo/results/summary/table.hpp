@@ -19,7 +19,7 @@ namespace wingspread {
 
 /// The width that a stopping goal has found, as the goal states it: "1.2 %", "4.1 N·m"; of a requirement "decided" or
 /// "open".
-[[nodiscard]] std::string found_text(const GoalFound& found);
+[[nodiscard]] std::string found_text(const GoalState& found);
 
 /// A histogram as horizontal bars whose length is the density. Merges neighbouring bins down to at most 20. Each line
 /// has its bin's lower edge and count.

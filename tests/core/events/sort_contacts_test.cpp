@@ -37,7 +37,7 @@ TEST_CASE("the contacts of a long chain at rest are those that friction allows")
     for (int i = 1; i <= wing.size(); ++i) {
       const double limit = wing.hinges[i].static_friction;
       CAPTURE(i);
-      if (system.sticks(i)) {
+      if (system.is_locked(i)) {
         ++stick;
         CHECK(std::abs(system.locking_moment(x, i)) <= limit * (1 + 1e-9));
       } else {
@@ -66,9 +66,9 @@ TEST_CASE("a hinge that is due to be let go is let go though nothing moves it ye
     State<double> x, dxdt(system.layout().size());
     system.start(x);
     sort_contacts(system, x, dxdt, 0.0, 0);
-    CHECK(system.sticks(1)); // at its limit, it is held
+    CHECK(system.is_locked(1)); // at its limit, it is held
     sort_contacts(system, x, dxdt, 0.0, 1);
-    CHECK_FALSE(system.sticks(1));
+    CHECK_FALSE(system.is_locked(1));
     CHECK(sliding_sense(system, 1) == (sense > 0 ? -1 : 1)); // the latch is below
     CHECK(std::abs(dxdt[1]) < 1e-15);
   }
@@ -85,6 +85,6 @@ TEST_CASE("a hinge that is let go and would run against its friction is held aga
   State<double> x, dxdt(system.layout().size());
   system.start(x);
   sort_contacts(system, x, dxdt, 0.0, 1);
-  CHECK(system.sticks(1));
+  CHECK(system.is_locked(1));
   CHECK(work.evaluations == 3); // held, let go, held
 }

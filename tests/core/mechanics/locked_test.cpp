@@ -105,7 +105,7 @@ template <BaseMotion M> void require_same_bits(const Scene& scene, std::uint64_t
   const Constraints constraints = random_constraints(seed, n);
   for (int i = 1; i <= n; ++i)
     if (constraints.locked[at.wing.hinge_of[i]]) at.system.set_contact(i, Contact::stuck);
-  if (at.work.stuck == 0) return;
+  if (at.work.locked == 0) return;
   State<double> dxdt(at.x.size());
   at.system(at.x, dxdt, 0.0);
 
@@ -115,14 +115,15 @@ template <BaseMotion M> void require_same_bits(const Scene& scene, std::uint64_t
   std::vector<Crossing<double>> crossings(n + 1);
   for (int i = n; i >= 1; --i) {
     frames[i].moment = at.work.frames[i].moment;
-    gather_with_locks(at.wing, tree, frames, crossings, i, at.system.sticks(i));
+    gather_with_locks(at.wing, tree, frames, crossings, i, at.system.is_locked(i));
   }
   if (M == BaseMotion::free) {
     gather_with_locks(at.wing, tree, frames, crossings, 0, false);
     accelerate_free_base(frames[0]);
   }
   for (int i = 1; i <= n; ++i) {
-    const double relative = accelerate_with_locks<M, double>(tree, frames, i, at.system.sticks(i));
+    const double relative =
+        accelerate_with_locks<M, double>(tree, frames, i, at.system.is_locked(i));
     CHECK(dxdt[layout.rate(i)] == relative);
     const double parents = frames[tree.parent_of(i)].angular_acceleration;
     CHECK(at.work.holding[i] == axis_moment(frames[i], crossings[i], parents));
@@ -144,7 +145,7 @@ template <BaseMotion M> int compare_evaluation(const Scene& scene, std::uint64_t
   for (int i = 1; i <= layout.bodies; ++i)
     if (constraints.locked[at.wing.hinge_of[i]])
       at.system.set_contact(i, i % 2 == 0 ? Contact::stuck : Contact::held);
-  if (at.work.stuck == 0) return 0;
+  if (at.work.locked == 0) return 0;
   State<double> dxdt(at.x.size());
   at.system(at.x, dxdt, 0.0);
   for (int i = 1; i <= layout.bodies; ++i)
@@ -160,7 +161,7 @@ template <BaseMotion M> int compare_evaluation(const Scene& scene, std::uint64_t
       CHECK(at.work.holding[i] ==
             Approx(static_cast<double>(expected.moments(hinge))).margin(1e-9 * size));
   }
-  return at.work.stuck;
+  return at.work.locked;
 }
 
 } // namespace

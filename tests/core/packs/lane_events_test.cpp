@@ -102,7 +102,7 @@ struct InLanes {
       set_lane(lane, step.x, run.step.x), set_lane(lane, step.dxdt, run.step.dxdt);
       set_lane(lane, step.x1, run.step.x1), set_lane(lane, step.dxdt1, run.step.dxdt1);
       for (int i = 1; i <= at.bodies; ++i)
-        work.locks[i].v[lane] = run.system.is_held(i) ? 2 : run.system.sticks(i) ? 1 : 0;
+        work.locks[i].v[lane] = run.system.is_held(i) ? 2 : run.system.is_locked(i) ? 1 : 0;
     }
   }
 
@@ -209,7 +209,7 @@ TEST_CASE("lanes see every event at the very end of a step, and none beside it")
       Step<double> next = run.step;
       next.t = run.step.t + run.step.h, next.x = run.step.x1, next.dxdt = run.step.dxdt1;
       std::vector<char> locked(at.bodies + 1);
-      for (int i = 1; i <= at.bodies; ++i) locked[i] = run.system.sticks(i);
+      for (int i = 1; i <= at.bodies; ++i) locked[i] = run.system.is_locked(i);
       (void)run.events.apply(std::nullopt, next, {latches, misses, let_go, releases});
       for (int i = 1; i <= at.bodies; ++i) {
         const auto is_of_hinge = [&](const auto& event) {

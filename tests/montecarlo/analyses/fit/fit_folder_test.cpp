@@ -1,5 +1,6 @@
 #include "montecarlo/analyses/fit/fit_folder.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "tests/montecarlo/analyses/fit/fit_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -46,7 +47,7 @@ TEST_CASE("a fit's folder, interrupted and resumed, has the same bytes") {
   const FitSpec spec = timer_spec(campaign);
   CHECK_FALSE(fit_into(folder.path() / "whole", campaign, spec));
   CHECK(fit_into(folder.path() / "parts", campaign, spec, false, 0));
-  CHECK(std::filesystem::exists(folder.path() / "parts" / fit_log_file));
+  CHECK(std::filesystem::exists(folder.path() / "parts" / checkpoint_file));
   CHECK(message_of([&] {
           return fit_into(folder.path() / "parts", campaign, spec);
         }).find("an interrupted study") != std::string::npos);
@@ -55,7 +56,7 @@ TEST_CASE("a fit's folder, interrupted and resumed, has the same bytes") {
       message_of([&] { return fit_into(folder.path() / "parts", campaign, other, true); }).empty());
   CHECK_FALSE(fit_into(folder.path() / "parts", campaign, spec, true));
   CHECK(contents(folder.path() / "whole") == contents(folder.path() / "parts"));
-  CHECK_FALSE(std::filesystem::exists(folder.path() / "parts" / fit_log_file));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "parts" / checkpoint_file));
 }
 
 TEST_CASE("unfinished chains are kept, and go on with more runs") {
@@ -65,7 +66,7 @@ TEST_CASE("unfinished chains are kept, and go on with more runs") {
   const auto path = folder.path() / "long";
   CHECK_FALSE(fit_into(path, campaign, spec, false, -1, 100));
   CHECK(parse_json_file(path / fit_json_file)["finished"] == false);
-  CHECK(std::filesystem::exists(path / fit_log_file));
+  CHECK(std::filesystem::exists(path / checkpoint_file));
   CHECK_FALSE(fit_into(path, campaign, spec, true));
   CHECK(parse_json_file(path / fit_json_file)["finished"] == true);
   CHECK_FALSE(fit_into(folder.path() / "whole", campaign, spec));

@@ -24,9 +24,9 @@ struct Caller {
 
   CampaignResults run(const RunRequest& request) {
     return run_campaign(request, {[&]() -> const std::atomic<bool>& { return stop; },
-                                  [&](const RunCounts& tally) {
-                                    tallies.push_back(tally);
-                                    stop = stop_after >= 0 && tally.done >= stop_after;
+                                  [&](const RunCounts& counts) {
+                                    tallies.push_back(counts);
+                                    stop = stop_after >= 0 && counts.done >= stop_after;
                                   },
                                   [&](const RunsKept& runs) {
                                     kept.push_back(runs);
@@ -117,9 +117,8 @@ TEST_CASE("who resumes a folder is told at once what its runs ended as, with row
     Caller first;
     const CampaignResults made = first.run(request);
     const Summary& summary = made.folders.at(0).summary;
-    const auto counts = [](const RunCounts& tally) {
-      return std::array{tally.done,   tally.total,   tally.invalid,
-                        tally.failed, tally.stalled, tally.timed_out};
+    const auto counts = [](const RunCounts& of) {
+      return std::array{of.done, of.total, of.invalid, of.failed, of.stalled, of.timed_out};
     };
     const auto count = [&](Status status) {
       return summary.statuses[static_cast<std::size_t>(status)].count;
@@ -167,7 +166,7 @@ TEST_CASE("cases are run one after the other, and their progress adds up", "[cas
   CHECK(caller.tallies.back().done == 80);
   CHECK(std::ranges::is_sorted(caller.tallies, {}, &RunCounts::done));
   CHECK(std::ranges::all_of(caller.tallies,
-                            [](const RunCounts& tally) { return tally.total == 80; }));
+                            [](const RunCounts& counts) { return counts.total == 80; }));
 }
 
 TEST_CASE("cases that are stopped have no comparison, and one case alone can be run", "[cases]") {

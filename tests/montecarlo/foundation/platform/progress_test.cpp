@@ -46,12 +46,12 @@ TEST_CASE("nothing is written to what is no terminal") {
 }
 
 TEST_CASE("a study's line says which analysis is under way, and that its totals are bounds") {
-  RunCounts tally =
+  RunCounts counts =
       counts_of({.analysis = 7, .most_analyses = 31, .runs = 12'400, .most_runs = 62'000}, 2'400);
-  CHECK(progress_line(tally, 10) == "████░░░░░░░░░░░░░░░░░░░░ analysis 7 of at most 31 · 12400 of "
-                                    "at most 62000 runs · 1000 runs/s");
-  tally = counts_of({.runs = 300, .most_runs = 1000}, 0); // of what has no analyses to speak of
-  CHECK(progress_line(tally, 3) ==
+  CHECK(progress_line(counts, 10) == "████░░░░░░░░░░░░░░░░░░░░ analysis 7 of at most 31 · 12400 of "
+                                     "at most 62000 runs · 1000 runs/s");
+  counts = counts_of({.runs = 300, .most_runs = 1000}, 0); // of what has no analyses to speak of
+  CHECK(progress_line(counts, 3) ==
         "███████░░░░░░░░░░░░░░░░░ 300 of at most 1000 runs · 100 runs/s");
 }
 
@@ -60,8 +60,8 @@ TEST_CASE("no line goes beyond the end") {
 }
 
 TEST_CASE("a single run that did not deploy is in sight, and none is no word") {
-  const auto has = [](const RunCounts& tally, const char* words) {
-    return progress_line(tally, 1).find(words) != std::string::npos;
+  const auto has = [](const RunCounts& counts, const char* words) {
+    return progress_line(counts, 1).find(words) != std::string::npos;
   };
   for (const long count : {0L, 1L}) {
     CHECK(has({.done = 24, .total = 24, .stalled = count}, "stalled") == (count > 0));

@@ -83,3 +83,16 @@ TEST_CASE("a correlation with a law of a single value is told, whichever of both
     CHECK_THAT(told[0].found, Catch::Contains(campaign.dispersions[constant].name));
   }
 }
+
+TEST_CASE("what ties leave of a correlation is told where it is much less", "[warnings]") {
+  Campaign campaign = campaign_of(quick_campaign(1));
+  for (const auto& [weight, told] : {std::pair(0.5, false), {0.99, true}}) {
+    campaign.dispersions[1].distribution.law = Discrete{{1, 2, 3, 4}, {0.4, 0.3, 0.2, 0.1}};
+    if (told) campaign.dispersions[1].distribution.law = Discrete{{1, 2}, {weight, 1 - weight}};
+    const auto warnings = told_of(campaign, {{0, 1}}, 0.7);
+    CHECK(std::ranges::any_of(warnings, [](const InputWarning& each) {
+            return each.pointer == "/correlations/0" &&
+                   each.found.find("ties leave") != std::string::npos;
+          }) == told);
+  }
+}

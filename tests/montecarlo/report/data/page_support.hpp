@@ -23,7 +23,7 @@ inline std::unique_ptr<PageSource> source_of(const Campaign& campaign, Results r
   source->before_case = campaign;
   source->results = std::move(results);
   source->replication = replication_of(campaign.sampling, source->results);
-  source->summary = stored_summary(source->stored, source->results, campaign.statistics, 1);
+  source->summary = stored_summary(source->stored, source->results, 1);
   source->confidence = campaign.statistics.confidence;
   source->orders = std::make_unique<OrderSplit>(source->results, campaign.scene);
   return source;

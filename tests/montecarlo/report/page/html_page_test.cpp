@@ -16,7 +16,7 @@ using namespace wingspread;
 using namespace wingspread::test;
 
 TEST_CASE("the page has all of its files, and asks no network", "[page]") {
-  const std::string before(page_before_data), behind(page_behind_data);
+  const std::string before(page_before_data), behind(page_after_data);
   CHECK(before.starts_with("<!DOCTYPE html>"));
   CHECK(before.find("default-src 'none'") != before.npos);
   CHECK((before + behind).find("<!-- data -->") == std::string::npos);
@@ -42,7 +42,7 @@ TEST_CASE("the block stands between the page's halves", "[page]") {
   CHECK(page.find(
             "<script type=\"application/json\" id=\"data\">{\"title\":\"a \\u003c b\"}</script>") !=
         page.npos);
-  CHECK(page.ends_with(page_behind_data));
+  CHECK(page.ends_with(page_after_data));
 }
 
 TEST_CASE("the page of a large scene or of many sets keeps to its size", "[page]") {

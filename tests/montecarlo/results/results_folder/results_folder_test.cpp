@@ -90,8 +90,7 @@ TEST_CASE("the statistics of the stored rows are those of the rows in memory, by
   const StoredCampaign stored = read_stored_campaign(path);
   for (const char* file : {summary_file, histograms_json_file, histograms_csv_file})
     std::filesystem::remove(path / file);
-  const Summary summary =
-      write_statistics(stored, read_stored_results(stored).results, stored.campaign.statistics);
+  const Summary summary = write_statistics(stored, read_stored_results(stored).results);
   CHECK(contents(path) == before);
   long sum = 0;
   for (const StatusShare& share : summary.statuses) sum += share.count;
@@ -123,8 +122,7 @@ TEST_CASE("requirements are judged from the folder, and those of a file in their
   const auto file = folder.write("q.json", R"([
     { "output": "deployed", "probability": 0.999, "confidence": 0.9 } ])");
   stored.campaign.requirements = read_requirements_file(file, stored.campaign);
-  const Summary summary =
-      write_statistics(stored, read_stored_results(stored).results, stored.campaign.statistics);
+  const Summary summary = write_statistics(stored, read_stored_results(stored).results);
   CHECK(summary.requirements.at(0).decision == Decision::undecided);
   folder.write("q.json", R"([ { "output": "root.x", "probability": 0.9, "confidence": 0.9 } ])");
   CHECK(message_of([&] { return read_requirements_file(file, stored.campaign); }) ==
@@ -158,7 +156,7 @@ TEST_CASE("a campaign without a stamp is another tool's, and read in full") {
         campaign.outputs.contains(OutputFamily::overtravel)); // by the header
   const Results results = read_stored_results(stored).results;
   CHECK(results.size() == 3);
-  (void)write_statistics(stored, results, campaign.statistics);
+  (void)write_statistics(stored, results);
   const Json summary = parse_json_file(folder.path() / summary_file);
   CHECK(summary["wingspread"]["foreign"] == true);
   CHECK_FALSE(summary["wingspread"].contains("partial"));
@@ -234,8 +232,7 @@ TEST_CASE("a folder from before peaks were told to be final opens as it is") {
   CHECK(header.find("peaks_final") == std::string::npos);
   const StoredCampaign stored = read_stored_campaign(old);
   CHECK_FALSE(stored.campaign.outputs.contains(OutputFamily::peaks_final));
-  const Summary summary =
-      write_statistics(stored, read_stored_results(stored).results, stored.campaign.statistics);
+  const Summary summary = write_statistics(stored, read_stored_results(stored).results);
   CHECK_FALSE(summary.peaks);
   CHECK(std::ssize(summary.requirements[0].broken) == open);
   CHECK(ReplayRequest(stored, 3).replay({}).differences.empty());
@@ -273,10 +270,10 @@ TEST_CASE("a campaign stopped at its own confidence, and is as complete when ana
   StoredCampaign stored = read_stored_campaign(folder.path() / "r");
   const Results results = read_stored_results(stored).results;
   const auto widths = [&] {
-    const Summary summary = stored_summary(stored, results, stored.campaign.statistics, 1);
+    const Summary summary = stored_summary(stored, results, 1);
     CHECK(summary.stopped);
     std::vector<std::optional<double>> found;
-    for (const GoalFound& each : summary.until) found.push_back(each.width);
+    for (const GoalState& each : summary.until) found.push_back(each.width);
     return found;
   };
   const std::vector<std::optional<double>> own = widths();

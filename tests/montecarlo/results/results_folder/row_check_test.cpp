@@ -38,6 +38,8 @@ TEST_CASE("a row that contradicts itself has a fault, in its column") {
         "tip.latch_time: nothing in a deployed run");
   CHECK(fault_of(Status::deployed, {1, 2, 5, 0, missing}, "root>tip") ==
         "deployment_time: nothing in a deployed run");
+  CHECK(fault_of(Status::deployed, {1, 2, 5, 0, 1.5}, "root>tip") ==
+        "deployment_time: 1.5 s, before tip latched");
   CHECK(fault_of(Status::timed_out, {1, missing, 5, 0, 1}, "root") ==
         "deployment_time: 1 s in a run that is timed_out");
   CHECK(fault_of(Status::deployed, {1, 2, 5, 0, 2}, "root>top") ==

@@ -39,7 +39,7 @@ TEST_CASE("A width is that of the interval that the summary gives", "[stopping]"
                     "",
                     ""});
   const auto find = [&](const char* text) {
-    return find_goals(rule_of(text), results, {}, {}, .95).front();
+    return evaluate_goals(rule_of(text), results, {}, {}, .95).front();
   };
   const Interval share = clopper_pearson(50, 200, .95);
   CHECK(find("stalled 0.2").width == share.upper - share.lower);
@@ -54,7 +54,7 @@ TEST_CASE("A width is that of the interval that the summary gives", "[stopping]"
   CHECK_FALSE(find("root.latch_time@0.999 1000").width); // too few for its upper bound
   CHECK_FALSE(find("deployment_time@0.5 1000").met);     // never happened
   CHECK_FALSE(
-      find_goals(rule_of("stalled 1"), Results(ResultNames{{}, outputs}), {}, {}, .95)[0].met);
+      evaluate_goals(rule_of("stalled 1"), Results(ResultNames{{}, outputs}), {}, {}, .95)[0].met);
   CHECK_FALSE(are_met({}));
 }
 
@@ -65,13 +65,13 @@ TEST_CASE("An output below 0 meets the goals that its mirror image meets", "[sto
     results.append({run, Status::deployed, {}, {value, -value}, "", ""});
   }
   const auto find = [&](const std::string& text) {
-    return find_goals(rule_of(text.c_str()), results, {}, {}, .95).front();
+    return evaluate_goals(rule_of(text.c_str()), results, {}, {}, .95).front();
   };
   int met = 0, open = 0;
   for (const auto& [below, above] : {std::pair{"0.3", "0.7"}, {"0.7", "0.3"}, {"0.55", "0.45"}})
     for (const char* width : {"5%", "20%", "60%", "3", "30", "90"}) {
-      const GoalFound one = find(std::string("root.latch_time@") + below + ' ' + width);
-      const GoalFound other = find(std::string("root.final_angle@") + above + ' ' + width);
+      const GoalState one = find(std::string("root.latch_time@") + below + ' ' + width);
+      const GoalState other = find(std::string("root.final_angle@") + above + ' ' + width);
       CAPTURE(below, width);
       REQUIRE(one.width);
       CHECK(*other.width == Approx(*one.width).epsilon(1e-12));
@@ -100,7 +100,7 @@ TEST_CASE("A width of an output that is 1 or 0 is that of its share of all runs"
   CHECK(problems_of(goals, [&](const JsonCursor& at) {
           read_stopping_rule(at, &names, nullptr, rule);
         }).empty());
-  const GoalFound found = find_goals(rule, results, {}, {}, .95).front();
+  const GoalState found = evaluate_goals(rule, results, {}, {}, .95).front();
   const Interval share = clopper_pearson(150, 200, .95);
   CHECK(found.width == share.upper - share.lower);
   CHECK(found.met); // 0.125
@@ -161,7 +161,7 @@ TEST_CASE("of two goals both have to be met", "[stopping]") {
   CHECK(made({late, soon}) == std::pair(2000L, std::vector{true, true}));
   CHECK(made({soon, never}) == std::pair(2500L, std::vector{true, false}));
   CHECK(made({never, soon}) == std::pair(2500L, std::vector{false, true}));
-  const GoalFound met{WidthGoal{}, 1., true}, open{DecisionGoal{}, {}, false};
+  const GoalState met{WidthGoal{}, 1., true}, open{DecisionGoal{}, {}, false};
   CHECK(are_met(std::vector{met, met}));
   CHECK_FALSE(are_met(std::vector{met, open}));
   CHECK_FALSE(are_met(std::vector{open, met}));
@@ -236,7 +236,7 @@ TEST_CASE("the quantile's interval at which a campaign stops covers as often as 
                         {-std::log1p(-uniform(random))},
                         "",
                         ""});
-      if (!are_met(find_goals(rule, results, {}, {}, confidence)) && n < 4000) continue;
+      if (!are_met(evaluate_goals(rule, results, {}, {}, confidence)) && n < 4000) continue;
       const Bounds bounds =
           quantile_bounds(sorted_present(results.outputs[0].values), .5, confidence);
       if (*bounds.lower <= median && median <= *bounds.upper) ++covered;
@@ -264,7 +264,7 @@ TEST_CASE("a requirement is decided when it is passed or disproved, and all of t
                                       verdict("", "root.latch_time", Decision::pass, false),
                                       verdict("", "root.latch_time", Decision::undecided, false)};
   const auto met = [&](const char* text) {
-    return find_goals(rule_of(text), Results{}, {}, verdicts, .95).front().met;
+    return evaluate_goals(rule_of(text), Results{}, {}, verdicts, .95).front().met;
   };
   CHECK(met("requirement deployed"));
   CHECK(met("requirement T-1"));

@@ -1,6 +1,6 @@
 // Motions that climb towards the bound on what a locked hinge bears: none breaks it, and where one kind of load is alone
 // some come near. A bound that lacks a term is broken.
-#include "core/events/held_load.hpp"
+#include "core/events/stuck_load.hpp"
 #include "tests/core/dense/any_motion.hpp"
 #include "tests/support/real_scenes.hpp"
 

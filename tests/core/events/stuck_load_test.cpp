@@ -1,5 +1,5 @@
 // The bound on what a locked hinge bears inside a step, against loads found from positions alone.
-#include "core/events/held_load.hpp"
+#include "core/events/stuck_load.hpp"
 #include "tests/core/dense/any_motion.hpp"
 #include "tests/support/real_scenes.hpp"
 

@@ -1,6 +1,6 @@
 // The air's part of the bound on a locked hinge's load, on two bodies that turn faster and faster on a base that is pushed: it
 // has the value of (2) and (3), computed here with numbers for that wing alone.
-#include "core/events/held_load.hpp"
+#include "core/events/stuck_load.hpp"
 #include "tests/core/dense/any_motion.hpp"
 #include "tests/support/real_scenes.hpp"
 

@@ -3,8 +3,8 @@
 
 #include "core/dense/curved_search.hpp"
 #include "core/dense/step.hpp"
-#include "core/events/held_load.hpp"
 #include "core/events/standstill.hpp"
+#include "core/events/stuck_load.hpp"
 #include "core/mechanics/system.hpp"
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace wingspread {
 
 /// Relative distance to the static limit within which a hinge is released together with another one. Heuristic:
 /// mirrored wings differ by rounding, far below; a larger value releases hinges that hold.
-inline constexpr double release_tolerance = 1e-9;
+inline constexpr double slip_tolerance = 1e-9;
 
 /// The part of release_margin that is due to loops, N·m. The load of a loop is the small difference of two large
 /// numbers. Heuristics: at most 1e-5 of the limit, for a loop does not hold a hinge whose partner is free; at least 1e-13
@@ -81,7 +81,7 @@ public:
   template <class AnySystem> void begin_step(const AnySystem& system, const State<T>& x) {
     before_.resize(system.layout().bodies + 1);
     for (int i = 1; i <= system.layout().bodies; ++i)
-      before_[i] = system.sticks(i) ? excess(system, x, i) : T(0);
+      before_[i] = system.is_locked(i) ? excess(system, x, i) : T(0);
   }
 
   /// Excess of every stuck hinge at the start of the step, 1 … n, N·m; for the lane of an engine to write to.
@@ -98,13 +98,13 @@ public:
     std::optional<Slip<T>> first;
     for (int i = 1; i <= system.layout().bodies; ++i) {
       const T limit = system.static_limit(step.x, i);
-      if (!system.sticks(i) || !may_exceed(i, limit)) continue;
+      if (!system.is_locked(i) || !may_exceed(i, limit)) continue;
       const auto excess_at = [&](const T& s) {
         step.interpolate(system.layout(), s, x);
         system(x, dxdt, step.t + s * step.h);
         return excess(system, x, i);
       };
-      const auto found = release_of(excess_at, i, limit, step);
+      const auto found = slip_of(excess_at, i, limit, step);
       if (found && (!first || found->s < first->s)) first = found;
     }
     if (!first) system(step.x1, dxdt, step.t + step.h);
@@ -116,7 +116,7 @@ public:
   [[nodiscard]] static T excess(const AnySystem& system, const State<T>& x, int i) {
     using std::abs;
     const T limit = system.static_limit(x, i);
-    return (abs(system.locking_moment(x, i)) - T(1 + 2 * release_tolerance) * limit) -
+    return (abs(system.locking_moment(x, i)) - T(1 + 2 * slip_tolerance) * limit) -
            release_margin(system, x, i, limit);
   }
 
@@ -129,7 +129,7 @@ private:
     after_.resize(before_.size());
     bool near = false;
     for (int i = 1; i <= system.layout().bodies; ++i) {
-      if (!system.sticks(i)) continue;
+      if (!system.is_locked(i)) continue;
       after_[i] = excess(system, step.x1, i);
       const T limit = system.static_limit(step.x, i);
       if (may_exceed(i, limit)) bound_.narrow(system, step, i);
@@ -144,8 +144,8 @@ private:
   }
 
   template <class Function>
-  [[nodiscard]] std::optional<Slip<T>> release_of(const Function& excess_at, int i, const T& limit,
-                                                  const Step<T>& step) {
+  [[nodiscard]] std::optional<Slip<T>> slip_of(const Function& excess_at, int i, const T& limit,
+                                               const Step<T>& step) {
     // Heuristics. A crest below the limit by less than 0.1 % of the limit and of the load's change over the step counts as
     // a graze: the step's error may hide a release there. Within 2 % of an end the load at that end decides. A graze ends
     // the step at the crest, and the load there decides.
