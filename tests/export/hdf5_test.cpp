@@ -208,6 +208,8 @@ TEST_CASE("chunks hold whole numbers of rows, and a file without rows can be rea
   export_hdf5(path, file);
   CHECK(doubles(H5::H5File(file.string(), H5F_ACC_RDONLY), "root.latch_time").empty());
   row.latch_order.clear(); // the latch times below have none
+  REQUIRE(plan.names().outputs.back() == "deployment_time");
+  row.outputs.back() = 1e5; // after all of them
   for (row.run = 0; row.run < 40'000; ++row.run) {
     row.outputs[0] = static_cast<double>(row.run) + 0.1;
     append_row(csv, row);
