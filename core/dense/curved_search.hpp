@@ -67,8 +67,8 @@ namespace detail {
 
 template <class T> struct Stretch { Sampled<T> a, b; };
 
-/// 2^-17 of a step: below, a stretch counts as a point. Heuristic: more cost samples where a function lies close to 0 over a
-/// stretch, fewer end the search before the root is separated.
+/// 2^-17 of a step: below, a stretch counts as a point. Heuristic: more cost samples where a function lies close to 0
+/// over a stretch, fewer end the search before the root is separated.
 inline constexpr int most_halvings = 17;
 
 /// Intervals still to be decided, last in, first out: at most one per halving, and the last one's twin.

@@ -2,8 +2,8 @@
 ///
 /// A hinge with an added inertia E has the moment τ − E φ̈. A locked hinge is the limit E → ∞, for which locked.hpp has
 /// the equations of motion. The axis moment then depends on the parent's rotation, so a moment crosses the hinge as
-/// well as a force. The source's 3×3 form [Yudintsev, eqs. 3-5; reference: recursion.hpp] is needed; here it is referred to the hinge's point.
-/// Symbols continue those of recursion.hpp:
+/// well as a force. The source's 3×3 form [Yudintsev, eqs. 3-5; reference: recursion.hpp] is needed; here it is referred
+/// to the hinge's point. Symbols continue those of recursion.hpp:
 ///
 /// | symbol  | meaning                                                   | shape   | unit        |
 /// |---------|-----------------------------------------------------------|---------|-------------|

@@ -9,8 +9,8 @@
 ///   w_x     B_xx/A_xx, the share of those terms in a column's own sum: 3/(n + 1) without ties
 ///
 /// A sample's correlation of ranks is A_xy/√(A_xx A_yy). The population's involves only the n(n − 1)(n − 2) terms with
-/// j ≠ k. The n(n − 1) terms with j = k belong to Kendall's τ. So a population with the correlation ρ shows in samples of
-/// n rows
+/// j ≠ k. The n(n − 1) terms with j = k belong to Kendall's τ. So a population with the correlation ρ shows in samples
+/// of n rows
 ///
 ///   r(ρ) = √((1 − w_x)(1 − w_y)) ρ + √(w_x w_y) τ                                             (1)
 ///
