@@ -361,7 +361,7 @@ void check_correlations(const Campaign& campaign, InputWarnings& warnings) {
     const double left = reached_correlation(law(all[k].first), law(all[k].second), all[k].spearman);
     if (left != 0 && std::abs(left) < least_left * std::abs(all[k].spearman))
       warnings.add(
-          fmt::format("/correlations/{}", k),
+          fmt::format("/correlations/{}/spearman", k),
           fmt::format("{} of {} and {}, of which ties leave {:.2g}", all[k].spearman,
                       name(all[k].first), name(all[k].second), left),
           "laws without values that many draws share: the correlation is that before ties");
