@@ -60,5 +60,7 @@ TEST_CASE("what ties leave of a rank correlation is that of draws") {
               Approx(sampled(first, second, spearman)).margin(0.015));
       }
   CHECK(reached_correlation(laws[0], laws[4], 0.8) == Approx(0.8).epsilon(1e-3));
+  CHECK(reached_correlation(laws[0], laws[2], 0.8) == Approx(0.64).margin(0.005));
+  CHECK(reached_correlation(laws[0], laws[1], 0.8) == Approx(0.16).margin(0.005));
   CHECK(reached_correlation({Constant{2}, {}}, laws[0], 0.8) == 0);
 }

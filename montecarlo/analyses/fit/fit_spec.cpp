@@ -17,7 +17,7 @@ namespace wingspread {
 namespace {
 
 constexpr std::int64_t most_starts = 1000, least_samples = 100, most_samples = 10'000'000;
-constexpr double most_candidate_times = 1e5; // heuristic, as above: beyond, it is a mistake
+constexpr double most_candidate_times = 1e5; // heuristic: beyond, it is a mistake
 
 bool is_starts(const std::int64_t& n) { return 1 <= n && n <= most_starts; }
 bool is_samples(const std::int64_t& n) { return least_samples <= n && n <= most_samples; }

@@ -58,8 +58,13 @@ void print_not_met(std::string_view of_case, const Verdict& verdict, std::string
                 to_string(verdict.decision), evidence(verdict), others);
 }
 
+/// Whether `run --resume` can add runs to the campaign's. @pre it has requirements, so its design is random
+bool may_grow(const StoredCampaign& stored) {
+  return !stored.foreign && stored.campaign.until.empty();
+}
+
 /// Prints how adding runs affects verdicts that are undecided, or that were judged before.
-void print_notes(const Summary& summary, bool may_stop) {
+void print_notes(const Summary& summary, bool may_grow) {
   if (!summary.interim.before.empty() && !summary.requirements.empty())
     print_message(
         "note: analysis {} of the same draws, after {} runs: a requirement passes if the "
@@ -74,9 +79,9 @@ void print_notes(const Summary& summary, bool may_stop) {
   if (std::ranges::any_of(summary.requirements, is_open))
     print_message("note: each further test after a failed one, with more runs or another --seed, "
                   "adds a risk of a wrong pass{}\n",
-                  may_stop ? ""
-                           : ". `run --resume --runs N` adds runs and judges all analyses together "
-                             "at the promised confidence");
+                  may_grow ? ". `run --resume --runs N` adds runs and judges all analyses together "
+                             "at the promised confidence"
+                           : "");
 }
 
 /// Prints the goals that all runs together have not reached.
@@ -88,7 +93,7 @@ void print_open_goals(std::string_view of_case, const Summary& summary) {
 }
 
 /// Prints each requirement that some case does not meet, with its worst case, and the notes once.
-void report_cases(const std::vector<CaseSummary>& cases, bool may_stop) {
+void report_cases(const std::vector<CaseSummary>& cases, bool may_grow) {
   for (std::size_t i = 0; i < cases.front().summary.requirements.size(); ++i) {
     const CaseSummary& worst = cases[worst_case(cases, i)];
     std::vector<std::string> others;
@@ -105,7 +110,7 @@ void report_cases(const std::vector<CaseSummary>& cases, bool may_stop) {
                                [](const Verdict& verdict) { return !is_decided(verdict); });
   };
   const auto open = std::ranges::find_if(cases, is_open);
-  print_notes(open == cases.end() ? cases.front().summary : open->summary, may_stop);
+  print_notes(open == cases.end() ? cases.front().summary : open->summary, may_grow);
   for (const CaseSummary& each : cases) print_open_goals(each.name + ": ", each.summary);
 }
 
@@ -193,7 +198,7 @@ int judge_results(const StoredCampaign& stored, const Summary& summary) {
   if (!stored.stamp.is_part()) {
     for (const Verdict& verdict : summary.requirements)
       if (verdict.decision != Decision::pass) print_not_met("", verdict, "");
-    print_notes(summary, !stored.campaign.until.empty());
+    print_notes(summary, may_grow(stored));
     print_open_goals("", summary);
   }
   return judge_quietly(stored, summary);
@@ -201,7 +206,7 @@ int judge_results(const StoredCampaign& stored, const Summary& summary) {
 
 int judge_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases) {
   end_table();
-  if (!whole.stamp.shard && !cases.empty()) report_cases(cases, !whole.campaign.until.empty());
+  if (!whole.stamp.shard && !cases.empty()) report_cases(cases, may_grow(whole));
   int worst = exit_code::done;
   for (const CaseSummary& each : cases)
     worst = std::max(worst,

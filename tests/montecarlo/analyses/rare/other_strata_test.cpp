@@ -71,6 +71,12 @@ TEST_CASE("draws of the other strata are theirs, each as often as it is probable
   }
 }
 
+TEST_CASE("of thirty rare values less than a hundredth of the other strata is left out", "[rare]") {
+  const Strata strata = strata_of(campaign_of(rare_values(30, 1e-3)), {});
+  CHECK(strata.list.back().others.size() <= 1024);
+  CHECK(strata.left_out < 0.01 * strata.list.back().probability);
+}
+
 TEST_CASE("an event by two of many rare values has its probability, however many strata they make",
           "[rare]") {
   for (const int parts : {8, 14, 24}) {

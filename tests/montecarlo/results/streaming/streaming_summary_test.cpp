@@ -112,6 +112,16 @@ std::string bytes_of(const StreamingStatistics& statistics) {
   return std::move(to).finish();
 }
 
+/// A deployed run, all of whose outputs have the value.
+ResultRow even_row(const ResultNames& names, long run, double value) {
+  return {run,
+          Status::deployed,
+          std::vector<double>(names.draws.size(), 1.0),
+          std::vector<double>(names.outputs.size(), value),
+          "root>mid>tip",
+          ""};
+}
+
 /// a ≤ b where there are both; none where there is none.
 bool holds(std::optional<double> a, std::optional<double> b) {
   return a.has_value() == b.has_value() && (!a || *a <= *b);
@@ -319,14 +329,7 @@ TEST_CASE("a histogram without rows has no bin without width") {
   json["statistics"] = {{"bins", 40}};
   const Campaign campaign = campaign_of(json);
   const ResultNames names = RunPlan(campaign).names();
-  const auto row = [&](long run, double value) {
-    return ResultRow{run,
-                     Status::deployed,
-                     std::vector<double>(names.draws.size(), 1.0),
-                     std::vector<double>(names.outputs.size(), value),
-                     "root>mid>tip",
-                     ""};
-  };
+  const auto row = [&](long run, double value) { return even_row(names, run, value); };
   Results pilot(names);
   for (long run = 0; run < runs; ++run) pilot.append(row(run, 1e-5 * static_cast<double>(run)));
   StreamingStatistics statistics(campaign, names, pilot);
@@ -356,12 +359,7 @@ TEST_CASE("without rows a passed requirement's quantiles are not beyond its limi
   const ResultNames names = RunPlan(campaign).names();
   const auto row = [&](long run) { // 40 % below the limit, 30 % at it, 30 % above
     const double value = run % 10 < 4 ? limit - 0.1 : run % 10 < 7 ? limit : limit + 0.1;
-    return ResultRow{run,
-                     Status::deployed,
-                     std::vector<double>(names.draws.size(), 1.0),
-                     std::vector<double>(names.outputs.size(), value),
-                     "root>mid>tip",
-                     ""};
+    return even_row(names, run, value);
   };
   Results pilot(names);
   for (long run = 0; run < 300; ++run) pilot.append(row(run));
