@@ -130,19 +130,19 @@ double inverse_of(const Triangular& l, Tails tails) {
   return l.upper - triangular_distance(l.upper - l.mode, l.mode - l.lower, tails.above);
 }
 
-template <class L> LawMoments moments_of(const L& law) {
+template <class L> LawMoments continuous_moments_of(const L& law) {
   const auto boost = boost_law(law);
   return {bm::mean(boost), bm::standard_deviation(boost)};
 }
 
-LawMoments moments_of(const Triangular& l) {
+LawMoments continuous_moments_of(const Triangular& l) {
   const double rise = l.mode - l.lower;
   const double fall = l.upper - l.mode;
   return {(l.lower + l.mode + l.upper) / 3,
           std::sqrt((rise * rise + rise * fall + fall * fall) / 18)};
 }
 
-LawMoments moments_of(const Beta& law) {
+LawMoments continuous_moments_of(const Beta& law) {
   const auto boost = boost_law(law);
   const double width = law.upper - law.lower;
   return {law.lower + width * bm::mean(boost), width * bm::standard_deviation(boost)};
@@ -170,7 +170,7 @@ double inverse(const ContinuousLaw& law, Tails tails) {
 }
 
 LawMoments continuous_moments(const ContinuousLaw& law) {
-  return std::visit([](const auto& l) { return moments_of(l); }, law);
+  return std::visit([](const auto& l) { return continuous_moments_of(l); }, law);
 }
 
 } // namespace wingspread
