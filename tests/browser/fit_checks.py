@@ -142,7 +142,10 @@ class FitChecks:
                   if any(one[when][0] != one[when][2] for when in ("before", "after"))}
         for unit, factor in (("rad", 1), ("deg", DEGREES)):
             self.run_script("const s = document.getElementById('angles'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", unit)
-            for row, (name, one) in zip(self.table("Prediction: median (5 % … 95 %)"), varies.items(), strict=True):
+            deployed, *rows = self.table("Prediction: median (5 % … 95 %)")
+            for cell, when in zip(deployed[2:], ("before", "after"), strict=True):
+                self.check(cell, fit["predicted_deployed"][when], share=True, about="deployed")
+            for row, (name, one) in zip(rows, varies.items(), strict=True):
                 hinge, _, quantity = name.rpartition(".")
                 label = quantity.replace("_", " ") + (" (beyond stowed)" if quantity == "overtravel" else "")
                 self.assertEqual(row[0], f"{hinge} {label}".strip())

@@ -28,8 +28,10 @@ def fit():
             "traces": [trace(rng, "ground", "root.angle", "rad"), trace(rng, "flight", "tip.moment", "N m", chi_squared=None)],
             "samples": {"names": [one["name"] for one in parameters], "rows": [[rng.gauss(one["mean"], one["std"]) for one in parameters] for _ in range(30)]},
             "candidates": [{"name": "slower start", "information": 1.234, "std_ratio": {"root_spring": 0.7, "harness": 0.456, "fifth": 0.9}}],
+            "deployed": {"before": 0.747, "after": 0.9125},
             "prediction": {"root.latch_rate": {"unit": "rad/s", "before": [-1.5, -1.25, -1.125], "after": [-1.31, -1.3, -1.2999]}, "tip.held": {"unit": "", "before": [1, 1, 1], "after": [1, 1, 1]},
-                           "tip.peak_moment": {"unit": "N m", "before": [100, 100, 100], "after": [100.5, 101.25, 104]}}}
+                           "tip.peak_moment": {"unit": "N m", "before": [100, 100, 100], "after": [100.5, 101.25, 104]},
+                           "tip.latch_time": {"unit": "s", "before": [3.5, 4.125, None], "after": [None, None, None]}}}
 
 
 class FitPageChecks:
@@ -144,8 +146,11 @@ class FitPageChecks:
         self.assertEqual(self.table("What further tests would tell"), [["slower start", "1.23", "harness: to 45.6 %"]])
         caption = "Prediction: median (5 % … 95 %)"
         self.assertEqual(self.heads(caption), ["Output", "Unit", "Before the tests", "After"])
-        self.assertEqual([row[:2] for row in self.table(caption)], [["root latch rate", "deg/s"], ["tip peak moment", "N·m"]])  # what never varies is left out
-        for row, name, factor in zip(self.table(caption), ("root.latch_rate", "tip.peak_moment"), (DEGREES, 1)):
+        deployed, *outputs = self.table(caption)
+        self.assertEqual(deployed, ["deployed", "", "74.7 %", "91.25 %"])
+        self.assertEqual([row[:2] for row in outputs], [["root latch rate", "deg/s"], ["tip peak moment", "N·m"], ["tip latch time", "s"]])  # what never varies is left out
+        self.assertEqual(outputs[2][2:], ["4.125 (3.500 … none)", "none (none … none)"])  # too many runs lack it
+        for row, name, factor in zip(outputs, ("root.latch_rate", "tip.peak_moment"), (DEGREES, 1)):
             for cell, when in zip(row[2:], ("before", "after"), strict=True):
                 low, middle, high = (value * factor for value in one["prediction"][name][when])
                 self.check(cell, middle, low, high, about=name)

@@ -2,6 +2,7 @@
 
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/random_stream.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/distribution_json.hpp"
 
 #include <fmt/format.h>
@@ -72,6 +73,25 @@ Json dispersions_of(const Campaign& campaign, const std::vector<std::size_t>& fi
 
 } // namespace
 
+Campaign campaign_of_test(const Campaign& campaign, const CaseSpec* of_case) {
+  Campaign base = of_case ? campaign_of_case(campaign, *of_case) : campaign;
+  for (const char* key : {"cases", "requirements", "until", "margin", "motorization"})
+    base.resolved.erase(key);
+  base.resolved["statistics"].erase("tolerance");
+  return base;
+}
+
+std::vector<std::size_t> with_other_law(const Campaign& test, const Campaign& campaign,
+                                        const std::vector<std::size_t>& dispersions) {
+  const auto law = [](const Campaign& of, std::size_t i) {
+    return write_distribution(of.dispersions[i].distribution);
+  };
+  std::vector<std::size_t> found;
+  for (const std::size_t i : dispersions)
+    if (law(test, i) != law(campaign, i)) found.push_back(i);
+  return found;
+}
+
 Json predicting_campaign(const Campaign& campaign, const std::vector<std::size_t>& fitted) {
   Json json = campaign.resolved;
   json["dispersions"] = dispersions_of(campaign, fitted);
@@ -125,7 +145,7 @@ PosteriorRows posterior_rows(const Campaign& campaign, const ParameterSpace& spa
       points[n][static_cast<Eigen::Index>(columns[c])] = normal.quantile(
           uniform(campaign.sampling.seed, n,
                   stream_name("\x7F" + all.names[c]))); // a control character: no draw's stream
-    const std::vector<double> at = values.of(points[n]);
+    const std::vector<double> at = values.of_new_unit(points[n]);
     std::vector<double>& row = all.rows.emplace_back();
     for (const std::size_t k : columns) row.push_back(at[k]);
   }

@@ -1,4 +1,4 @@
-/// The campaign of the prediction, and the rows of the posterior that it draws.
+/// The campaigns of a test and of the prediction, and the rows of the posterior that the latter draws.
 #pragma once
 
 #include "montecarlo/analyses/fit/parameter_space.hpp"
@@ -10,6 +10,14 @@
 namespace wingspread {
 
 inline constexpr const char* posterior_file = "posterior.csv";
+
+/// The campaign of a test: its case, without cases, and without what only statistics need. @param of_case may be null
+[[nodiscard]] Campaign campaign_of_test(const Campaign& campaign, const CaseSpec* of_case);
+
+/// The dispersions among these whose law in the test's campaign is not the campaign's.
+[[nodiscard]] std::vector<std::size_t> with_other_law(const Campaign& test,
+                                                      const Campaign& campaign,
+                                                      const std::vector<std::size_t>& dispersions);
 
 /// The campaign with the dispersions replaced by one that draws rows of posterior.csv. Their correlations and laws
 /// that cases give them are left out.

@@ -22,24 +22,30 @@ struct OutputOfRuns {
   long cut = 0;                 ///< runs whose peak t_end cut
 };
 
-/// The output columns of the first runs.
-std::vector<OutputOfRuns> sorted_outputs(const Campaign& campaign, ThreadPool pool,
-                                         const std::atomic<bool>& stop) {
+struct FirstRuns {
+  std::vector<OutputOfRuns> outputs;
+  long deployed = 0;
+};
+
+FirstRuns first_runs(const Campaign& campaign, ThreadPool pool, const std::atomic<bool>& stop) {
   const RunPlan plan(campaign);
   const std::vector<std::string>& names = plan.names().outputs;
-  std::vector<OutputOfRuns> outputs(names.size());
+  FirstRuns first{std::vector<OutputOfRuns>(names.size())};
+  auto& outputs = first.outputs;
   const auto keep = [&](const Batch& batch) {
-    for (const ResultRow& row : batch.rows)
+    for (const ResultRow& row : batch.rows) {
+      first.deployed += row.status == Status::deployed;
       for (std::size_t i = 0; i < outputs.size(); ++i) {
         if (std::isfinite(row.outputs[i])) outputs[i].values.push_back(row.outputs[i]);
         if (is_cut(peak_kind(names[i]), row.peaks_final.value_or(PeaksFinal::unknown)))
           ++outputs[i].cut;
       }
+    }
   };
   if (evaluator_of(pool, stop)->make(plan, {0, predicted_runs}, {keep}) < predicted_runs)
     throw Stopped{};
   for (OutputOfRuns& output : outputs) std::ranges::sort(output.values);
-  return outputs;
+  return first;
 }
 
 } // namespace
@@ -59,7 +65,7 @@ void FitFolder::write(FitResult& result, const Campaign& campaign, const FitSpec
     write_file(folder_ / posterior_file, posterior_csv(result));
     write_file(path, json_text(predicting_campaign(campaign, result.posterior.columns)));
     result.beside_cases = !campaign.cases.empty();
-    result.prediction = predicted_outputs(campaign, read_campaign_file(path), pool, stop);
+    result.prediction = predict(campaign, read_campaign_file(path), pool, stop);
   }
   write_file(folder_ / fit_json_file, json_text(fit_json(result, spec, about_)));
   if (!result.finished) return log_->sync();
@@ -67,19 +73,26 @@ void FitFolder::write(FitResult& result, const Campaign& campaign, const FitSpec
   remove_checkpoint(folder_);
 }
 
-std::vector<PredictedOutput> predicted_outputs(const Campaign& before, const Campaign& after,
-                                               ThreadPool pool, const std::atomic<bool>& stop) {
+FitPrediction predict(const Campaign& before, const Campaign& after, ThreadPool pool,
+                      const std::atomic<bool>& stop) {
   const std::vector<std::string> names = RunPlan(before).names().outputs;
-  const auto first = sorted_outputs(before, pool, stop), second = sorted_outputs(after, pool, stop);
-  std::vector<PredictedOutput> all;
+  const FirstRuns first = first_runs(before, pool, stop), second = first_runs(after, pool, stop);
+  constexpr auto runs = static_cast<double>(predicted_runs);
+  FitPrediction all{
+      {static_cast<double>(first.deployed) / runs, static_cast<double>(second.deployed) / runs}};
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (first[i].values.empty() || second[i].values.empty()) continue;
-    PredictedOutput& output = all.emplace_back(PredictedOutput{names[i]});
-    output.cut = first[i].cut + second[i].cut;
-    for (std::size_t k = 0; k < predicted_quantiles.size(); ++k) {
-      output.before[k] = quantile(first[i].values, predicted_quantiles[k]);
-      output.after[k] = quantile(second[i].values, predicted_quantiles[k]);
-    }
+    const auto quantiles = [&](const OutputOfRuns& output) {
+      const long present = std::ssize(output.values);
+      const PartialRanks ranks{present, predicted_runs - present,
+                               missing_rank(before.requirements, names[i])};
+      std::array<double, 3> found{};
+      for (std::size_t k = 0; k < found.size(); ++k)
+        found[k] = quantile(output.values, ranks, predicted_quantiles[k]);
+      return found;
+    };
+    const OutputOfRuns &one = first.outputs[i], &other = second.outputs[i];
+    if (one.values.empty() && other.values.empty()) continue;
+    all.outputs.push_back({names[i], quantiles(one), quantiles(other), one.cut + other.cut});
   }
   return all;
 }

@@ -34,9 +34,8 @@ private:
   std::optional<BatchLog> log_;
 };
 
-/// Quantiles of all outputs with the priors and with the posterior, over the first runs of both campaigns.
-[[nodiscard]] std::vector<PredictedOutput> predicted_outputs(const Campaign& before,
-                                                             const Campaign& after, ThreadPool pool,
-                                                             const std::atomic<bool>& stop);
+/// Outputs with the priors and with the posterior, over the first runs of both campaigns.
+[[nodiscard]] FitPrediction predict(const Campaign& before, const Campaign& after, ThreadPool pool,
+                                    const std::atomic<bool>& stop);
 
 } // namespace wingspread

@@ -15,7 +15,7 @@ Json parameters_json(const FitResult& result) {
                        {"std", each.std},
                        {"lower", each.lower},
                        {"upper", each.upper},
-                       {"std_ratio", each.std_ratio}};
+                       {"std_ratio", each.std_ratio()}};
     if (!each.unit.empty()) json[each.name]["unit"] = each.unit;
     if (!result.held.empty()) json[each.name]["std_with_held"] = each.widening * each.std;
     if (each.held_decides) json[each.name]["held_decides"] = true;
@@ -34,9 +34,11 @@ Json limited_json(const FitResult& result) {
 
 Json held_json(const FitResult& result) {
   Json json = Json::object();
-  for (const HeldDispersion& each : result.held)
+  for (const HeldDispersion& each : result.held) {
     json[each.name] = {{"value", each.median},
                        {"prior", {{"mean", each.prior_mean}, {"std", each.prior_std}}}};
+    for (const auto& [test, median] : each.in_tests) json[each.name]["in_tests"][test] = median;
+  }
   return json;
 }
 
@@ -64,9 +66,10 @@ Json unseen_json(const FitResult& result) {
     for (Eigen::Index i = 0; i < direction.weights.size(); ++i)
       if (std::abs(direction.weights[i]) >= named_weight)
         weights[names[static_cast<std::size_t>(i)]] = direction.weights[i];
-    list.push_back({{"direction", std::move(weights)},
-                    {"std_ratio", direction.std_ratio},
-                    {"text", describe(direction, names, result.u_covariance)}});
+    list.push_back(
+        {{"direction", std::move(weights)},
+         {"std_ratio", direction.std_ratio},
+         {"text", describe(direction, names, result.score_covariance, result.prior_covariance)}});
   }
   return list;
 }
@@ -122,11 +125,16 @@ Json quantiles_json(const std::array<double, 3>& values) {
 
 Json fit_json(const FitResult& result, const FitSpec& spec, const Json& about) {
   Json modes = Json::array();
-  for (std::size_t k = 0; k < result.mode_distances.size(); ++k)
-    modes.push_back({{"distance", result.mode_distances[k]},
-                     {"log_posterior_below_best", result.mode_drops[k]}});
+  for (const OtherMode& mode : result.other_modes) {
+    Json parameters = Json::object();
+    for (std::size_t i = 0; i < mode.parameters.size(); ++i)
+      parameters[result.parameters[i].name] = mode.parameters[i];
+    modes.push_back({{"distance", mode.distance},
+                     {"log_posterior_below_best", mode.drop},
+                     {"parameters", std::move(parameters)}});
+  }
   Json prediction = Json::object();
-  for (const PredictedOutput& output : result.prediction)
+  for (const PredictedOutput& output : result.prediction.outputs)
     prediction[output.name] = {{"before", quantiles_json(output.before)},
                                {"after", quantiles_json(output.after)},
                                {"cut", output.cut}};
@@ -150,7 +158,11 @@ Json fit_json(const FitResult& result, const FitSpec& spec, const Json& about) {
                       {"chi_squared", json_number(result.values.chi_squared)},
                       {"p_value", json_number(result.values.p_value)}};
   if (!result.candidates.empty()) json["candidates"] = candidates_json(result);
-  if (!result.prediction.empty()) json["prediction"] = std::move(prediction);
+  if (!prediction.empty()) {
+    json["prediction"] = std::move(prediction);
+    json["predicted_deployed"] = {{"before", result.prediction.deployed[0]},
+                                  {"after", result.prediction.deployed[1]}};
+  }
   return json;
 }
 

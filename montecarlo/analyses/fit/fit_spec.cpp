@@ -1,5 +1,6 @@
 #include "montecarlo/analyses/fit/fit_spec.hpp"
 
+#include "montecarlo/analyses/fit/fit_campaign.hpp"
 #include "montecarlo/analyses/fit/trace_check.hpp"
 #include "montecarlo/engine/runs/trajectory_columns.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
@@ -30,22 +31,6 @@ void read_truth(JsonObject& object, std::string_view key, bool& out) {
     out = at->value().get<bool>();
 }
 
-bool matches(std::string_view pattern, std::string_view name) {
-  const std::size_t star = pattern.find('*');
-  if (star == std::string_view::npos) return pattern == name;
-  return name.size() >= pattern.size() - 1 && name.starts_with(pattern.substr(0, star)) &&
-         name.ends_with(pattern.substr(star + 1));
-}
-
-/// The campaign of a test: its case, without cases, and without what only statistics need.
-Campaign base_of_test(const Campaign& campaign, const CaseSpec* of_case) {
-  Campaign base = of_case ? campaign_of_case(campaign, *of_case) : campaign;
-  for (const char* key : {"cases", "requirements", "until", "margin", "motorization"})
-    base.resolved.erase(key);
-  base.resolved["statistics"].erase("tolerance");
-  return base;
-}
-
 class FitReader {
 public:
   FitReader(const Campaign& campaign, std::filesystem::path directory)
@@ -73,7 +58,7 @@ private:
     std::vector<std::string> names;
     for (std::size_t i = 0; i < campaign_.dispersions.size(); ++i) {
       names.push_back(campaign_.dispersions[i].name);
-      if (matches(pattern, names.back())) found.push_back(i);
+      if (is_like(names.back(), pattern)) found.push_back(i);
     }
     if (found.empty())
       at.refuse(fmt::format("\"{}\"", pattern),
@@ -104,14 +89,12 @@ private:
 
   void add_parameters(const JsonCursor& at, std::vector<std::size_t>& parameters) const {
     for (const std::size_t index : read_names(at)) {
-      const Dispersion& dispersion = campaign_.dispersions[index];
-      const Law& law = dispersion.distribution.law;
+      const Law& law = campaign_.dispersions[index].distribution.law;
       if (std::holds_alternative<Discrete>(law) || std::holds_alternative<Empirical>(law) ||
           std::holds_alternative<Constant>(law))
-        at.refuse(fmt::format("\"{}\", whose law has steps", dispersion.name),
-                  "a dispersion with a continuous law");
+        at.refuse(quoted(index) + ", whose law has steps", "a dispersion with a continuous law");
       else if (std::ranges::find(parameters, index) != parameters.end())
-        at.refuse_repeated(fmt::format("\"{}\"", dispersion.name), "each parameter once");
+        at.refuse_repeated(quoted(index), "each parameter once");
       else
         parameters.push_back(index);
     }
@@ -124,9 +107,8 @@ private:
     };
     for (const RankCorrelation& pair : campaign_.wanted_correlations)
       if (is_fitted(pair.first) != is_fitted(pair.second))
-        at.refuse(fmt::format("one of \"{}\" and \"{}\", which the campaign correlates",
-                              campaign_.dispersions[pair.first].name,
-                              campaign_.dispersions[pair.second].name),
+        at.refuse("one of " + quoted(pair.first) + " and " + quoted(pair.second) +
+                      ", which the campaign correlates",
                   "both of them, or neither");
   }
 
@@ -146,7 +128,7 @@ private:
     object.required(
         "name", test.name, "a string, not empty",
         +[](const std::string& name) { return !name.empty(); });
-    test.campaign = base_of_test(campaign_, read_case(object));
+    test.campaign = campaign_of_test(campaign_, read_case(object));
     change_scene_of(object, test);
     const auto trace = object.find("trace");
     if (trace) read_trace_of(*trace, candidate, test);
@@ -161,8 +143,19 @@ private:
         read_own(*own, test);
     }
     if (candidate && test.time_offset_std > 0) at.refuse("a time offset in a candidate", "none");
+    refuse_other_laws(at, candidate, test);
     object.refuse_others();
     return test;
+  }
+
+  /// A fitted parameter to which the test's case gives another law has a value of its own there: the posterior of all
+  /// tests would be stated by the wrong law.
+  void refuse_other_laws(const JsonCursor& at, bool candidate, const FitTest& test) const {
+    for (const std::size_t i : with_other_law(test.campaign, campaign_, fitted_))
+      if (std::ranges::find(test.own, i) == test.own.end())
+        at.member("case").refuse("a case with a law of its own for the fitted " + quoted(i),
+                                 candidate ? "a case with the campaign's laws for what is fitted"
+                                           : quoted(i) + " among the test's \"own\" parameters");
   }
 
   const CaseSpec* read_case(JsonObject& object) const {
@@ -354,10 +347,13 @@ private:
     for (const JsonCursor& name : at.elements())
       for (const std::size_t index : read_names(name))
         if (std::ranges::find(fitted_, index) == fitted_.end())
-          name.refuse(fmt::format("\"{}\", which is not fitted", campaign_.dispersions[index].name),
-                      "one of fit.parameters");
+          name.refuse(quoted(index) + ", which is not fitted", "one of fit.parameters");
         else
           test.own.push_back(index);
+  }
+
+  [[nodiscard]] std::string quoted(std::size_t dispersion) const {
+    return '"' + campaign_.dispersions[dispersion].name + '"';
   }
 
   const Campaign& campaign_;

@@ -45,6 +45,8 @@ struct FitTest {
   std::string name;
   Campaign campaign; ///< with the test's case, changes and outputs; without cases
   std::vector<double> times;
+  double interval = 0;      ///< between the samples of a run, s; 0: grid_interval of the times
+  double interpolation = 0; ///< what their interpolation adds to χ², see choose_intervals
   double time_offset_std = 0;
   bool correlated =
       true; ///< temper the likelihood of a trace by the autocorrelation of its residuals

@@ -34,12 +34,22 @@ std::size_t walkers_for(std::size_t dimensions) {
 /// 0.02, of a normal one cut at its mean 0.019. Heuristic: laws that fade out towards 0 have far more.
 constexpr double most_of_cut = 0.05;
 
+/// The campaign whose laws the parameter has.
+const Campaign& laws_of(const FitParameter& parameter, const Campaign& campaign,
+                        const FitSpec& spec) {
+  return parameter.kind == FitParameter::Kind::dispersion && parameter.test
+             ? spec.tests[*parameter.test].campaign
+             : campaign;
+}
+
+/// @param campaign see laws_of
 LawMoments prior_moments(const FitParameter& parameter, const Campaign& campaign) {
   if (parameter.kind != FitParameter::Kind::dispersion) return {0, parameter.std};
   return moments_of(campaign.dispersions[parameter.dispersion].distribution);
 }
 
 /// The limit of the prior at which the posterior's values lie, if any; none where a prior of one limit fades out.
+/// @param campaign see laws_of
 std::optional<double> limit_at(std::span<const double> sorted, const FitParameter& parameter,
                                const Campaign& campaign) {
   if (parameter.kind != FitParameter::Kind::dispersion) return std::nullopt;
@@ -114,7 +124,7 @@ public:
       : campaign_(campaign), spec_(spec), options_(options),
         evaluator_(evaluator_of(options.pool, stop)), space_(campaign, spec),
         data_(data_of(spec.tests)), runs_(spec.tests, spec.parameters, space_, *evaluator_),
-        values_(campaign, spec, space_) {}
+        values_(campaign, spec, space_), coupling_(space_.coupling()) {}
 
   FitResult run(BatchLog* log, const std::function<void(const EnsembleState&)>& report_progress) {
     search_modes();
@@ -140,10 +150,10 @@ private:
       for (const FitMode& mode : modes_) starts.push_back(mode.at);
       modes_ = find_modes(data_, runs_, starts);
     }
-    for (std::size_t k = 1; k < modes_.size(); ++k) {
-      result_.mode_distances.push_back(distance_of(modes_.front(), modes_[k]));
-      result_.mode_drops.push_back(modes_.front().log_posterior - modes_[k].log_posterior);
-    }
+    for (std::size_t k = 1; k < modes_.size(); ++k)
+      result_.other_modes.push_back({distance_of(modes_.front(), modes_[k]),
+                                     modes_.front().log_posterior - modes_[k].log_posterior,
+                                     values_.of(modes_[k].at)});
   }
 
   void sample(BatchLog* log, const std::function<void(const EnsembleState&)>& report_progress) {
@@ -178,7 +188,8 @@ private:
       const std::vector<double> values = values_.of(point);
       for (std::size_t k = 0; k < values.size(); ++k) columns[k].push_back(values[k]);
     }
-    const Eigen::MatrixXd covariance = covariance_of(points_);
+    const Eigen::MatrixXd covariance = coupling_ * covariance_of(points_) * coupling_.transpose();
+    const FitPoint scores = coupling_ * modes_.front().at;
     const auto d = static_cast<Eigen::Index>(space_.size());
     result_.correlation = Eigen::MatrixXd::Identity(d, d);
     for (Eigen::Index i = 0; i < d; ++i)
@@ -187,21 +198,24 @@ private:
             pearson(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
     for (std::size_t k = 0; k < space_.size(); ++k) {
       const FitParameter& parameter = space_.list()[k];
-      const LawMoments prior = prior_moments(parameter, campaign_);
+      const Campaign& laws = laws_of(parameter, campaign_, spec_);
+      const LawMoments prior = prior_moments(parameter, laws);
       const Moments after = moments(columns[k]);
       std::vector<double> sorted = columns[k];
       std::ranges::sort(sorted);
       const double tail = (1 - options_.confidence) / 2;
       const auto place = static_cast<Eigen::Index>(k);
-      result_.parameters.push_back(
-          {parameter.name, std::string(parameter.unit), prior.mean, prior.standard_deviation,
-           mode[k], after.mean, after.std, quantile(sorted, tail), quantile(sorted, 1 - tail),
-           std::sqrt(covariance(place, place)), std::abs(modes_.front().at[place]), 1,
-           limit_at(sorted, parameter, campaign_)});
+      result_.parameters.push_back({parameter.name, std::string(parameter.unit), prior.mean,
+                                    prior.standard_deviation, mode[k], after.mean, after.std,
+                                    quantile(sorted, tail), quantile(sorted, 1 - tail),
+                                    std::sqrt(covariance(place, place)), std::abs(scores[place]), 1,
+                                    limit_at(sorted, parameter, laws)});
     }
     const auto common = static_cast<Eigen::Index>(space_.common());
-    result_.u_covariance = covariance.topLeftCorner(common, common);
-    if (common > 0) result_.directions = directions_of(result_.u_covariance);
+    result_.score_covariance = covariance.topLeftCorner(common, common);
+    result_.prior_covariance = (coupling_ * coupling_.transpose()).topLeftCorner(common, common);
+    if (common > 0)
+      result_.directions = directions_of(result_.score_covariance, result_.prior_covariance);
     result_.posterior = posterior_rows(campaign_, space_, values_,
                                        chosen(points_, static_cast<std::size_t>(spec_.samples)));
   }
@@ -213,6 +227,11 @@ private:
       const LawMoments prior = moments_of(campaign_.dispersions[i].distribution);
       result_.held.push_back(
           {campaign_.dispersions[i].name, law.quantile(0.5), prior.mean, prior.standard_deviation});
+      for (const FitTest& test : spec_.tests) {
+        const PreparedDistribution own(test.campaign.dispersions[i].distribution);
+        if (own.quantile(0.5) != result_.held.back().median)
+          result_.held.back().in_tests.emplace_back(test.name, own.quantile(0.5));
+      }
     }
     const Campaign linear = with_normal_laws(campaign_, held);
     const FitSpec all = with_held(spec_, linear, held);
@@ -233,7 +252,7 @@ private:
         not_fitted.push_back(space.list()[k].dispersion);
     const std::vector<double> widening =
         widening_by_held(data_, modes_.front().prediction, runs, at, fitted, covariance_of(points_),
-                         correlations_in_rows(campaign_, not_fitted));
+                         correlations_in_rows(campaign_, not_fitted), coupling_);
     for (std::size_t k = 0; k < widening.size(); ++k) result_.parameters[k].widen(widening[k]);
     result_.runs += runs.runs();
   }
@@ -299,8 +318,7 @@ private:
   void judge_candidates() {
     if (spec_.candidates.empty()) return;
     TestRuns runs(spec_.candidates, spec_.parameters, space_, *evaluator_, true);
-    result_.candidates =
-        candidate_gains(spec_.candidates, runs, modes_.front().at, covariance_of(points_));
+    result_.candidates = candidate_gains(spec_.candidates, runs, modes_.front(), coupling_);
   }
 
   const Campaign& campaign_;
@@ -311,17 +329,35 @@ private:
   FitData data_;
   TestRuns runs_;
   PhysicalValues values_;
+  const Eigen::MatrixXd coupling_;
   std::vector<FitMode> modes_;
   std::vector<FitPoint> points_;
   FitResult result_;
 };
+
+/// Chooses the intervals of the runs' samples. @return the number of runs made
+long set_intervals(const Campaign& campaign, const FitOptions& options,
+                   const std::atomic<bool>& stop, FitSpec& spec) {
+  const auto evaluator = evaluator_of(options.pool, stop);
+  const ParameterSpace space(campaign, spec);
+  const auto points = first_points(space.size(), least_tried, campaign.sampling.seed);
+  return choose_intervals(spec.tests, spec.parameters, space, *evaluator, points) +
+         choose_intervals(spec.candidates, spec.parameters, space, *evaluator, points, true);
+}
 
 } // namespace
 
 FitResult fit_campaign(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,
                        const std::atomic<bool>& stop, BatchLog* log,
                        const std::function<void(const EnsembleState&)>& report_progress) {
-  return Study(campaign, spec, options, stop).run(log, report_progress);
+  FitSpec sampled = spec;
+  const long runs = set_intervals(campaign, options, stop, sampled);
+  FitResult result = Study(campaign, sampled, options, stop).run(log, report_progress);
+  result.runs += runs;
+  for (const FitTest& test : sampled.tests)
+    if (test.interpolation > most_interpolated)
+      result.interpolated.push_back({test.name, test.interval, test.interpolation});
+  return result;
 }
 
 void refuse_unpredictable(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wingspread {
@@ -26,11 +27,14 @@ struct FittedParameter {
   std::string name, unit;
   double prior_mean = 0, prior_std = 0;
   double mode = 0, mean = 0, std = 0, lower = 0, upper = 0;
-  double std_ratio = 0;    ///< standard deviation in u: the share of the prior's that is left
-  double prior_sigmas = 0; ///< |u| of the mode: its distance from the prior's median
+  double score_std = 0;    ///< of the normal score z, which has 1 before the tests
+  double prior_sigmas = 0; ///< |z| of the mode: its distance from the prior's median
   double widening = 1;     ///< factor of `std` by the spread of dispersions that are not fitted
   std::optional<double> limit{}; ///< of the prior, if the posterior lies there
   bool held_decides = false;     ///< `widening` is cut: the widened `std` would exceed the prior's
+
+  /// The share of the prior's standard deviation that is left.
+  [[nodiscard]] double std_ratio() const { return std / prior_std; }
 
   /// Sets the widening to the first-order factor, cut where the standard deviation would exceed the prior's: so far out
   /// the model is not linear, and the prior bounds the parameter anyway.
@@ -45,6 +49,7 @@ struct FittedParameter {
 struct HeldDispersion {
   std::string name;
   double median = 0, prior_mean = 0, prior_std = 0;
+  std::vector<std::pair<std::string, double>> in_tests{}; ///< tests whose case has another median
 };
 
 /// A number of a trace that lies far from the fit, unlike the other numbers (outliers_of).
@@ -92,11 +97,30 @@ inline constexpr double at_limit = 0.01, share_at_limit = 0.25;
 /// Runs of each campaign, before and after the tests, for the prediction.
 inline constexpr long predicted_runs = 1000;
 
-/// Quantiles 5, 50 and 95 % of an output with the priors and with the posterior.
+/// Quantiles 5, 50 and 95 % of an output with the priors and with the posterior, over all runs: NaN where a run without
+/// the output has that rank (missing_rank).
 struct PredictedOutput {
   std::string name;
   std::array<double, 3> before{}, after{};
   long cut = 0; ///< runs of both whose peak t_end cut (finality.hpp)
+};
+
+struct FitPrediction {
+  std::array<double, 2> deployed{};       ///< share of the runs, before and after
+  std::vector<PredictedOutput> outputs{}; ///< those that any run has; empty: nothing is predicted
+};
+
+/// A mode beside the highest one.
+struct OtherMode {
+  double distance = 0,
+         drop = 0; ///< in standard deviations of the highest; its log posterior below that
+  std::vector<double> parameters;
+};
+
+/// A test whose trace the samples of a run resolve too little: see choose_intervals.
+struct InterpolatedTest {
+  std::string name;
+  double interval = 0, chi_squared = 0;
 };
 
 struct FitResult {
@@ -104,19 +128,20 @@ struct FitResult {
   std::vector<FitParameter> space;
   std::size_t common = 0; ///< parameters of the prediction: the first of the list
   std::vector<FittedParameter> parameters;
-  std::vector<HeldDispersion> held;   ///< dispersions that vary and are not fitted
-  Eigen::MatrixXd correlation;        ///< of the parameters
-  std::vector<double> mode_distances; ///< of further modes from the highest, in standard deviations
-  std::vector<double> mode_drops;     ///< their log posterior below the highest
+  std::vector<HeldDispersion> held; ///< dispersions that vary and are not fitted
+  Eigen::MatrixXd correlation;      ///< of the parameters
+  std::vector<OtherMode> other_modes;
   std::vector<FitDirection> directions; ///< of the common parameters
-  Eigen::MatrixXd u_covariance;         ///< of the common parameters
+  Eigen::MatrixXd score_covariance,
+      prior_covariance; ///< of the common parameters' scores, after and before
   std::vector<FittedChannel> channels;
   FittedValues values;
   EnsembleState sampler;
   long runs = 0; ///< all runs made
+  std::vector<InterpolatedTest> interpolated;
   PosteriorRows posterior;
   std::vector<CandidateGain> candidates;
-  std::vector<PredictedOutput> prediction;
+  FitPrediction prediction;
   bool beside_cases = false; ///< the campaign has cases, and the prediction is of none of them
   std::vector<std::string> lost_laws; ///< of cases, for written dispersions; see lost_laws()
 };

@@ -57,15 +57,22 @@ std::string widened_text(const FitResult& result) {
   return text;
 }
 
+/// "spring = 1 (prior 1 +- 0.05; 0.8 in "cold")".
+std::string held_text(const HeldDispersion& held, std::string_view before) {
+  std::string elsewhere;
+  for (const auto& [test, median] : held.in_tests)
+    elsewhere += fmt::format("; {:.5g} in \"{}\", by the law of its case", median, test);
+  return fmt::format("{}{} = {:.5g} (prior {:.4g} +- {:.3g}{})", before, held.name, held.median,
+                     held.prior_mean, held.prior_std, elsewhere);
+}
+
 void add_held(const FitResult& result, std::vector<std::string>& list) {
   constexpr std::size_t most = 6;
   const std::size_t count = result.held.size();
   if (count == 0) return;
   std::string text;
   for (std::size_t i = 0; i < std::min(count, most); ++i)
-    text += fmt::format("{}{} = {:.5g} (prior {:.4g} +- {:.3g})", text.empty() ? "" : ", ",
-                        result.held[i].name, result.held[i].median, result.held[i].prior_mean,
-                        result.held[i].prior_std);
+    text += held_text(result.held[i], text.empty() ? "" : ", ");
   if (count > most) text += fmt::format(" and {} others", count - most);
   const std::string widened = widened_text(result);
   list.push_back(fmt::format("not fitted, held at {} in all tests: {}. {}",
@@ -162,7 +169,7 @@ std::string parameters_text(const FitResult& result) {
         "{}{:>24}{:>24}{:>26}{:>10}{}\n", in_column("  " + each.name, name_width),
         fmt::format("{:.5g} +- {:.3g}", each.prior_mean, each.prior_std),
         fmt::format("{:.5g} +- {:.3g}", each.mean, each.std),
-        fmt::format("{:.5g} to {:.5g}", each.lower, each.upper), percent(each.std_ratio, 0),
+        fmt::format("{:.5g} to {:.5g}", each.lower, each.upper), percent(each.std_ratio(), 0),
         each.limit ? fmt::format("\n    at the limit {:.6g} of its prior", *each.limit) : "");
   return text;
 }
@@ -175,12 +182,12 @@ std::string identifiability_text(const FitResult& result) {
   for (const FitDirection& direction : result.directions) {
     if (direction.std_ratio < unseen_ratio) continue;
     all_seen = false;
-    text += paragraph(describe(direction, names, result.u_covariance));
+    text += paragraph(describe(direction, names, result.score_covariance, result.prior_covariance));
   }
   if (all_seen) text += paragraph("the tests see every combination of the parameters");
   std::string by_prior;
   for (const FittedParameter& each : result.parameters)
-    if (each.std_ratio >= unseen_ratio) by_prior += (by_prior.empty() ? "" : ", ") + each.name;
+    if (each.score_std >= unseen_ratio) by_prior += (by_prior.empty() ? "" : ", ") + each.name;
   if (!by_prior.empty()) text += paragraph("the prior decides, not the tests: " + by_prior);
   return text;
 }
@@ -204,7 +211,7 @@ std::string candidates_text(const FitResult& result) {
 void add_cut_peaks(const FitResult& result, std::vector<std::string>& list) {
   std::vector<std::string> names;
   long most = 0;
-  for (const PredictedOutput& output : result.prediction)
+  for (const PredictedOutput& output : result.prediction.outputs)
     if (output.cut > 0) names.push_back(output.name), most = std::max(most, output.cut);
   if (!names.empty())
     list.push_back(fmt::format("t_end cut the predicted peaks of {} in up to {} of {} runs: their "
@@ -224,16 +231,26 @@ void add_few_numbers(const FitResult& result, std::vector<std::string>& list) {
 }
 
 std::string prediction_text(const FitResult& result) {
-  if (result.prediction.empty()) return "";
-  std::string text =
-      fmt::format("\n{}{:>36}{:>36}\n", in_column("PREDICTION 5 %, 50 %, 95 %", name_width),
-                  "before the tests", "after");
-  const auto range = [](const std::array<double, 3>& values) {
-    return fmt::format("{:.5g}  {:.5g}  {:.5g}", values[0], values[1], values[2]);
+  const FitPrediction& prediction = result.prediction;
+  if (prediction.outputs.empty()) return "";
+  const auto line = [](std::string_view name, std::string_view before, std::string_view after) {
+    return fmt::format("{}  {:>34}  {:>34}\n", in_column(name, name_width), before, after);
   };
-  for (const PredictedOutput& output : result.prediction)
-    text += fmt::format("{}{:>36}{:>36}\n", in_column("  " + output.name, name_width),
-                        range(output.before), range(output.after));
+  std::string text =
+      '\n' + line("PREDICTION 5 %, 50 %, 95 %", "before the tests", "after") +
+      line("  deployed", percent(prediction.deployed[0], 1), percent(prediction.deployed[1], 1));
+  bool some_missing = false;
+  const auto value = [&](double quantile) {
+    some_missing = some_missing || std::isnan(quantile);
+    return std::isnan(quantile) ? std::string("none") : fmt::format("{:.5g}", quantile);
+  };
+  const auto range = [&](const std::array<double, 3>& values) {
+    return fmt::format("{}  {}  {}", value(values[0]), value(values[1]), value(values[2]));
+  };
+  for (const PredictedOutput& output : prediction.outputs)
+    text += line("  " + output.name, range(output.before), range(output.after));
+  if (some_missing)
+    text += "  none: the quantile is over all runs, and too many of them lack the output\n";
   if (result.beside_cases)
     text +=
         "  of the campaign's wing in none of its cases; `wingspread run` of the written campaign "
@@ -241,30 +258,68 @@ std::string prediction_text(const FitResult& result) {
   return text;
 }
 
+/// "spring 0.95 (best 1.02), friction 1.3 (best 0.9)".
+std::string mode_text(const FitResult& result, const std::vector<double>& other) {
+  constexpr std::size_t most = 6;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(other.size(), most); ++k)
+    text += fmt::format("{}{} {:.5g} (best {:.5g})", k == 0 ? "" : ", ", result.parameters[k].name,
+                        other[k], result.parameters[k].mode);
+  return text;
+}
+
+/// Offsets of sensors that their std hardly allows.
+void add_far_offsets(const FitResult& result, const FitSpec& spec, std::vector<std::string>& list) {
+  for (const FittedChannel& fitted : result.channels) {
+    const Channel& channel = fitted.channel;
+    if (!channel.std || std::abs(fitted.offset) <= conflict_sigmas * channel.offset_std) continue;
+    const std::string_view unit = unit_of_column(fitted.name);
+    list.push_back(fmt::format(
+        "the offset of {} of \"{}\" is {}, {:.1f} standard deviations ({}): test and "
+        "prior contradict each other, and parameters may be off",
+        fitted.name, spec.tests[channel.test].name, with_unit(fitted.offset, unit),
+        std::abs(fitted.offset) / channel.offset_std, with_unit(channel.offset_std, unit)));
+  }
+}
+
 } // namespace
 
 std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& spec) {
   std::vector<std::string> list;
   add_misfits(result, spec, list);
+  add_far_offsets(result, spec, list);
   add_cut_peaks(result, list);
   if (!result.finished)
     list.push_back(fmt::format(
         "not finished: effective sample size {:.0f} of {}, split R-hat {:.3f} "
         "after {} runs of the sampler",
         result.sampler.ess, spec.samples, result.sampler.r_hat, result.sampler.evaluations));
-  for (std::size_t k = 0; k < result.mode_distances.size(); ++k)
-    if (result.mode_distances[k] > other_mode_distance)
-      list.push_back(fmt::format("another mode lies {:.1f} sd away, {:.1f} nats below the best one",
-                                 result.mode_distances[k], result.mode_drops[k]));
+  for (const OtherMode& mode : result.other_modes)
+    if (mode.distance > other_mode_distance)
+      list.push_back(
+          fmt::format("another mode lies {:.1f} sd away, {:.1f} nats below the best one: {}",
+                      mode.distance, mode.drop, mode_text(result, mode.parameters)));
   for (const FittedChannel& fitted : result.channels)
     if (fitted.channel.effective < 0.5 * static_cast<double>(fitted.channel.count))
       list.push_back(dependence_text(fitted, spec));
+  for (const InterpolatedTest& test : result.interpolated)
+    list.push_back(fmt::format("the trace of \"{}\" asks for more samples of a run than are kept: "
+                               "interpolated over {:.3g} s, the "
+                               "predictions are off by up to χ² = {:.2g}. Split it, or leave "
+                               "samples out where nothing moves",
+                               test.name, test.interval, test.chi_squared));
   add_repeated(spec, list);
   add_few_numbers(result, list);
   add_held(result, list);
+  const auto is_own = [](const FitParameter& each) { return each.test.has_value(); };
+  if (!result.space.empty() && std::ranges::all_of(result.space, is_own) &&
+      result.posterior.columns.empty())
+    list.push_back(
+        "every fitted parameter is a test's own: nothing is known of other units, so there is no "
+        "posterior.csv, no campaign.json and no prediction");
   for (const std::string& law : result.lost_laws)
     list.push_back("the law of this case is not in the written campaign, which draws the posterior "
-                   "in every case: " +
+                   "in every case, so that its prediction is not of this case: " +
                    law);
   return list;
 }

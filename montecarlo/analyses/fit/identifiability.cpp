@@ -28,11 +28,12 @@ double log_determinant(const Eigen::MatrixXd& matrix) {
 
 } // namespace
 
-std::vector<FitDirection> directions_of(const Eigen::MatrixXd& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+std::vector<FitDirection> directions_of(const Eigen::MatrixXd& covariance,
+                                        const Eigen::MatrixXd& prior) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance, prior);
   std::vector<FitDirection> directions;
   for (Eigen::Index k = covariance.rows(); k-- > 0;) {
-    FitDirection direction{solver.eigenvectors().col(k),
+    FitDirection direction{solver.eigenvectors().col(k).normalized(),
                            std::sqrt(std::max(0.0, solver.eigenvalues()[k]))};
     Eigen::Index largest = 0;
     direction.weights.cwiseAbs().maxCoeff(&largest);
@@ -43,7 +44,7 @@ std::vector<FitDirection> directions_of(const Eigen::MatrixXd& covariance) {
 }
 
 std::string describe(const FitDirection& direction, const std::vector<std::string>& names,
-                     const Eigen::MatrixXd& covariance) {
+                     const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& prior) {
   std::vector<Eigen::Index> which;
   for (Eigen::Index i = 0; i < direction.weights.size(); ++i)
     if (std::abs(direction.weights[i]) >= named_weight) which.push_back(i);
@@ -59,7 +60,7 @@ std::string describe(const FitDirection& direction, const std::vector<std::strin
   Eigen::VectorXd seen = Eigen::VectorXd::Zero(direction.weights.size());
   seen[which[0]] = -direction.weights[which[1]], seen[which[1]] = direction.weights[which[0]];
   seen.normalize();
-  const double sd = std::sqrt(seen.dot(covariance * seen));
+  const double sd = std::sqrt(seen.dot(covariance * seen) / seen.dot(prior * seen));
   if (!(sd < unseen_ratio)) return unseen();
   const bool same_sign = direction.weights[which[0]] * direction.weights[which[1]] > 0;
   return fmt::format("the tests tell {} and {} only by their {}: sd of the {} {:.2f} of the "
@@ -73,7 +74,8 @@ std::vector<double> widening_by_held(const FitData& data, const Prediction& pred
                                      TestRuns& runs, const FitPoint& at,
                                      const std::vector<std::size_t>& fitted,
                                      const Eigen::MatrixXd& covariance,
-                                     const Eigen::MatrixXd& among_held) {
+                                     const Eigen::MatrixXd& among_held,
+                                     const Eigen::MatrixXd& coupling) {
   const Eigen::MatrixXd v = least_squares_jacobian(data, squares_of(data, prediction), runs, at);
   const auto own = static_cast<Eigen::Index>(fitted.size());
   Eigen::MatrixXd seen(v.rows(), own), held(v.rows(), v.cols() - own);
@@ -82,21 +84,25 @@ std::vector<double> widening_by_held(const FitData& data, const Prediction& pred
       seen.col(k++) = v.col(column);
     else
       held.col(h++) = v.col(column);
-  const Eigen::MatrixXd shift = (seen.transpose() * seen).llt().solve(seen.transpose() * held);
+  const Eigen::MatrixXd shift =
+      coupling * (seen.transpose() * seen).llt().solve(seen.transpose() * held);
+  const Eigen::MatrixXd of_scores = coupling * covariance * coupling.transpose();
   std::vector<double> widening;
   for (Eigen::Index k = 0; k < own; ++k)
     widening.push_back(std::sqrt(1 + std::max(0.0, shift.row(k).dot(shift.row(k) * among_held)) /
-                                         covariance(k, k)));
+                                         of_scores(k, k)));
   return widening;
 }
 
 std::vector<CandidateGain> candidate_gains(std::span<const FitTest> candidates, TestRuns& runs,
-                                           const FitPoint& mode,
-                                           const Eigen::MatrixXd& covariance) {
-  const Eigen::MatrixXd slopes = jacobian_of(runs, mode);
+                                           const FitMode& mode, const Eigen::MatrixXd& coupling) {
+  const Eigen::MatrixXd slopes = jacobian_of(runs, mode.at);
   const FitData data = data_of(candidates);
-  const Eigen::MatrixXd before =
-      covariance.llt().solve(Eigen::MatrixXd::Identity(mode.size(), mode.size()));
+  const Eigen::Index size = mode.at.size();
+  const Eigen::MatrixXd before = mode.covariance.llt().solve(Eigen::MatrixXd::Identity(size, size));
+  const auto of_scores = [&](const Eigen::MatrixXd& covariance) {
+    return Eigen::MatrixXd(coupling * covariance * coupling.transpose());
+  };
   std::vector<CandidateGain> gains;
   for (std::size_t t = 0; t < candidates.size(); ++t) {
     Eigen::MatrixXd information = before;
@@ -114,12 +120,11 @@ std::vector<CandidateGain> candidate_gains(std::span<const FitTest> candidates, 
                        sum.transpose();
       }
     }
-    const Eigen::MatrixXd after =
-        information.llt().solve(Eigen::MatrixXd::Identity(mode.size(), mode.size()));
+    const Eigen::MatrixXd after = information.llt().solve(Eigen::MatrixXd::Identity(size, size));
     CandidateGain gain{
-        candidates[t].name, 0.5 * (log_determinant(covariance) - log_determinant(after)), {}};
-    for (Eigen::Index i = 0; i < mode.size(); ++i)
-      gain.shrink.push_back(std::sqrt(after(i, i) / covariance(i, i)));
+        candidates[t].name, 0.5 * (log_determinant(mode.covariance) - log_determinant(after)), {}};
+    for (Eigen::Index i = 0; i < size; ++i)
+      gain.shrink.push_back(std::sqrt(of_scores(after)(i, i) / of_scores(mode.covariance)(i, i)));
     gains.push_back(std::move(gain));
   }
   return gains;

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numbers>
 
 namespace wingspread {
 namespace {
@@ -164,15 +166,65 @@ std::vector<FitPoint> first_points(std::size_t dimensions, int count, std::uint6
 
 namespace {
 
+std::string pointer_of(const Channel& channel, std::string_view key) {
+  return fmt::format("/tests/{}/values/{}/{}", channel.test, channel.value, key);
+}
+
 /// The problem of a measured time that no run reaches.
 std::optional<Problem> beyond_t_end(const FitTest& test, const Channel& channel) {
-  if (channel.column) return std::nullopt;
   const FitValue& value = test.values[channel.value];
   const double t_end = test.campaign.integration.t_end;
   if (value.parameter || value.unit != "s" || value.measured <= t_end) return std::nullopt;
-  return Problem{"", fmt::format("/tests/{}/values/{}/value", channel.test, channel.value),
+  return Problem{"", pointer_of(channel, "value"),
                  fmt::format("{:.6g} s, beyond t_end = {:.6g} s", value.measured, t_end),
                  "a time within the run"};
+}
+
+/// The problem of a parameter of the scene that no fitted one changes: its measured value tells nothing.
+std::optional<Problem> told_in_vain(const FitTest& test, const Channel& channel,
+                                    std::span<const double> predicted) {
+  const FitValue& value = test.values[channel.value];
+  if (!value.parameter ||
+      std::ranges::adjacent_find(predicted, std::not_equal_to()) != predicted.end())
+    return std::nullopt;
+  return Problem{
+      "", pointer_of(channel, "parameter"),
+      fmt::format("\"{}\", which no fitted parameter changes: its value tells nothing", value.name),
+      "a parameter that a fitted dispersion changes, as a \"scale\": a measured value over the "
+      "scene's"};
+}
+
+/// The problem of an output far from all runs, which they have in another unit or sense. Heuristic: far is five times
+/// what the runs spread, and an explanation leads to within one; a test within its prior is not so far.
+std::optional<Problem> in_another_unit(const FitTest& test, const Channel& channel,
+                                       std::span<const double> predicted) {
+  constexpr double far = 5, degrees = 180 / std::numbers::pi;
+  const FitValue& value = test.values[channel.value];
+  const auto [low, high] = std::ranges::minmax(predicted);
+  const double spread = high - low + value.std;
+  const auto distance = [&](double number) { return std::max({low - number, number - high, 0.0}); };
+  if (value.parameter || !(distance(value.measured) > far * spread)) return std::nullopt;
+  for (const double factor : {-1.0, degrees, 1 / degrees, -degrees, -1 / degrees, 1e3, 1e-3}) {
+    if (!(distance(value.measured / factor) < spread)) continue;
+    return Problem{"", pointer_of(channel, "value"),
+                   fmt::format("{:.6g} {}, {}, where runs of the prior have {:.4g} to {:.4g} {}",
+                               value.measured, value.unit,
+                               factor == -1 ? std::string("of the opposite sense")
+                                            : fmt::format("{:.4g} times too large", factor),
+                               low, high, value.unit),
+                   factor == -1 ? "the sense of the scene"
+                                : "a value with its unit, as \"-40 deg/s\""};
+  }
+  return std::nullopt;
+}
+
+/// The problem of a measured value, given those of the runs that have it.
+std::optional<Problem> problem_of_value(const FitTest& test, const Channel& channel,
+                                        std::span<const double> predicted) {
+  if (auto late = beyond_t_end(test, channel)) return late;
+  if (predicted.empty()) return std::nullopt;
+  if (auto vain = told_in_vain(test, channel, predicted)) return vain;
+  return in_another_unit(test, channel, predicted);
 }
 
 } // namespace
@@ -183,9 +235,15 @@ std::vector<Problem> unpredictable(std::span<const FitTest> tests, TestRuns& run
   const FitData data = data_of(tests);
   std::vector<Problem> problems;
   for (const Channel& channel : data.channels) {
-    if (auto late = beyond_t_end(tests[channel.test], channel)) {
-      problems.push_back(std::move(*late));
-      continue;
+    if (!channel.column) {
+      std::vector<double> predicted;
+      for (const Prediction& prediction : tried)
+        if (std::isfinite(prediction[channel.first]))
+          predicted.push_back(prediction[channel.first]);
+      if (auto problem = problem_of_value(tests[channel.test], channel, predicted)) {
+        problems.push_back(std::move(*problem));
+        continue;
+      }
     }
     const auto compares = [&](const Prediction& prediction) {
       return std::isfinite(fit_of(data, channel, prediction).log_likelihood);

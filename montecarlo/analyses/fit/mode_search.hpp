@@ -44,8 +44,9 @@ struct FitMode {
 [[nodiscard]] std::vector<FitPoint> first_points(std::size_t dimensions, int count,
                                                  std::uint64_t seed);
 
-/// A problem for each channel that no run at the points predicts, whose distance to every prediction overflows, or that is
-/// a time beyond t_end; with its pointer in the tests' file.
+/// A problem for each channel that no run at the points predicts, whose distance to every prediction overflows, that is
+/// a time beyond t_end, a parameter of the scene that is the same at all points, or an output in another unit or sense than
+/// all runs have it; with its pointer in the tests' file.
 [[nodiscard]] std::vector<Problem> unpredictable(std::span<const FitTest> tests, TestRuns& runs,
                                                  std::span<const FitPoint> points);
 

@@ -87,7 +87,8 @@ std::vector<std::size_t> connected(const std::vector<RankCorrelation>& correlati
 } // namespace
 
 ParameterSpace::ParameterSpace(const Campaign& campaign, const FitSpec& spec)
-    : copula_(common_first(campaign, spec), campaign.wanted_correlations) {
+    : dispersions_(campaign.dispersions.size()),
+      copula_(common_first(campaign, spec), campaign.wanted_correlations) {
   const auto name = [&](std::size_t i) { return campaign.dispersions[i].name; };
   std::vector<std::size_t> own; // of every test
   for (const std::size_t i : spec.parameters)
@@ -125,6 +126,21 @@ void ParameterSpace::place(std::optional<std::size_t> test, const FitPoint& at,
   if (copula_.is_independent()) return;
   const std::vector<Tails> uncoupled(u.begin(), u.end());
   copula_.couple(uncoupled, u);
+}
+
+Eigen::MatrixXd ParameterSpace::coupling() const {
+  const auto n = static_cast<Eigen::Index>(list_.size());
+  Eigen::MatrixXd coupling = Eigen::MatrixXd::Identity(n, n);
+  if (copula_.is_independent()) return coupling;
+  std::vector<Tails> u(dispersions_);
+  for (Eigen::Index column = 0; column < n; ++column)
+    for (Eigen::Index row = 0; row < n; ++row) {
+      const FitParameter& parameter = list_[static_cast<std::size_t>(row)];
+      if (parameter.kind != Kind::dispersion) continue;
+      place(parameter.test, FitPoint::Unit(n, column), u);
+      coupling(row, column) = inverse(Normal{}, u[parameter.dispersion]);
+    }
+  return coupling;
 }
 
 double ParameterSpace::time_offset(std::size_t test, const FitPoint& at) const {
@@ -211,17 +227,34 @@ Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted) {
   return campaign;
 }
 
+struct PhysicalValues::Laws {
+  Laws(const Campaign& given, const std::vector<std::size_t>& fitted, const UnitPoints& points)
+      : campaign(without_correlations(fixed_but(given, fitted))), plan(campaign, points) {}
+  Campaign campaign;
+  RunPlan plan;
+};
+
 PhysicalValues::PhysicalValues(const Campaign& campaign, const FitSpec& spec,
                                const ParameterSpace& space)
-    : space_(space), campaign_(without_correlations(fixed_but(campaign, spec.parameters))),
-      plan_(campaign_, [this](long, std::span<Tails> u) { space_.place(test_, *at_, u); }) {}
+    : space_(space) {
+  const auto place = [this](long, std::span<Tails> u) { space_.place(test_, *at_, u); };
+  laws_.push_back(std::make_unique<Laws>(campaign, spec.parameters, place));
+  for (const FitTest& test : spec.tests)
+    laws_.push_back(
+        test.own.empty() ? nullptr : std::make_unique<Laws>(test.campaign, spec.parameters, place));
+}
 
-std::vector<double> PhysicalValues::of(const FitPoint& at) {
+PhysicalValues::~PhysicalValues() = default;
+
+std::vector<double> PhysicalValues::of(const FitPoint& at) { return values(at, true); }
+std::vector<double> PhysicalValues::of_new_unit(const FitPoint& at) { return values(at, false); }
+
+std::vector<double> PhysicalValues::values(const FitPoint& at, bool by_tests) {
   std::vector<double> values(space_.size());
   at_ = &at;
-  std::vector<double> draws(campaign_.dispersions.size());
+  std::vector<double> draws(laws_.front()->campaign.dispersions.size());
   test_.reset();
-  plan_.draw(0, draws);
+  laws_.front()->plan.draw(0, draws);
   for (std::size_t k = 0; k < space_.size(); ++k) {
     const FitParameter& parameter = space_.list()[k];
     if (parameter.kind != FitParameter::Kind::dispersion) {
@@ -230,7 +263,7 @@ std::vector<double> PhysicalValues::of(const FitPoint& at) {
     }
     if (parameter.test && parameter.test != test_) {
       test_ = parameter.test;
-      plan_.draw(0, draws);
+      laws_[by_tests ? *test_ + 1 : 0]->plan.draw(0, draws);
     }
     values[k] = draws[parameter.dispersion];
   }

@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -54,6 +55,9 @@ public:
   /// The unit point of a run of the test, coupled: for a campaign without_correlations(). Dispersions that are not fitted
   /// are at their medians, given the fitted ones. @param u output, per dispersion
   void place(std::optional<std::size_t> test, const FitPoint& at, std::span<Tails> u) const;
+  /// z = L u: the normal scores of the parameters. Priors correlate some of them, so L Lᵀ are the correlations of z. An
+  /// offset's score is its u.
+  [[nodiscard]] Eigen::MatrixXd coupling() const;
   /// Clock offset of the test at the point, s.
   [[nodiscard]] double time_offset(std::size_t test, const FitPoint& at) const;
   /// Offset of a column of the test, if it is an unknown; else 0.
@@ -62,7 +66,8 @@ public:
 
 private:
   std::vector<FitParameter> list_;
-  std::size_t common_ = 0;
+  std::size_t common_ = 0,
+              dispersions_; ///< numbers of common parameters, and of the campaign's dispersions
   GaussianCopula copula_;
   std::vector<std::size_t> dependent_;
 };
@@ -92,16 +97,23 @@ public:
   PhysicalValues(const Campaign& campaign, const FitSpec& spec, const ParameterSpace& space);
   PhysicalValues(const PhysicalValues&) = delete;
   PhysicalValues& operator=(const PhysicalValues&) = delete;
+  ~PhysicalValues();
 
-  /// The values of all parameters of the space, in its order.
+  /// The values of all parameters of the space, in its order. A test's own ones follow the laws of the test's case.
   [[nodiscard]] std::vector<double> of(const FitPoint& at);
+  /// The same by the campaign's laws alone: what a new unit has.
+  [[nodiscard]] std::vector<double> of_new_unit(const FitPoint& at);
 
 private:
+  struct Laws; // of the campaign, or of a test
+
+  [[nodiscard]] std::vector<double> values(const FitPoint& at, bool by_tests);
+
   const ParameterSpace& space_;
-  Campaign campaign_;
   std::optional<std::size_t> test_;
   const FitPoint* at_ = nullptr;
-  RunPlan plan_;
+  std::vector<std::unique_ptr<Laws>>
+      laws_; ///< the campaign's, then each test's; null: it has nothing of its own
 };
 
 } // namespace wingspread

@@ -27,14 +27,65 @@ Campaign campaign_for(const FitTest& test, const std::vector<std::size_t>& fitte
   return campaign;
 }
 
+/// The last time at which a run's motion may be needed, s.
+double last_needed(const FitTest& test) {
+  return test.times.back() + offsets_covered * test.time_offset_std;
+}
+
 SampledColumns samples_for(const FitTest& test) {
   SampledColumns samples;
   if (test.columns.empty()) return samples;
   for (const FitColumn& column : test.columns) samples.columns.push_back(column.index);
-  samples.interval = grid_interval(test.times);
-  const double last = test.times.back() + offsets_covered * test.time_offset_std;
-  samples.t_end = (std::ceil(last / samples.interval) + 0.5) * samples.interval; // beyond a sample
+  samples.interval = test.interval > 0 ? test.interval : grid_interval(test.times);
+  samples.t_end = // beyond a sample
+      (std::ceil(last_needed(test) / samples.interval) + 0.5) * samples.interval;
   return samples;
+}
+
+/// The step of which all times are multiples, not longer than `longest`; nothing if they are none of their least distance.
+std::optional<double> common_step(const std::vector<double>& times, double longest) {
+  double least = times.back();
+  for (std::size_t i = 1; i < times.size(); ++i) least = std::min(least, times[i] - times[i - 1]);
+  constexpr double rounding = 1e-6;
+  const auto is_multiple = [&](double t) {
+    return std::abs(t / least - std::round(t / least)) < rounding;
+  };
+  if (!(least > 0) || !std::ranges::all_of(times, is_multiple)) return std::nullopt;
+  return least / std::ceil(least / longest);
+}
+
+/// The noise of a column whose std is not known, from its second differences: their lower quartile, as shocks have large
+/// ones. Normal noise σ has second differences of σ√6, and a quarter of them within 0.319 of that.
+double noise_of(const std::vector<double>& measured) {
+  constexpr double least_of_range = 1e-5, quarter = 0.319;
+  std::vector<double> bends;
+  for (std::size_t i = 1; i + 1 < measured.size(); ++i)
+    bends.push_back(std::abs(measured[i - 1] - 2 * measured[i] + measured[i + 1]));
+  const auto [low, high] = std::ranges::minmax(measured);
+  if (bends.empty()) return high - low;
+  std::ranges::sort(bends);
+  return std::max(quantile(bends, 0.25) / (quarter * std::sqrt(6.0)),
+                  least_of_range * (high - low));
+}
+
+/// What the differences of two predictions add to the χ² of a test: the median over the points that have both.
+/// @param first of the test's numbers
+double added_chi_squared(const FitTest& test, std::size_t first,
+                         const std::vector<Prediction>& coarse,
+                         const std::vector<Prediction>& fine) {
+  std::vector<double> sums;
+  for (std::size_t k = 0; k < coarse.size(); ++k) {
+    double sum = 0;
+    std::size_t at = first;
+    for (const FitColumn& column : test.columns) {
+      const double noise = column.std ? *column.std : noise_of(column.measured);
+      for (std::size_t i = 0; i < test.times.size(); ++i, ++at)
+        sum += std::pow((coarse[k][at] - fine[k][at]) / noise, 2);
+    }
+    if (std::isfinite(sum)) sums.push_back(sum);
+  }
+  std::ranges::sort(sums);
+  return sums.empty() ? 0 : quantile(sums, 0.5);
 }
 
 } // namespace
@@ -62,6 +113,77 @@ FitData data_of(std::span<const FitTest> tests) {
     }
   }
   return data;
+}
+
+namespace {
+
+/// Halves the interval of a test's samples, or makes its times the samples, until interpolation adds no more to χ².
+class IntervalSearch {
+public:
+  explicit IntervalSearch(FitTest& test) : test_(test), is_open_(!test.columns.empty()) {
+    if (is_open_) test_.interval = grid_interval(test_.times);
+  }
+
+  [[nodiscard]] bool is_open() const { return is_open_; }
+
+  /// The next interval, s; the present one once the search is over.
+  [[nodiscard]] double next() {
+    if (!is_open_) return test_.interval;
+    const auto shared =
+        test_.time_offset_std > 0 ? std::nullopt : common_step(test_.times, test_.interval);
+    is_exact_ = shared && fits(*shared);
+    return is_exact_ ? *shared : test_.interval / 2;
+  }
+
+  /// @param added to χ² by the present interval instead of `next`
+  void compare(double added, double next) {
+    if (!is_open_) return;
+    test_.interpolation = added;
+    is_open_ = added > most_interpolated;
+    if (!is_open_) return;
+    test_.interval = next;
+    if (is_exact_) test_.interpolation = 0;
+    is_open_ = !is_exact_ && fits(next / 2);
+  }
+
+private:
+  [[nodiscard]] bool fits(double interval) const {
+    constexpr double most_numbers = 80'000; // of a run: 640 kB
+    return 2 * static_cast<double>(test_.columns.size()) * last_needed(test_) <=
+           most_numbers * interval;
+  }
+
+  FitTest& test_;
+  bool is_open_, is_exact_ = false;
+};
+
+} // namespace
+
+long choose_intervals(std::vector<FitTest>& tests, const std::vector<std::size_t>& fitted,
+                      const ParameterSpace& space, Evaluator& evaluator,
+                      std::span<const FitPoint> points, bool are_candidates) {
+  std::vector<IntervalSearch> searches;
+  for (FitTest& test : tests) searches.emplace_back(test);
+  std::vector<FitTest> traces = tests;
+  for (FitTest& test : traces) test.values.clear();
+  long runs = 0;
+  const auto predict = [&] {
+    TestRuns all(traces, fitted, space, evaluator, are_candidates);
+    std::vector<Prediction> predictions = all.predict(points, RunAccuracy::campaign);
+    runs += all.runs();
+    return predictions;
+  };
+  if (std::ranges::none_of(searches, &IntervalSearch::is_open)) return 0;
+  for (std::vector<Prediction> coarse = predict(), fine;
+       std::ranges::any_of(searches, &IntervalSearch::is_open); coarse = std::move(fine)) {
+    for (std::size_t t = 0; t < tests.size(); ++t) traces[t].interval = searches[t].next();
+    fine = predict();
+    for (std::size_t t = 0, first = 0; t < tests.size(); ++t) {
+      searches[t].compare(added_chi_squared(traces[t], first, coarse, fine), traces[t].interval);
+      first += traces[t].columns.size() * traces[t].times.size();
+    }
+  }
+  return runs;
 }
 
 /// One test at one accuracy.

@@ -1,11 +1,12 @@
 /// Predictions of all measured numbers at points of the parameter space, by runs of the tests.
 ///
 /// A trace is compared at its own times. A run is sampled on a fixed grid by the integrator's dense output. Between the
-/// grid's times, angles are interpolated by cubic Hermite polynomials of angle and rate, other columns linearly. With a
-/// fixed grid the prediction is as smooth in the parameters as the motion. The integrator's steps are no such grid,
-/// because they move with the parameters.
+/// grid's times, angles and rates are those of cubic Hermite polynomials of angle and rate, other columns are linear.
+/// With a fixed grid the prediction is as smooth in the parameters as the motion. The integrator's steps are no such
+/// grid, because they move with the parameters.
 /// Interpolation error of an angle: h⁴/384 times its fourth derivative, and about h²/50 times the jump of an
-/// acceleration at a latch. h is 10 to 20 ms, so the error is 2e-5 rad for a jump of 3 rad/s².
+/// acceleration at a latch; of a moment: h²/8 times its second derivative, and up to half its jump at a latch.
+/// choose_intervals makes h so small that the errors do not count beside the noise.
 ///
 /// Values that are outputs come from separate runs, which end once the outputs are known.
 #pragma once
@@ -43,6 +44,20 @@ using Prediction = std::vector<double>;
 
 /// The accuracy of runs: as the campaign asks, or good enough to be differentiated (rtol ≤ 1e-10).
 enum class RunAccuracy { campaign, derivative };
+
+/// Interpolation may add so much to the χ² of a test. Heuristic: a parameter then moves by at most √0.01 = 0.1 standard
+/// deviations, if all errors act on it alone.
+inline constexpr double most_interpolated = 0.01;
+
+/// Sets FitTest::interval of every test with a trace, and what interpolation adds to its χ². The interval is halved until
+/// that is no more than most_interpolated in half of the runs at `points`. Times that are multiples of one step, on a
+/// clock without an offset, need no interpolation: if grid_interval is too coarse, they are the grid. A run keeps at most
+/// 80,000 numbers; where this stops the search, `interpolation` stays larger.
+/// A column of unknown noise has that of its second differences. @return the number of runs made. @throws Stopped
+[[nodiscard]] long choose_intervals(std::vector<FitTest>& tests,
+                                    const std::vector<std::size_t>& fitted,
+                                    const ParameterSpace& space, Evaluator& evaluator,
+                                    std::span<const FitPoint> points, bool are_candidates = false);
 
 class TestRuns {
 public:

@@ -23,10 +23,12 @@ constexpr long prior_runs = 16;
 constexpr std::size_t least_compared = 10, most_compared = 500;
 constexpr double own_misfit = 0.3, other_fit = 0.1, times_better = 5;
 
-/// A hypothesis: measured number = factor · column of the trajectory at (time · time_factor − time_shift).
+/// A hypothesis: measured number = factor · column of the trajectory at (time · time_factor − time_shift), less the
+/// column's first value if it counts from the start.
 struct Explanation {
   std::size_t column = 0; ///< of the trajectory, without t
   double factor = 1, time_factor = 1, time_shift = 0;
+  bool from_start = false;
 };
 
 /// Root mean square of the residuals, and the largest predicted number less the least.
@@ -91,10 +93,20 @@ private:
     const FitColumn& column = test_.columns[c];
     const std::size_t own = column.index - 1;
     std::vector<Explanation> list;
-    for (const double factor : {-1.0, degrees, 1 / degrees, 1e3, 1e-3})
+    // turns, in SI or as degrees; milliradians as degrees
+    constexpr double turns = degrees / 360, turns_as_degrees = 1 / 360.0,
+                     milli_as_degrees = 1e3 / degrees;
+    for (const double factor :
+         {-1.0, degrees, 1 / degrees, 1e3, 1e-3, turns, turns_as_degrees, milli_as_degrees})
       list.push_back({own, factor});
     list.push_back({own, 1, 1e-3});
     list.push_back({own, 1, 1, test_.times.front()});
+    const bool is_angle = column.unit == "rad" && !runs_.empty();
+    constexpr double explained =
+        4; // standard deviations: an offset that the test allows is no mistake
+    if (is_angle && std::abs(motion_.at(runs_.front(), own, 0)) > explained * column.offset_std)
+      for (const double factor : {1.0, -1.0, degrees, -degrees, 1 / degrees, -1 / degrees})
+        list.push_back({own, factor, 1, 0, true});
     for (std::size_t k = 1; k < names_.size(); ++k)
       if (k != column.index && unit_of_column(names_[k]) == column.unit) list.push_back({k - 1});
     return list;
@@ -110,7 +122,8 @@ private:
       long count = 0;
       for (std::size_t i = 0; i < measured.size(); i += stride, ++count) {
         const double t = test_.times[i] * other.time_factor - other.time_shift;
-        const double predicted = other.factor * motion_.at(run, other.column, t);
+        const double start = other.from_start ? motion_.at(run, other.column, 0) : 0;
+        const double predicted = other.factor * (motion_.at(run, other.column, t) - start);
         sum += std::pow(measured[i] - predicted, 2);
         low = std::min(low, predicted), high = std::max(high, predicted);
       }
@@ -143,6 +156,13 @@ void refuse(const TraceColumn& at, const TraceColumn& time, const std::string& o
   if (its_name != own)
     return void(at.at.refuse(fmt::format("the motion of {}", its_name),
                              fmt::format("the motion of {}: is it another hinge's column?", own)));
+  if (other.from_start)
+    return void(at.at.refuse(fmt::format("the travel from the start of the motion{}",
+                                         other.factor < 0 ? ", in the opposite sense" : ""),
+                             fmt::format("{}, which begins at its stowed angle{}", own,
+                                         other.factor == 1 || other.factor == -1
+                                             ? ""
+                                             : ", in a \"unit\" that fits the numbers")));
   if (other.factor < 0)
     return void(at.at.refuse(
         "the motion in the opposite sense",

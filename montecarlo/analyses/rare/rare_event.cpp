@@ -178,6 +178,8 @@ private:
       values.push_back(value);
       ++result_.statuses[static_cast<std::size_t>(status)];
       result_.cut += cut, result_.open_latches += open;
+      result_.undeployed +=
+          !options_.event.output.empty() && status != Status::deployed && !std::isnan(value);
     }
     made_ += std::ssize(points);
     return values;

@@ -39,10 +39,12 @@ struct RareResult {
   /// Dispersions with values that the first levels may miss, and the expected draws of the rarest one. With any, no
   /// upper bound is below that of plain sampling.
   std::vector<std::pair<std::string, double>> unseen;
-  RareEstimate estimate;                 ///< over all strata
-  std::array<long, 5> statuses{};        ///< of all runs made, in the order of Status
-  long cut = 0;                          ///< runs whose peak t_end cut; they count as the event
-  long open_latches = 0;                 ///< deployed runs whose latches may let go after t_end
+  RareEstimate estimate;          ///< over all strata
+  std::array<long, 5> statuses{}; ///< of all runs made, in the order of Status
+  long cut = 0;                   ///< runs whose peak t_end cut; they count as the event
+  long open_latches = 0;          ///< deployed runs whose latches may let go after t_end
+  long undeployed =
+      0; ///< runs that did not deploy, but have the event's output: they count by its value
   std::optional<LikeliestRun> likeliest; ///< none if no sampled run has the event
 };
 

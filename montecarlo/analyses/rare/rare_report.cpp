@@ -270,6 +270,12 @@ std::vector<std::string> doubts_of(const RareResult& result) {
     doubts.push_back(fmt::format("{} of {} runs have an unphysical draw and count as the event",
                                  invalid, result.estimate.evaluations));
   if (result.cut > 0) doubts.push_back(cut_text(result));
+  if (result.undeployed > 0)
+    doubts.push_back(fmt::format(
+        "{} of {} runs did not deploy and count by their value, where a requirement counts "
+        "them as broken; without --output, `rare` states the probability that a wing does "
+        "not deploy",
+        result.undeployed, result.estimate.evaluations));
   if (result.open_latches > 0)
     doubts.push_back(warn_of_open_latches(result.open_latches, result.estimate.evaluations));
   const auto any = [&](auto is) {

@@ -11,7 +11,7 @@ namespace wingspread {
 /// The columns that every run of a plan keeps, at multiples of an interval from 0 to t_end. No such run ends early.
 struct SampledColumns {
   std::vector<std::size_t>
-      columns; ///< indices into trajectory_columns(); an angle's rate follows the angle
+      columns; ///< indices into trajectory_columns(); a rate stands next to its angle
   double interval = 0, t_end = 0; ///< s, > 0
   bool operator==(const SampledColumns&) const = default;
 };
@@ -22,18 +22,20 @@ struct SampledColumns {
 /// The goal of a run for these columns: its motion to t_end, without peaks.
 [[nodiscard]] Goal goal_of(const Scene& scene, const SampledColumns& columns);
 
-/// Collects a run's samples in a list of numbers. A sample adds two numbers for each column: its value, and the value
-/// of the next column of the trajectory (for an angle its rate).
+/// What a column is, which decides how it is interpolated.
+enum class ColumnKind { angle, rate, other };
+
+/// Collects a run's samples in a list of numbers. A sample adds two numbers for each column: its value, and for an
+/// angle its rate, for a rate its angle.
 class SampleTaker {
 public:
-  SampleTaker(const Scene& scene, const SampledColumns& columns)
-      : base_(scene.base.motion), columns_(columns.columns) {}
+  SampleTaker(const Scene& scene, const SampledColumns& columns);
   /// Appends one sample.
   void take(const Sample& sample, std::vector<double>& numbers);
 
 private:
   BaseMotion base_;
-  std::vector<std::size_t> columns_;
+  std::vector<std::size_t> columns_, partners_;
   std::vector<double> row_; ///< scratch
 };
 
@@ -44,13 +46,14 @@ public:
 
   /// Whether the numbers are the samples of a run that did not fail.
   [[nodiscard]] bool is_whole(std::span<const double> numbers) const;
-  /// The value of SampledColumns::columns[which] at time t; before and after the run the value at its ends.
+  /// The value of SampledColumns::columns[which] at time t; before and after the run the value at its ends. Between
+  /// samples, angles and rates are those of the cubic with the angles and rates of both; other columns are linear.
   /// @pre is_whole(numbers)
   [[nodiscard]] double at(std::span<const double> numbers, std::size_t which, double t) const;
 
 private:
   double interval_;
-  std::vector<bool> is_angle_; ///< by column
+  std::vector<ColumnKind> kinds_; ///< by column
 };
 
 } // namespace wingspread

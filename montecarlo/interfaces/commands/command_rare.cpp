@@ -203,7 +203,8 @@ drawn (a release that fails, one in 100,000) is simulated by itself, with its ex
 an estimated upper bound, not guaranteed.
   A run without the output (it stalled before, or failed) counts as the event. So does a run whose
 peak t_end cut, as it breaks a requirement in `wingspread run`; their number is printed. A longer
-t_end ("integration" in the campaign) decides them.
+t_end ("integration" in the campaign) decides them. A run that did not deploy but has the output
+counts by its value, although it breaks every requirement in `wingspread run`.
 
 With --out the folder has looks.log, a checkpoint of all runs, until the study is finished: after an
 interruption, a crash or a kill the same command with --resume gives the same bytes.

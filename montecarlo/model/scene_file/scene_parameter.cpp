@@ -58,23 +58,6 @@ Path split(std::string_view path) {
   return {list, name, path};
 }
 
-/// Whether the name matches the pattern; `*` matches any characters.
-bool is_like(std::string_view name, std::string_view pattern) {
-  std::size_t n = 0, p = 0, star = pattern.size(), after_star = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++, after_star = n;
-    } else if (p < pattern.size() && pattern[p] == name[n]) {
-      ++n, ++p;
-    } else if (star < pattern.size()) { // let the last star match one more character
-      p = star + 1, n = ++after_star;
-    } else {
-      return false;
-    }
-  }
-  return pattern.find_first_not_of('*', p) == std::string_view::npos;
-}
-
 /// Adds the path's matches among owners of one kind. Where an owner lacks the field, notes what would have it.
 template <class Named, std::size_t n>
 void match(Owner kind, std::span<const Named> owners, const std::array<Field<Named>, n>& fields,
@@ -141,6 +124,22 @@ ParameterMatches find_matches(const Scene& scene, const Path& parts) {
 }
 
 } // namespace
+
+bool is_like(std::string_view name, std::string_view pattern) {
+  std::size_t n = 0, p = 0, star = pattern.size(), after_star = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++, after_star = n;
+    } else if (p < pattern.size() && pattern[p] == name[n]) {
+      ++n, ++p;
+    } else if (star < pattern.size()) { // let the last star match one more character
+      p = star + 1, n = ++after_star;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
 
 double& SceneParameter::in(Scene& scene) const {
   return with_owner(*this, scene, [this](auto& its, const auto& fields) -> double& {

@@ -55,4 +55,7 @@ struct ParameterMatches {
 /// The paths of all parameters of the scene.
 [[nodiscard]] std::vector<std::string> parameter_paths(const Scene& scene);
 
+/// Whether the name matches the pattern; `*` matches any characters.
+[[nodiscard]] bool is_like(std::string_view name, std::string_view pattern);
+
 } // namespace wingspread

@@ -168,12 +168,15 @@
     });
   }
 
-  // A predicted output: its median and the quantiles around it, with four digits, or as many as tell them apart.
+  // A predicted output: its median and the quantiles around it, with four digits, or as many as tell them apart. A quantile
+  // that too many runs lack is null.
   function range([low, middle, high], unit) {
     const { factor } = F.shown(unit),
       size = (value) => Math.floor(Math.log10(Math.abs(value) || 1)),
-      digits = Math.max(4, high > low ? size(high) - size(high - low) + 3 : 4),
-      text = (value) => F.number(value * factor, digits);
+      known = [low, middle, high].filter((value) => value !== null),
+      [least, most] = [Math.min(...known), Math.max(...known)],
+      digits = Math.max(4, most > least ? size(most) - size(most - least) + 3 : 4),
+      text = (value) => (value === null ? "none" : F.number(value * factor, digits));
     return `${text(middle)} (${text(low)} … ${text(high)})`;
   }
   const spread = (mean, std) => `${F.sized(mean, std)} ± ${F.sized(std, std)}`;
@@ -227,7 +230,10 @@
         ? W.table(
             "Prediction: median (5 % … 95 %)",
             ["Output", "Unit", number("Before the tests"), number("After")],
-            outputs.map(([name, one]) => [F.nameOf(name), F.shown(one.unit).unit, range(one.before, one.unit), range(one.after, one.unit)]),
+            [
+              ...(fit.deployed ? [["deployed", "", F.share(fit.deployed.before), F.share(fit.deployed.after)]] : []),
+              ...outputs.map(([name, one]) => [F.nameOf(name), F.shown(one.unit).unit, range(one.before, one.unit), range(one.after, one.unit)]),
+            ],
             { showCaption: true },
           )
         : null,

@@ -122,6 +122,7 @@ Json fit_block(const std::filesystem::path& folder, const Scene* scene) {
           {"samples",
            std::filesystem::exists(folder / posterior_file) ? samples_json(folder) : Json(nullptr)},
           {"candidates", study.value("candidates", Json::array())},
+          {"deployed", study.value("predicted_deployed", Json(nullptr))},
           {"prediction", prediction_json(study.value("prediction", Json::object()))}};
 }
 

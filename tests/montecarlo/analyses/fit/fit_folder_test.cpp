@@ -92,3 +92,27 @@ TEST_CASE("the written campaign draws rows of the posterior and predicts what th
   CHECK(json["tests"][0]["values"]["root.latch_time"]["measured"] == 2.3);
   CHECK(json["correlation"]["spring"]["spring"] == 1);
 }
+
+TEST_CASE(
+    "a prediction states who deploys, and its quantiles are over all runs as those of a campaign") {
+  Json json = panel_campaign(0.3); // of the prior one in five is slower than t_end
+  json["integration"]["t_end"] = 2.6;
+  const Campaign before = campaign_of(json);
+  json["dispersions"][0]["distribution"]["std"] = 0.01; // all are faster
+  const FitPrediction prediction = predict(before, campaign_of(json), {.threads = 1}, never);
+  const double least = (2 * panel_travel * panel_inertia / (2.6 * 2.6) + 0.3) /
+                       panel_torque; // spring that latches in time
+  const double share = 1 - std::erfc((1 - least) / 0.3 / std::sqrt(2.0)) /
+                               2; // friction varies too: it widens little
+  CHECK(prediction.deployed[0] == Approx(share).margin(0.05));
+  CHECK(prediction.deployed[0] < 0.95);
+  CHECK(prediction.deployed[1] == 1);
+  const auto found =
+      std::ranges::find(prediction.outputs, "root.latch_time", &PredictedOutput::name);
+  REQUIRE(found != prediction.outputs.end());
+  const PredictedOutput& time = *found;
+  CHECK(std::isnan(time.before[2])); // fewer than 95 % latch
+  CHECK(time.before[1] ==
+        Approx(panel_latch_time(1, 1)).epsilon(0.03)); // of all runs the middle one
+  CHECK(time.after[2] > time.after[1]);
+}

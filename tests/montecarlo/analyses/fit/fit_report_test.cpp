@@ -54,13 +54,13 @@ FitResult result_of(oracle::Draws& draws) {
   for (const char* name : {"spring", "\"friction\", all", "time offset of vacuum"}) {
     const auto n = numbers_of(draws, 7);
     result.parameters.push_back(
-        {name, "", n[0], n[1], n[2], n[3], n[4], n[5], n[6], draws.uniform(0.1, 0.8), 0});
+        {name, "", n[0], n[1], n[2], n[3], draws.uniform(0.1, 0.8) * n[1], n[5], n[6], 0.5, 0});
   }
   result.parameters[2].unit = "s";
   result.correlation = Eigen::MatrixXd::Identity(3, 3);
   for (const auto& [i, j] : {std::pair(0, 1), {0, 2}, {1, 2}})
     result.correlation(i, j) = result.correlation(j, i) = draws.uniform(-1, 1);
-  result.u_covariance = Eigen::MatrixXd::Identity(2, 2);
+  result.score_covariance = result.prior_covariance = Eigen::MatrixXd::Identity(2, 2);
   result.directions = {{Eigen::Vector2d(0.99, -0.14), 0.95}, {Eigen::Vector2d(0.14, 0.99), 0.2}};
   result.channels = {fitted_trace(draws, 0, 0.3), fitted_trace(draws, 1, std::nullopt)};
   FittedChannel& value = result.channels.emplace_back();
@@ -71,7 +71,8 @@ FitResult result_of(oracle::Draws& draws) {
   for (std::size_t k = 0; k < 2; ++k) result.posterior.names.push_back(result.parameters[k].name);
   for (int row = 0; row < 5; ++row) result.posterior.rows.push_back(numbers_of(draws, 2));
   result.candidates = {{"less", 0.5, {0.9, 0.7, 0.8}}, {"more", 2.25, {0.4, 0.6, 1}}};
-  result.prediction = {{"tip.latch_time", {1.5, 2.5, 3.5}, {1.75, 2.25, not_a_number}}};
+  result.prediction = {{0.75, 0.875},
+                       {{"tip.latch_time", {1.5, 2.5, 3.5}, {1.75, 2.25, not_a_number}}}};
   return result;
 }
 
@@ -146,7 +147,7 @@ TEST_CASE("fit.json has every number of the result under its key") {
   oracle::Draws draws(12);
   const FitSpec spec = spec_of(draws);
   FitResult result = result_of(draws);
-  result.mode_distances = {1.5, 2.5}, result.mode_drops = {0.5, 4.5};
+  result.other_modes = {{1.5, 0.5, {1, 2, 3}}, {2.5, 4.5, {4, 5, 6}}};
   const Json json = fit_json(result, spec, {{"about", 1}});
   CHECK(json["about"] == 1);
   CHECK(json["finished"] == true);
@@ -160,7 +161,7 @@ TEST_CASE("fit.json has every number of the result under its key") {
                 {"std", one.std},
                 {"lower", one.lower},
                 {"upper", one.upper},
-                {"std_ratio", one.std_ratio}};
+                {"std_ratio", one.std / one.prior_std}};
     if (i == 2) wanted["unit"] = "s";
     CHECK(json["parameters"][one.name] == wanted);
     for (std::size_t j = 0; j < 3; ++j)
@@ -173,8 +174,13 @@ TEST_CASE("fit.json has every number of the result under its key") {
   REQUIRE(json["unseen"].size() == 1);
   CHECK(json["unseen"][0]["direction"] == Json{{"spring", 0.99}});
   CHECK(json["unseen"][0]["std_ratio"] == 0.95);
-  CHECK(json["other_modes"] == Json{{{"distance", 1.5}, {"log_posterior_below_best", 0.5}},
-                                    {{"distance", 2.5}, {"log_posterior_below_best", 4.5}}});
+  for (const std::size_t k : {0, 1}) {
+    const OtherMode& mode = result.other_modes[k];
+    CHECK(json["other_modes"][k]["distance"] == mode.distance);
+    CHECK(json["other_modes"][k]["log_posterior_below_best"] == mode.drop);
+    for (std::size_t i = 0; i < 3; ++i)
+      CHECK(json["other_modes"][k]["parameters"][result.parameters[i].name] == mode.parameters[i]);
+  }
   REQUIRE(json["tests"].size() == 2);
   const FittedChannel &known = result.channels[0], &unknown = result.channels[1];
   CHECK(json["tests"][0]["name"] == "air, 20 °C");
@@ -199,6 +205,7 @@ TEST_CASE("fit.json has every number of the result under its key") {
   CHECK(json["candidates"][1]["std_ratio"]["time offset of vacuum"] == 1);
   CHECK(json["prediction"]["tip.latch_time"]["before"] == Json{1.5, 2.5, 3.5});
   CHECK(json["prediction"]["tip.latch_time"]["after"] == Json{1.75, 2.25, nullptr});
+  CHECK(json["predicted_deployed"] == Json{{"before", 0.75}, {"after", 0.875}});
 }
 
 TEST_CASE("the text of a fit prints the numbers of the result") {
@@ -210,7 +217,7 @@ TEST_CASE("the text of a fit prints the numbers of the result") {
   for (const FittedParameter& one : result.parameters)
     check_printed(printed_after(text, one.name),
                   {one.prior_mean, one.prior_std, one.mean, one.std, one.lower, one.upper,
-                   100 * one.std_ratio},
+                   100 * one.std / one.prior_std},
                   0.05); // of 10 % and more, without decimals
   CHECK(text.find("the tests do not see spring") != std::string::npos);
   CHECK(text.find("the prior decides") == std::string::npos);
@@ -221,8 +228,10 @@ TEST_CASE("the text of a fit prints the numbers of the result") {
   CHECK(text.find("nats   spring to 40 %") != std::string::npos);
   CHECK(text.find("nats   \"friction\", all to 70 %") != std::string::npos);
   const auto predicted = printed_after(text, "tip.latch_time");
-  REQUIRE(predicted.size() == 6);
-  check_printed({predicted.begin(), predicted.begin() + 5}, {1.5, 2.5, 3.5, 1.75, 2.25});
+  REQUIRE(predicted.size() == 5);
+  check_printed(predicted, {1.5, 2.5, 3.5, 1.75, 2.25});
+  CHECK(text.find("2.25  none\n") != std::string::npos); // too many runs lack the output
+  CHECK(text.find("75.0 %") < text.find("87.5 %"));      // deployed, before and after
   CHECK(text.ends_with("\n12345 runs; effective sample size 72, split R-hat 1.0312, 62 % of the "
                        "moves accepted\n"));
 }
@@ -263,13 +272,12 @@ TEST_CASE("each finding of a fit is told on its side of its limit, and not on th
   CHECK_THAT(told([](FitResult& result) { result.finished = false; }),
              Contains("effective sample size 72 of 70, split R-hat 1.031 after 4321 runs"));
   const auto mode = [&](double distance) {
-    return told(
-        [&](FitResult& result) { result.mode_distances = {distance}, result.mode_drops = {1.5}; });
+    return told([&](FitResult& result) { result.other_modes = {{distance, 1.5, {7.5, 2, 3}}}; });
   };
-  CHECK_THAT(mode(3.1), Contains("3.1 sd away, 1.5 nats below"));
+  CHECK_THAT(mode(3.1), Contains("3.1 sd away, 1.5 nats below") && Contains("spring 7.5 (best "));
   CHECK(mode(2.9).empty());
   const auto cut = [&](long runs) {
-    return told([&](FitResult& result) { result.prediction[0].cut = runs; });
+    return told([&](FitResult& result) { result.prediction.outputs[0].cut = runs; });
   };
   CHECK_THAT(cut(7), Contains("the predicted peaks of tip.latch_time in up to 7 of 2000 runs"));
   CHECK(cut(0).empty());

@@ -249,6 +249,23 @@ TEST_CASE("a trace of another unit, sense, column or zero of time is refused") {
   CHECK(told([&](double t, double angle) { return row(t + 7, angle); }) ==
         "t: /tests/0/trace/time: found times that begin at 7 s, with a motion that begins there, "
         "expected times since the release");
+  const auto travel = [&](double factor) {
+    return told(
+        [&, factor](double t, double angle) { return row(t, factor * (panel_travel - angle)); });
+  };
+  CHECK_THAT(
+      travel(1),
+      Catch::Contains(std::string(at_column) +
+                      "found the travel from the start of the motion, in the opposite sense") &&
+          Catch::Contains("stowed angle"));
+  CHECK_THAT(travel(-1),
+             Catch::Contains("found the travel from the start") && !Catch::Contains("opposite"));
+  CHECK_THAT(travel(180 / M_PI),
+             Catch::Contains("in the opposite sense") && Catch::Contains("\"unit\""));
+  for (const double factor :
+       {0.5 / M_PI, 1 / 360.0, 1e3 * M_PI / 180}) // turns; turns, milliradians as degrees
+    CHECK_THAT(told([&, factor](double t, double angle) { return row(t, factor * angle); }),
+               Catch::Contains("times those of the motion"));
   // a wrong trace that nothing explains is for the fit to judge
   CHECK(told([&](double t, double) { return row(t, std::sin(9 * t)); }).empty());
 }

@@ -38,6 +38,22 @@ constexpr const char* both_ways = R"({ "tests": [
                "columns": { "root.angle": { "column": "th", "std": 0.005 } } } } ],
   "fit": { "parameters": ["spring", "friction"], "samples": 800, "starts": 2 } })";
 
+/// Covariance of spring s and friction f in u by traces with these initial rates: the inverse of Fisher's information and
+/// the prior's, with slopes of the closed form.
+Eigen::Matrix2d fisher_covariance(double s, double f, std::initializer_list<double> rates) {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Identity();
+  const double h = 1e-5;
+  for (const double rate : rates)
+    for (int k = 0; k <= 80; ++k) {
+      const double t = 0.02 * k;
+      const Eigen::Vector2d slope{
+          0.05 * (panel_angle(t, s + h, f, rate) - panel_angle(t, s - h, f, rate)) / (2 * h),
+          0.3 * (panel_angle(t, s, f + h, rate) - panel_angle(t, s, f - h, rate)) / (2 * h)};
+      information += slope * slope.transpose() / (0.005 * 0.005);
+    }
+  return information.inverse();
+}
+
 } // namespace
 
 TEST_CASE("the posterior of one torque from one latch time is that of Bayes' rule") {
@@ -88,7 +104,8 @@ TEST_CASE("one trace sees only the difference of spring and friction, and the fi
   REQUIRE(result.directions.size() == 2);
   CHECK(result.directions[0].std_ratio == Approx(1).margin(0.1));
   CHECK(result.directions[1].std_ratio < 0.05);
-  CHECK(describe(result.directions[0], {"spring", "friction"}, result.u_covariance)
+  CHECK(describe(result.directions[0], {"spring", "friction"}, result.score_covariance,
+                 result.prior_covariance)
             .starts_with("the tests tell spring and friction only by their difference"));
   CHECK(fit_text(result, spec_of(one_way, folder.path(), campaign)).find("IDENTIFIABILITY") !=
         std::string::npos);
@@ -103,19 +120,10 @@ TEST_CASE("a test in both senses separates them, by as much as Fisher's informat
   const FitResult result = fitted(campaign, spec_of(both_ways, folder.path(), campaign));
   REQUIRE(result.finished);
   CHECK(std::abs(result.correlation(0, 1)) < 0.5);
-  Eigen::Matrix2d information = Eigen::Matrix2d::Identity(); // of the prior, in u
-  const double s = result.parameters[0].mode, f = result.parameters[1].mode, h = 1e-5;
-  for (const double rate : {0.0, 0.8})
-    for (int k = 0; k <= 80; ++k) {
-      const double t = 0.02 * k;
-      const Eigen::Vector2d slope{
-          0.05 * (panel_angle(t, s + h, f, rate) - panel_angle(t, s - h, f, rate)) / (2 * h),
-          0.3 * (panel_angle(t, s, f + h, rate) - panel_angle(t, s, f - h, rate)) / (2 * h)};
-      information += slope * slope.transpose() / (0.005 * 0.005);
-    }
-  const Eigen::Matrix2d covariance = information.inverse();
+  const Eigen::Matrix2d covariance =
+      fisher_covariance(result.parameters[0].mode, result.parameters[1].mode, {0.0, 0.8});
   for (int i = 0; i < 2; ++i)
-    CHECK(result.parameters[static_cast<std::size_t>(i)].std_ratio ==
+    CHECK(result.parameters[static_cast<std::size_t>(i)].score_std ==
           Approx(std::sqrt(covariance(i, i))).epsilon(0.1));
   CHECK(std::abs(result.parameters[0].mean - 1.02) < 4 * result.parameters[0].std);
   CHECK(std::abs(result.parameters[1].mean - 1.1) < 4 * result.parameters[1].std);
@@ -137,13 +145,15 @@ TEST_CASE("a candidate's expected information is what the test then gives") {
   const FitResult after = fitted(campaign, spec_of(both_ways, folder.path(), campaign));
   REQUIRE(before.candidates.size() == 3);
   CHECK(before.candidates[0].information < before.candidates[1].information);
+  CHECK(before.candidates[0].information < std::log(2.0)); // a repeat halves at most both variances
   CHECK(before.candidates[0].shrink[1] > 0.95);
   for (std::size_t i = 0; i < 2; ++i)
     CHECK(before.candidates[1].shrink[i] ==
-          Approx(after.parameters[i].std_ratio / before.parameters[i].std_ratio).epsilon(0.15));
+          Approx(after.parameters[i].std / before.parameters[i].std).epsilon(0.15));
   // In u the friction's scale is 0.3 u: the test leaves 1/√(1/v + 0.3²/0.03²) of it.
-  const double v = before.u_covariance(1, 1);
-  CHECK(before.candidates[2].shrink[1] == Approx(std::sqrt(1 / (1 + v * 100))).epsilon(1e-6));
+  const double v =
+      fisher_covariance(before.parameters[0].mode, before.parameters[1].mode, {0.0})(1, 1);
+  CHECK(before.candidates[2].shrink[1] == Approx(std::sqrt(1 / (1 + v * 100))).epsilon(1e-4));
 }
 
 TEST_CASE("clock and sensor offsets, an unknown noise and parameters of one test's own are found") {
@@ -171,7 +181,7 @@ TEST_CASE("clock and sensor offsets, an unknown noise and parameters of one test
   CHECK(result.parameters[3].name == "offset of root.angle of late");
   CHECK(result.parameters[2].mean == Approx(0.03).margin(4 * result.parameters[2].std));
   CHECK(result.parameters[3].mean == Approx(M_PI / 180).margin(4 * result.parameters[3].std));
-  CHECK(result.parameters[3].std_ratio < 0.5);
+  CHECK(result.parameters[3].std_ratio() < 0.5);
   CHECK(result.channels[0].rms * 180 / M_PI == Approx(0.3).epsilon(0.25)); // 81 numbers: 4 sd
 }
 
@@ -181,12 +191,13 @@ TEST_CASE(
   const FitSpec spec = read_fit(two_mode_test(), "", ".", campaign);
   const FitResult result = fitted(campaign, spec);
   REQUIRE(result.finished);
-  REQUIRE(result.mode_distances.size() == 1);
-  REQUIRE(result.mode_drops.size() == 1);
+  REQUIRE(result.other_modes.size() == 1);
   const double latch_rate = std::sqrt(2 + 0.8 * 0.8), slope = 0.8 / latch_rate;
   const double sd = 1 / std::hypot(1 / 0.5, slope / 0.01); // of the initial rate, by the test
-  CHECK(result.mode_distances[0] == Approx(1.6 / sd).epsilon(5e-3));
-  CHECK(result.mode_drops[0] == Approx((1.8 * 1.8 - 1.4 * 1.4) / 2).margin(5e-3));
+  CHECK(result.other_modes[0].distance == Approx(1.6 / sd).epsilon(5e-3));
+  REQUIRE(result.other_modes[0].parameters.size() == 1);
+  CHECK(result.other_modes[0].parameters[0] == Approx(-0.8).epsilon(2e-3));
+  CHECK(result.other_modes[0].drop == Approx((1.8 * 1.8 - 1.4 * 1.4) / 2).margin(5e-3));
   CHECK(result.parameters.at(0).mode == Approx(0.8).epsilon(2e-3));
   long below = 0;
   for (const std::vector<double>& row : result.posterior.rows) below += row[0] < 0;
@@ -240,6 +251,22 @@ TEST_CASE("numbers that no run has, or that cannot be compared, are refused with
              Catch::StartsWith("t.json: /tests/0/values/1: " + large));
   CHECK_THAT(refused(Json::array({value(2.3, 1e-300)})),
              Catch::StartsWith("t.json: /tests/0/values/0: " + large));
+  // what no fitted parameter changes tells nothing; what it changes does
+  const Json coulomb{{"parameter", "hinges.root.friction.coulomb"}, {"value", 0.2}, {"std", 0.01}};
+  CHECK_THAT(refused(Json::array({value(2.3, 0.01), coulomb})),
+             Catch::StartsWith("t.json: /tests/0/values/1/parameter: ") &&
+                 Catch::Contains("\"scale\""));
+  const auto rate = [&](double measured) { // some -1.28 rad/s in all runs
+    return refused(
+        Json::array({{{"output", "root.latch_rate"}, {"value", measured}, {"std", 0.01}}}));
+  };
+  CHECK(rate(-1.3).empty());
+  CHECK(rate(-2).empty()); // far off, and in no other unit
+  CHECK_THAT(rate(1.28), Catch::StartsWith("t.json: /tests/0/values/0/value: ") &&
+                             Catch::Contains("opposite sense"));
+  for (const double factor : {180 / M_PI, -180 / M_PI, 1e3})
+    CHECK_THAT(rate(-1.28 * factor),
+               Catch::Contains("/tests/0/values/0/value: ") && Catch::Contains("with its unit"));
   Json slow = panel_campaign();
   slow["integration"]["t_end"] = 0.5;
   const Campaign never_latches = campaign_of(slow);

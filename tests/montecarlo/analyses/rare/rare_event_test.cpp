@@ -164,6 +164,26 @@ TEST_CASE("peaks that t_end cut count as the event, as they break a requirement,
   CHECK(rare_text(whole, small, longer).find("t_end") == std::string::npos);
 }
 
+TEST_CASE(
+    "wings that stall count by their value if they have one, which is told with their number") {
+  const Json json = one_panel(coulomb_for(1)); // one in six stalls
+  for (const std::string output : {"root.peak_moment", "root.latch_rate", ""}) {
+    const RareResult found = estimate(
+        json, {.event = {output, 1e6, true}, .samples = 100, .repeats = 2, .smallest = 0.01});
+    CAPTURE(output);
+    const long stalled = found.statuses[static_cast<std::size_t>(Status::stalled)];
+    REQUIRE(stalled > 10);
+    const bool counts =
+        output == "root.peak_moment"; // one that stalls has no latch rate: the event
+    CHECK(found.undeployed == (counts ? stalled : 0));
+    const std::vector<std::string> said = doubts_of(found);
+    CHECK(std::ranges::count_if(said, [&](const std::string& doubt) {
+            return doubt.starts_with(std::to_string(stalled) + " of ") &&
+                   doubt.find("count by their value") != std::string::npos;
+          }) == (counts ? 1 : 0));
+  }
+}
+
 TEST_CASE("latches that may let go after t_end count as deployed, and are counted") {
   Json json = ringing_panel(100, 2.3, 0.01);
   json["scene"]["hinges"][0]["latch"]["holding_moment"] = 8; // it will bear 13 N·m
