@@ -90,9 +90,11 @@ public:
     made_inner_steps_ = held_is_bounded_ = false, searched_ = by_lane.done;
     if (run_.system.work().locked > 0) held_at_end_ = run_.system.work().holding;
     hinge_ = hold_ = 0;
-    doubt_.reset(), held_at_.reset(), borne_at_.reset();
+    doubt_.reset(), held_at_.reset(), borne_at_.reset(), base_doubt_.reset();
+    base_search_ = BaseSearch::none;
     locked_.begin();
     if (is_stuck_for_good(run_.system, run_.step.x)) return std::nullopt; // no load changes
+    if (run_.goal.base_motion && run_.at.base != 0) base_search_ = BaseSearch::turn;
     if (run_.goal.peak_force)
       forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt,
                         !by_lane.done || by_lane.forces_may_rise);
@@ -101,7 +103,11 @@ public:
 
   /// Settles the present doubt: the method has made a step to it, which ends at the run's x. @return the next doubt
   [[nodiscard]] std::optional<T> resolve_doubt() {
-    if (borne_at_)
+    if (base_doubt_) {
+      if (base_.confirm(*base_doubt_, run_.at, run_.step, run_.x, run_.dxdt, moment_worth_a_step()))
+        return base_doubt_->s;
+      base_doubt_.reset();
+    } else if (borne_at_)
       confirm_hold();
     else if (held_at_)
       confirm_held_moment();
@@ -124,7 +130,10 @@ public:
 
   /// Adds the step, whose end is final, to what is not a load: the ways of a free base, overtravel, the work of motors.
   void close_step() {
-    base_.over_step(run_.at, run_.step);
+    if (base_search_ == BaseSearch::none)
+      base_.over_step(run_.at, run_.step);
+    else
+      (void)base_.raise_by_ends(run_.at, run_.step);         // its inside is searched
     if (is_stuck_for_good(run_.system, run_.step.x)) return; // nothing else changes
     for (int i = 1; run_.goal.overtravel && i <= run_.at.bodies; ++i)
       raise_overtravel(overtravel_[i], run_.system.wing(), run_.at, run_.step, i);
@@ -158,13 +167,15 @@ private:
     return run_.goal.hold_moment && !run_.system.wing().releases.empty();
   }
 
-  /// Forces first, then the moments of hinge after hinge, then what holds bear.
+  /// Forces first, then the moments of hinge after hinge, then what holds bear, then a free base's turn and rate.
   [[nodiscard]] std::optional<T> next_doubt() {
     std::optional<T> s;
     if (run_.goal.peak_force) s = forces_.doubtful();
     while (!s && run_.goal.peak_moment && ++hinge_ <= run_.at.bodies)
       s = doubtful_moment(searched_ ? moments_rise_[hinge_] : Rise::inside);
     while (!s && ++hold_ < static_cast<int>(holds_.size())) s = doubtful_hold();
+    if (!s && base_search_ == BaseSearch::turn) s = doubtful_base(BaseSearch::rate);
+    if (!s && base_search_ == BaseSearch::rate) s = doubtful_base(BaseSearch::done);
     made_inner_steps_ = made_inner_steps_ || s;
     return s;
   }
@@ -261,6 +272,17 @@ private:
     return borne_at_;
   }
 
+  /// What of a free base's motion is searched next over the step.
+  enum class BaseSearch { none, turn, rate, done };
+
+  /// Searches it. @param next what comes after it
+  [[nodiscard]] std::optional<T> doubtful_base(BaseSearch next) {
+    base_doubt_ = base_.doubtful(run_.at, run_.step, base_search_ == BaseSearch::rate);
+    base_search_ = next;
+    if (!base_doubt_) return std::nullopt;
+    return base_doubt_->s;
+  }
+
   void confirm_hold() {
     using std::abs;
     holds_[hold_].raise(T(abs(load_of_hold(run_.x, hold_))),
@@ -291,6 +313,9 @@ private:
   std::optional<T> held_at_;   ///< where the moment of a stuck hinge is in doubt
   int hold_ = 0;               ///< the hold searched
   std::optional<T> borne_at_;  ///< where its load is in doubt
+  BaseSearch base_search_ =
+      BaseSearch::none; ///< none: the step is not searched for the base's motion
+  std::optional<typename BaseExcursion<T>::Doubt> base_doubt_;
   bool made_inner_steps_ = false;
   bool searched_ = false;                       ///< a lane has searched the peaks of the step
   std::vector<Rise> moments_rise_, holds_rise_; ///< 1 … n: if so, how they may rise over it

@@ -49,6 +49,40 @@ double beam_frequency(const Body& body) {
          (2 * std::numbers::pi);
 }
 
+/// The joint of the body's segments, from 1, on which the point lies; nothing if it lies on a segment.
+std::optional<int> joint_at(const Body& body, const Eigen::Vector2d& point) {
+  constexpr double on_joint = 0.01; // of an element; heuristic: as near is meant to be there
+  const Eigen::Vector2d along = body.plate->to - body.plate->from;
+  const double place = (point - body.plate->from).dot(along) / along.squaredNorm();
+  const double elements = place * body.flexible->joints + 0.5, joint = std::round(elements);
+  const bool is_one = joint >= 1 && joint <= body.flexible->joints;
+  return is_one && std::abs(elements - joint) < on_joint ? std::optional(static_cast<int>(joint))
+                                                         : std::nullopt;
+}
+
+/// Warns of hinges on the joint between two segments: on which of them they hang is the program's choice.
+void check_hinges_on_joints(const Scene& scene, InputWarnings& warnings) {
+  for (std::size_t h = 0; h < scene.hinges.size(); ++h) {
+    const Hinge& hinge = scene.hinges[h];
+    const auto check = [&](int b, const Eigen::Vector2d& point, const char* key) {
+      if (b < 0) return;
+      const Body& body = scene.bodies[static_cast<std::size_t>(b)];
+      if (!body.flexible || !body.plate || !can_be_cut(body)) return;
+      if (const auto joint = joint_at(body, point))
+        warnings.add(
+            fmt::format("/hinges/{}/{}", h, key),
+            fmt::format(
+                "a point on joint {} of the bending panel {}: the hinge hangs on one of the "
+                "segments beside it, and on the other the wing would be another",
+                *joint, body.name),
+            "a point within a segment: another number of joints (an even one for a hinge in the "
+            "middle)");
+    };
+    check(hinge.parent, hinge.parent_point, "parent_point");
+    check(hinge.child, hinge.child_point, "child_point");
+  }
+}
+
 } // namespace
 
 double clamped_frequency(const Body& body) {
@@ -79,6 +113,7 @@ double clamped_frequency(const Body& body) {
 }
 
 void check_bending(const Scene& scene, InputWarnings& warnings) {
+  check_hinges_on_joints(scene, warnings);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = scene.bodies[b];
     if (!body.flexible || !body.plate || !can_be_cut(body)) continue;

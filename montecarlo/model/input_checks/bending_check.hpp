@@ -10,7 +10,7 @@ namespace wingspread {
 /// @pre the body is flexible, and physical
 [[nodiscard]] double clamped_frequency(const Body& body);
 
-/// Warns of too few joints for the frequency that is stated or follows from the stiffness, and of more inertia than a
+/// Warns of hinges on a joint, of too few joints for the frequency that is stated or follows from the stiffness, and of more inertia than a
 /// uniform panel has: it turns with the segments, and lowers high frequencies.
 void check_bending(const Scene& scene, InputWarnings& warnings);
 

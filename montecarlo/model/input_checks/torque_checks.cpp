@@ -97,6 +97,20 @@ bool is_driven(const Hinge& hinge) {
   return hinge.motor || hinge.initial_rate != 0 || spring_acts(hinge);
 }
 
+/// Whether the hinges' torques cancel at the start, and nothing else holds or moves them.
+bool is_balanced(const Scene& scene, const HingeDrive& drive) {
+  const auto moves = [&](int h) {
+    const Hinge& hinge = scene.hinges[static_cast<std::size_t>(h)];
+    return hinge.motor || hinge.initial_rate != 0 || hinge.friction.coulomb != 0;
+  };
+  if (std::ranges::any_of(drive.hinges, moves)) return false;
+  const TorqueTerms terms = terms_at(scene, drive, 0, default_static_margins(scene));
+  const double pull =
+      std::max({std::abs(terms.available), std::abs(terms.spring), std::abs(terms.harness)});
+  return pull > 0 && terms.friction == 0 &&
+         std::abs(terms.available - terms.spring - terms.harness) <= negligible * pull;
+}
+
 } // namespace
 
 void check_torques(const Scene& scene, InputWarnings& warnings) {
@@ -114,7 +128,17 @@ void check_torques(const Scene& scene, InputWarnings& warnings) {
   if (still && std::ranges::none_of(scene.hinges, is_driven))
     warnings.add("/hinges", "no spring with a torque, no motor and no initial rate",
                  "one of them: nothing moves the wing");
-  for (const HingeDrive& drive : drives_of(scene))
+  const std::vector<HingeDrive> drives = drives_of(scene);
+  if (scene.base.motion != BaseMotion::prescribed && scene.environment.gravity.isZero() &&
+      scene.environment.air_density == 0 && !drives.empty() &&
+      std::ranges::all_of(drives,
+                          [&](const HingeDrive& drive) { return is_balanced(scene, drive); }))
+    warnings.add(
+        "/hinges",
+        "torques that cancel at the stowed angle of every hinge: rounding decides whether the wing "
+        "moves, which way and when",
+        "a net torque, or friction that holds, at the stowed angle");
+  for (const HingeDrive& drive : drives)
     if (std::ranges::all_of(drive.hinges, [&](int h) { return pushes[h]; }))
       check_net(scene, drive, warnings);
 }
