@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -212,4 +214,33 @@ TEST_CASE("every output of a flexible wing has one entry for each of its hinges 
        {&out.peak_moment, &out.peak_force, &out.hold_moment, &out.bending_moment})
     CHECK(peaks->size() == 1);
   for (const LatchEvent& latch : out.latches) CHECK(latch.rates.size() == 1);
+}
+
+TEST_CASE("a sample of a flexible wing has one entry for each of its hinges, alone and in a lane") {
+  const Scene scene = bending_rod(3, 100, 0.5);
+  REQUIRE(with_segments(scene).scene.hinges.size() == 4);
+  long samples = 0;
+  const auto check = [&samples](const Sample& sample) {
+    ++samples;
+    for (const auto* values : {&sample.angles, &sample.rates, &sample.moments})
+      CHECK(values->size() == 1);
+  };
+  const Integration how = within(1e-6, 1);
+  REQUIRE(Deployment().run(scene, how, every_peak, check).status != Status::failed);
+  const long alone = samples;
+  CHECK(alone > 2);
+  for (const InstructionSet set : instruction_sets()) {
+    bool given = false;
+    DeploymentPack(set, how, every_peak)
+        .run(
+            scene,
+            [&](Scene& drawn) -> std::optional<long> {
+              if (std::exchange(given, true)) return std::nullopt;
+              drawn = scene;
+              return 0;
+            },
+            [](long, Outcome&&) {}, [&](long, const Sample& sample) { check(sample); });
+    samples -= alone;
+    CHECK(samples == alone); // the same steps
+  }
 }

@@ -229,3 +229,25 @@ TEST_CASE("every method finds the instant at which a latch lets go") {
                       CHECK(relative(out.let_go[0].time, 1 + (pi + std::asin(share)) / w) < 1e-5);
                     });
 }
+
+// More runs than an engine has lanes: each lane makes several, and its next run has events of its own only.
+TEST_CASE("what latches missed, held and lost in one run of a lane is not told of the next") {
+  std::vector<Scene> scenes;
+  for (int k = 0; k < 40; ++k) {
+    Scene scene = thrown_at_latch(k % 3 == 0   ? capturing(0.7)
+                                  : k % 3 == 1 ? holding(1e3, 10.0 + k)
+                                               : capturing(2));
+    scene.hinges[0].initial_rate = 0, scene.hinges[0].spring = {1, 1}; // it arrives at 0.8 rad/s
+    scene.hinges[0].release = Release{.time = k % 4 == 0 ? 0.5 : 0};
+    if (k % 3 == 0) scene.hinges[0].far_stop = Stop{1e4, 0, 0.001 * k};
+    scenes.push_back(scene);
+  }
+  long missed = 0, lost = 0, released = 0;
+  const Integration how = within(1e-8, 6);
+  for (const Scene& scene : scenes) {
+    const Outcome out = Deployment().run(scene, how, every_peak);
+    missed += !out.missed.empty(), lost += !out.let_go.empty(), released += !out.releases.empty();
+  }
+  CHECK((missed > 8 && lost > 8 && released > 8));
+  require_equal_bits(scenes, how, every_peak);
+}

@@ -388,3 +388,25 @@ TEST_CASE("every method releases a hinge at its time") {
                       CHECK(relative(out.latches[1].time, 1.5 + quarter + way_of_panel()) < 1e-6);
                     });
 }
+
+// The order of the file and of the tree is not that in which the holds wait.
+TEST_CASE("holds that wait for each other without a delay let go at one instant, in any order") {
+  for (const auto& order :
+       {std::array{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}})
+    for (const double first : {0.0, 0.7}) {
+      Scene scene = two_panels();
+      scene.bodies.push_back({"third_panel", 10, 0.5});
+      Hinge third = scene.hinges[1];
+      third.name = "third", third.child = 2, third.parent_point = {-3, 1};
+      scene.hinges.push_back(third);
+      scene.hinges[order[0]].release = at_time(first, 0.3);
+      scene.hinges[order[1]].release = after(order[0], Release::Event::released);
+      scene.hinges[order[2]].release = after(order[1], Release::Event::released);
+      CAPTURE(order[0], order[1], order[2], first);
+      const Outcome out = run_everywhere(scene, 1e-6, 30);
+      REQUIRE(out.releases.size() == 3);
+      for (const HingeEvent& release : out.releases) CHECK(release.time == first + 0.3);
+      REQUIRE(out.latches.size() == 3);
+      for (const LatchEvent& latch : out.latches) CHECK(latch.time == out.latches[0].time);
+    }
+}

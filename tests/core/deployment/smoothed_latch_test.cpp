@@ -75,3 +75,26 @@ TEST_CASE("the smoothed latch agrees with CVODE on the dense model") {
   goal.to_t_end = true;
   compare(Deployment().run(oracle::seed_scene(), how, goal), exact, 1e-7, 1e-5);
 }
+
+TEST_CASE("a run with smoothed latches is refused where a latch needs its event, and says so") {
+  const Scene plain = latching_panel();
+  Integration how = within(1e-6, 4);
+  how.smoothing = 1e-3;
+  CHECK(hinge_with_event_latch(plain) == nullptr);
+  CHECK(Deployment().run(plain, how, {}).status != Status::failed);
+  Latch loose, hasty, weak;
+  loose.backlash = 0.01, hasty.capture_rate = 0.5, weak.holding_moment = 10;
+  for (Latch latch : {loose, hasty, weak}) {
+    latch.stiffness = 1e4, latch.damping = 100;
+    Scene scene = plain;
+    scene.bodies.push_back({"other_panel", 10, 0.5}); // the second hinge's
+    Hinge other = scene.hinges[0];
+    other.name = "other", other.child = 1, other.parent_point = {3, 1}, other.latch = latch;
+    scene.hinges.push_back(other);
+    CAPTURE(latch.backlash, latch.can_miss());
+    CHECK(hinge_with_event_latch(scene) == &scene.hinges[1]);
+    const Outcome out = Deployment().run(scene, how, {});
+    CHECK(out.status == Status::failed);
+    CHECK(out.reason == needs_event_latches);
+  }
+}

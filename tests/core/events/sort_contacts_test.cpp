@@ -88,3 +88,34 @@ TEST_CASE("a hinge that is let go and would run against its friction is held aga
   CHECK(system.is_locked(1));
   CHECK(work.evaluations == 3); // held, let go, held
 }
+
+// Two panels side by side, which do not feel each other: the hinge that has just come to rest is released first, but not
+// in place of the one that is due.
+TEST_CASE(
+    "a hinge that is due to slide slides, also where another one turns back at that instant") {
+  for (const int due : {1, 2}) {
+    Scene scene = latching_panel();
+    scene.bodies.push_back({"other_panel", 10, 0.5});
+    Hinge other = scene.hinges[0];
+    other.name = "other", other.child = 1, other.parent_point = {3, 1};
+    scene.hinges.push_back(other);
+    for (int i = 1; i <= 2; ++i) { // the one that is due is just at its limit
+      scene.hinges[i - 1].spring = {2, 2};
+      rub(scene.hinges[i - 1], i == due ? 2 : 1);
+    }
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    State<double> x, dxdt(system.layout().size());
+    system.start(x);
+    const int turning = 3 - due;
+    system.set_contact(due, Contact::stuck);
+    system.set_contact(turning, Contact::forward); // until now, against the spring
+    CAPTURE(due);
+    sort_contacts(system, x, dxdt, 0.0, due);
+    CHECK(sliding_sense(system, due) == -1);
+    CHECK(sliding_sense(system, turning) == -1);
+    CHECK(dxdt[system.layout().rate(turning)] < 0);
+  }
+}

@@ -1,7 +1,12 @@
 #include "core/laws/friction.hpp"
+#include "core/laws/real_hinge.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -84,4 +89,38 @@ TEST_CASE("measured friction whose level falls to 0 has no bounds of its slopes 
   }
   terms.regularized = true;
   CHECK_FALSE(law.has_slopes({0.1, 0.4}));
+}
+
+// Half the difference of two monotone curves need not be monotone between knots: its largest value may lie between them.
+TEST_CASE(
+    "what two torque tests measure of friction is nowhere above its most, and nearly reaches it") {
+  int between = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Draws draws(seed);
+    std::vector<double> angle{0}, deploying{draws.uniform(-1, 1)}, stowing{draws.uniform(-1, 1)};
+    for (int k = 0; k < 4; ++k) {
+      angle.push_back(angle.back() + draws.log_uniform(0.05, 1));
+      deploying.push_back(draws.uniform(-1, 1)), stowing.push_back(draws.uniform(-1, 1));
+    }
+    const auto how = draws.chance(0.8) ? Interpolation::monotone : Interpolation::linear;
+    Hinge hinge;
+    hinge.latched = angle.back();
+    hinge.spring.table = std::make_shared<const TorqueTable>(angle, deploying, stowing, how);
+    hinge.friction.scale = draws.log_uniform(0.1, 10);
+    if (draws.chance(0.5)) hinge.friction.model = FrictionModel::exact;
+    const RealHingeTerms<double> terms = real_hinge_terms<double>(hinge, 1.0);
+    double largest = 0, at_knots = 0;
+    for (int k = 0; k <= 2000; ++k) {
+      const double x = (1.2 * k / 2000 - 0.1) * angle.back();
+      largest = std::max(largest, measured_friction(terms.friction, x));
+    }
+    for (const double x : angle)
+      at_knots = std::max(at_knots, measured_friction(terms.friction, x));
+    between += largest > 1.001 * at_knots;
+    CAPTURE(seed, largest, at_knots);
+    CHECK(largest <= terms.friction.most * (1 + 1e-12));
+    // the excess between two knots may count twice: beside another knot, and from a lower one
+    CHECK(terms.friction.most <= largest + 2 * hinge.friction.scale);
+  }
+  CHECK(between >= 20);
 }

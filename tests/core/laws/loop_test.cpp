@@ -166,3 +166,29 @@ TEST_CASE("a loop's torque at rest is the slope of its energy, and its rate foll
     CHECK(rate == Approx(quotient).epsilon(1e-5).margin(1e-5 * loop.stiffness));
   }
 }
+
+// Without stiffness the loop's rate alone makes its moment, and nothing bounds how the rate changes.
+TEST_CASE("the moment of a loop that only damps is not said to keep its direction where it turns") {
+  int turns = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    LoopOverStep step(seed);
+    step.given.table = nullptr, step.loop.table = nullptr;
+    step.loop.stiffness = 0, step.loop.damping = 1 + static_cast<double>(seed % 3);
+    step.loop.slack_beyond = seed % 2 ? 1e300 : 1;
+    for (const int i : {1, 2}) {
+      const KnownRange<double> change = loop_moment_change(step.loop, i, step.a, step.b, step.h);
+      double least = 0, most = 0; // of the moment's differences
+      for (int k = 0; k < samples; ++k) {
+        const double rise =
+            step.moment(i, (k + 1.0) / samples) - step.moment(i, k / double(samples));
+        least = std::min(least, rise), most = std::max(most, rise);
+      }
+      turns += least < 0 && most > 0;
+      CAPTURE(seed, i, least, most);
+      if (!change.known) continue;
+      CHECK(change.range.low * step.h / samples <= least * (1 - 1e-6));
+      CHECK(most * (1 - 1e-6) <= change.range.high * step.h / samples);
+    }
+  }
+  CHECK(turns >= 100);
+}

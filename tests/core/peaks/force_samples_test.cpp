@@ -93,3 +93,27 @@ TEST_CASE("no force above its peak inside a step is dismissed by its samples: cr
     }
   CHECK(inside >= 4);
 }
+
+// Of a parabola the vertex is exact, of other forces it is an estimate: so a spacing is allowed for.
+TEST_CASE(
+    "a force that rises to an end is sampled beside it unless its vertex is a spacing beyond") {
+  ForceSamples<double> samples;
+  samples.resize(1);
+  int searched = 0, dismissed = 0;
+  for (int k = 0; k < 400; ++k) {
+    oracle::Draws draws(9900 + k);
+    const double beyond = draws.log_uniform(1e-3, 2), size = draws.log_uniform(0.1, 10);
+    for (const int end : {0, samples.last}) {
+      const double vertex = end == 0 ? -beyond : 1 + beyond;
+      for (int q = 0; q <= samples.last; ++q)
+        samples.of(1)[q] = 100 - size * std::pow(0.25 * q - vertex, 2);
+      const PeakOf<double> peak{samples.of(1)[end] - 1e-3, 0};
+      CAPTURE(beyond, end);
+      if (std::abs(beyond - 0.25) > 1e-3)
+        CHECK(samples.wants_search(1, end, peak) == (beyond < 0.25));
+      (beyond < 0.25 ? searched : dismissed) += 1;
+    }
+  }
+  CHECK(searched > 100);
+  CHECK(dismissed > 100);
+}

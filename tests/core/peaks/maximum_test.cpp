@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -106,4 +107,30 @@ TEST_CASE(
   }
   CHECK(risen > trials / 8);
   CHECK(risen < trials / 2);
+}
+
+// Between the last two samples a function may rise, fall and rise again. Then its end lies above all samples, and the
+// search may find more inside.
+TEST_CASE("where a function is said to rise to the step's end, the search finds no more inside, "
+          "though it wiggles between the samples") {
+  oracle::Draws draws(9);
+  int risen = 0, hidden = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const double slope = draws.uniform(0.1, 2), bend = draws.uniform(-2, 1);
+    const double ripple = draws.log_uniform(1e-3, 1e-1), quick = draws.uniform(30, 250),
+                 phase = draws.uniform(0, 6.3);
+    const Function f = [&](double s) {
+      return 10 + s * (slope + bend * s) + ripple * std::sin(quick * s + phase);
+    };
+    std::array<double, 9> samples{};
+    for (std::size_t k = 0; k < samples.size(); ++k) samples[k] = f(static_cast<double>(k) / 8);
+    const bool rises = rises_to_end(samples, f);
+    if (*std::max_element(samples.begin(), samples.end()) > samples.back()) continue;
+    const Sampled<double> found = maximum_near(samples, samples.size() - 1, f).first;
+    CAPTURE(slope, bend, ripple, quick, phase, found.s);
+    if (rises) CHECK(found.value == samples.back());
+    risen += rises, hidden += found.value > samples.back();
+  }
+  CHECK(risen > 1000);
+  CHECK(hidden > 1000);
 }

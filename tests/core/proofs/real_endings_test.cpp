@@ -97,6 +97,7 @@ TEST_CASE("a falling wing whose hinges stick is blown open once it falls fast en
   CHECK(out.latches[0].time > loose);
   const Outcome before = run(scene, 1e-11, 0.999 * loose);
   CHECK(before.final.angles[0] == 0);
+  CHECK(before.status == Status::timed_out); // no energy bounds what the air may still do
   const Outcome after = run(scene, 1e-11, 1.05 * loose);
   CHECK(after.final.angles[0] > 0);
 }

@@ -117,3 +117,41 @@ TEST_CASE("samples show how a base moves, free or driven") {
     CHECK(sample.base_rate == Approx(0.1 + 0.02 * t).epsilon(1e-14));
   }
 }
+
+// A panel carries another one that is held: both turn as one body about a fixed point, so that the load of the hold
+// follows from the first hinge's moment and rate, in any sample.
+TEST_CASE("a sample's moment on a held hinge is that of the sample's own state, at events too") {
+  int latched = 0;
+  for (int k = 0; k < 12; ++k) {
+    Draws draws(4400 + k);
+    Scene scene = latching_panel();
+    scene.bodies.push_back({"carried", 4, 0.3});
+    Hinge carried = scene.hinges[0];
+    carried.name = "carried", carried.parent = 0, carried.child = 1;
+    carried.parent_point = {draws.uniform(0.2, 1), draws.uniform(-0.3, 0.3)};
+    carried.child_point = {draws.uniform(-1, -0.2), draws.uniform(-0.3, 0.3)};
+    carried.stowed = draws.uniform(-2, 2), carried.latched = carried.stowed + 1;
+    carried.release = Release{.time = 100};
+    scene.hinges[0].spring = {20.0 + k, 1}, scene.hinges[0].friction.viscous = 2;
+    scene.hinges.push_back(carried);
+    const Eigen::Vector2d hinge = carried.parent_point - scene.hinges[0].child_point;
+    const double c = std::cos(carried.stowed), s = std::sin(carried.stowed);
+    const Eigen::Vector2d from = -carried.child_point,
+                          lever{c * from.x() - s * from.y(), s * from.x() + c * from.y()};
+    const Eigen::Vector2d center = hinge + lever;
+    const double m = scene.bodies[1].mass, J = scene.bodies[1].inertia;
+    const double whole = panel_inertia + J + m * center.squaredNorm();
+    const double turning = J + m * lever.dot(center);
+    const double spinning = m * (lever.x() * center.y() - lever.y() * center.x());
+    const auto check = [&](const Sample& sample) {
+      const double expected =
+          turning / whole * sample.moments[0] - spinning * sample.rates[0] * sample.rates[0];
+      CAPTURE(k, sample.t, sample.moments[0], sample.rates[0]);
+      CHECK(sample.moments[1] == Approx(expected).margin(1e-10 * std::abs(sample.moments[0])));
+    };
+    const Outcome out = Deployment().run(scene, within(1e-2, 8), to_the_end, check);
+    REQUIRE(out.status != Status::failed);
+    latched += static_cast<int>(out.latches.size());
+  }
+  CHECK(latched == 12);
+}

@@ -291,3 +291,49 @@ TEST_CASE("a jump that a refused step does not show is found in the step that en
     CHECK(pairs.landing.at_jump());
   }
 }
+
+// Under exact friction a panel with a smoothed latch comes to rest: not at its latch, whose state S then goes on with its
+// own rate.
+TEST_CASE(
+    "a step that is moved to its event ends there in every component, a smoothed latch's too") {
+  Scene scene = latching_panel();
+  rub(scene.hinges[0], 4);
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  const Integration how;
+  System<double, Tree, BaseMotion::fixed> system(wing, 1e-3, work);
+  Underway<double, decltype(system)> run(system, how, latches_only);
+  Events<double, decltype(system)> events(system);
+  events.start();
+  Landing<double, decltype(system)> landing(run, events);
+  const Layout& at = system.layout();
+  const int angle = at.angle(1), rate = at.rate(1), latch = at.latch(1);
+  system.set_contact(1, Contact::forward);
+  constexpr double slowing = -2, from = 0.7, speed = 0.1, engaged = 0.25, fills = 0.4;
+  const auto state = [&](double t, State<double>& x, State<double>& dxdt) {
+    x.assign(at.size(), 0), dxdt.assign(at.size(), 0);
+    x[angle] = from + t * (speed + 0.5 * slowing * t), x[rate] = speed + slowing * t;
+    dxdt[angle] = x[rate], dxdt[rate] = slowing;
+    x[latch] = engaged + fills * t, dxdt[latch] = fills;
+  };
+  for (const double share : {-5e-4, 5e-4, 5e-5}) { // of the step, by which its end misses the rest
+    run.step.t = 3, run.step.h = 0.1;
+    state(0, run.step.x, run.step.dxdt), state(0.1, run.step.x1, run.step.dxdt1);
+    REQUIRE(landing.cut_at_event({}, 1e-4));
+    const double rests = -speed / slowing;
+    CHECK(run.step.h == Approx(rests).epsilon(1e-9));
+    run.step.h = rests * (1 + share);
+    state(run.step.h, run.step.x1, run.step.dxdt1);
+    CAPTURE(share);
+    CHECK_FALSE(landing.correct_end());
+    CHECK(landing.carry_end_to_event());
+    State<double> x, dxdt;
+    state(run.step.h, x, dxdt); // where the step ends now
+    for (int k = 0; k < at.size(); ++k) {
+      CAPTURE(k);
+      CHECK(std::abs(run.step.x1[k] - x[k]) < 1e-12);
+    }
+    CHECK(std::abs(run.step.x1[rate]) < 1e-12);
+  }
+}
