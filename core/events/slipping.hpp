@@ -149,14 +149,14 @@ private:
     // Heuristics. A crest below the limit by less than 0.1 % of the limit and of the load's change over the step counts as
     // a graze: the step's error may hide a release there. Within 2 % of an end the load at that end decides. A graze ends
     // the step at the crest, and the load there decides.
-    constexpr double grazes = 1e-3, next_to_an_end = 0.02;
+    constexpr double grazes = 1e-3, near_an_end = 0.02;
     Sampled<T> crest{T(0), larger(before_[i], after_[i])};
     const auto rise = [&](const T& a, const T& b) { return bound_.friction(i, a, b); };
     const auto found =
         first_positive(excess_at, before_[i], after_[i], rise, negligible_load(bound_, i, limit),
                        shortest_part(step.t, step.h), crest);
     if (found) return Slip<T>{i, found->s, found->slope / step.h, false};
-    const bool inside = crest.s > T(next_to_an_end) && crest.s < T(1 - next_to_an_end);
+    const bool inside = crest.s > T(near_an_end) && crest.s < T(1 - near_an_end);
     const T change = crest.value - smaller(before_[i], after_[i]);
     if (inside && crest.value > T(-grazes) * smaller(limit, change))
       return Slip<T>{i, crest.s, T(0), true};

@@ -53,7 +53,8 @@ double beam_frequency(const Body& body) {
 std::optional<int> joint_at(const Body& body, const Eigen::Vector2d& point) {
   constexpr double on_joint = 0.01; // of an element; heuristic: as near is meant to be there
   const Eigen::Vector2d along = body.plate->to - body.plate->from;
-  const double place = (point - body.plate->from).dot(along) / along.squaredNorm();
+  const double place =
+      point.dot(along) / along.squaredNorm() + 0.5; // segments are even about the centre of mass
   const double elements = place * body.flexible->joints + 0.5, joint = std::round(elements);
   const bool is_one = joint >= 1 && joint <= body.flexible->joints;
   return is_one && std::abs(elements - joint) < on_joint ? std::optional(static_cast<int>(joint))

@@ -107,7 +107,7 @@ bool is_balanced(const Scene& scene, const HingeDrive& drive) {
   const TorqueTerms terms = terms_at(scene, drive, 0, default_static_margins(scene));
   const double pull =
       std::max({std::abs(terms.available), std::abs(terms.spring), std::abs(terms.harness)});
-  return pull > 0 && terms.friction == 0 &&
+  return terms.friction == 0 &&
          std::abs(terms.available - terms.spring - terms.harness) <= negligible * pull;
 }
 
@@ -129,10 +129,9 @@ void check_torques(const Scene& scene, InputWarnings& warnings) {
     warnings.add("/hinges", "no spring with a torque, no motor and no initial rate",
                  "one of them: nothing moves the wing");
   const std::vector<HingeDrive> drives = drives_of(scene);
+  const auto balanced = [&](const HingeDrive& drive) { return is_balanced(scene, drive); };
   if (scene.base.motion != BaseMotion::prescribed && scene.environment.gravity.isZero() &&
-      scene.environment.air_density == 0 && !drives.empty() &&
-      std::ranges::all_of(drives,
-                          [&](const HingeDrive& drive) { return is_balanced(scene, drive); }))
+      std::ranges::any_of(scene.hinges, spring_acts) && std::ranges::all_of(drives, balanced))
     warnings.add(
         "/hinges",
         "torques that cancel at the stowed angle of every hinge: rounding decides whether the wing "

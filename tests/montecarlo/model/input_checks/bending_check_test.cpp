@@ -70,3 +70,35 @@ TEST_CASE(
     CHECK(stated > 1.05 * 1.5);
   }
 }
+
+TEST_CASE(
+    "a hinge on the joint between two segments is warned of, whichever end the plate begins at",
+    "[input_checks]") {
+  const auto told = [](int joints, double x, bool mirrored, bool own) {
+    Scene scene = bending_scene(joints);
+    if (mirrored) std::swap(scene.bodies[0].plate->from, scene.bodies[0].plate->to);
+    scene.bodies.push_back({"branch", 2, 0.3});
+    scene.hinges.resize(2);
+    scene.hinges[0].child = 0, scene.hinges[0].child_point = {own ? x : -1, 0.05};
+    scene.hinges[1].parent = 0, scene.hinges[1].parent_point = {own ? 1 : x, 0.03};
+    scene.hinges[1].child = 1, scene.hinges[1].child_point = {-0.5, 0};
+    const std::string text = warnings_of(scene);
+    const bool found = text.find(own ? "/hinges/0/child_point: " : "/hinges/1/parent_point: ") !=
+                       std::string::npos;
+    CHECK((text.find("/hinges/") != std::string::npos) == found); // no other hinge is named
+    return found;
+  };
+  for (const bool mirrored : {false, true})
+    for (const bool own : {false, true}) {
+      CAPTURE(mirrored, own);
+      for (const int joints : {1, 3, 5}) {
+        CHECK(told(joints, 0, mirrored, own)); // joints at −1 + 2(j + ½)/N
+        CHECK(told(joints, -1 + 1.0 / joints, mirrored, own));
+        CHECK_FALSE(told(joints, 0.1, mirrored, own));
+      }
+      for (const int joints : {2, 4}) CHECK_FALSE(told(joints, 0, mirrored, own));
+      CHECK(told(2, 0.5, mirrored, own));
+      CHECK(told(2, -0.5 + 1e-4, mirrored, own));
+      CHECK_FALSE(told(2, -1, mirrored, own)); // an end is no joint
+    }
+}

@@ -98,3 +98,33 @@ TEST_CASE("a wing that nothing moves is told") {
   }));
   CHECK_FALSE(is_told([](Json& document) { document["environment"]["gravity"] = {0, -1}; }));
 }
+
+TEST_CASE("a wing that its torques hold in balance at the start, without friction, is warned of") {
+  const auto told_balanced = [](const std::function<void(Json&)>& change) {
+    Json document = small_scene();
+    for (Json& hinge : document["hinges"]) {
+      hinge["spring"] = parse_json(R"({"torque_stowed": 2, "torque_latched": 1.4})");
+      hinge["harness"] = parse_json(R"({"torque_stowed": 2, "torque_latched": 0})");
+      hinge.erase("friction");
+    }
+    change(document);
+    InputWarnings warnings({"wing.json", ""});
+    check_torques(read_scene(document), warnings);
+    return std::ranges::any_of(warnings.list(), [](const InputWarning& warning) {
+      return warning.pointer == "/hinges" && warning.found.find("cancel") != std::string::npos;
+    });
+  };
+  CHECK(told_balanced([](Json&) {}));
+  CHECK(told_balanced([](Json& wing) { // a hinge without any torque moves nothing
+    for (const char* law : {"spring", "harness"})
+      wing["hinges"][1][law] = parse_json(R"({"torque_stowed": 0, "torque_latched": 0})");
+  }));
+  CHECK_FALSE(
+      told_balanced([](Json& wing) { wing["hinges"][0]["spring"]["torque_stowed"] = 2.001; }));
+  CHECK_FALSE(told_balanced([](Json& wing) { wing["hinges"][1]["initial_rate"] = 0.1; }));
+  CHECK_FALSE(told_balanced([](Json& wing) {
+    wing["hinges"][0]["friction"] = {
+        {"coulomb", 0.1}, {"viscous", 0}, {"regularization_rate", 0.002}};
+  }));
+  CHECK_FALSE(told_balanced([](Json& wing) { wing["environment"]["gravity"] = {0, -1}; }));
+}
