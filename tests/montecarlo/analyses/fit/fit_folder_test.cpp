@@ -92,3 +92,29 @@ TEST_CASE("the written campaign draws rows of the posterior and predicts what th
   CHECK(json["tests"][0]["values"]["root.latch_time"]["measured"] == 2.3);
   CHECK(json["correlation"]["spring"]["spring"] == 1);
 }
+
+// Of two campaigns a and b, the runs cut are cut(a) + cut(b), whichever comes first; quantiles change places.
+TEST_CASE("a prediction counts the cut peaks of both campaigns, and has the quantiles of each") {
+  Json json = panel_campaign(0.05);
+  json["outputs"] = {"latch_time", "peak_moment"};
+  json["integration"]["t_end"] = 2.3; // near the median of the latch time
+  const Campaign a = campaign_of(json);
+  json["integration"]["t_end"] = 2.36;
+  const Campaign b = campaign_of(json);
+  const auto predicted = [](const Campaign& before, const Campaign& after) {
+    return predicted_outputs(before, after, {.threads = 2}, never);
+  };
+  const auto both = predicted(a, b), swapped = predicted(b, a), first = predicted(a, a),
+             second = predicted(b, b);
+  REQUIRE(both.size() == first.size());
+  bool differ = false;
+  for (std::size_t k = 0; k < both.size(); ++k) {
+    CAPTURE(both[k].name);
+    CHECK(2 * both[k].cut == first[k].cut + second[k].cut);
+    CHECK(both[k].cut == swapped[k].cut);
+    CHECK((both[k].before == swapped[k].after && both[k].after == swapped[k].before));
+    CHECK((both[k].before == first[k].after && both[k].after == second[k].before));
+    differ = differ || first[k].cut != second[k].cut;
+  }
+  CHECK(differ);
+}
