@@ -114,6 +114,29 @@ class FindingChecks:
         label, unit = self.run_script("const one = W.sets[0].inputs.scene.find(one => typeof one.value === 'number' && one.unit); return [one.label, W.format.unit(one.unit)]")
         self.assertEqual(told("""if (at === 1) Object.assign(set.inputs.scene.find(one => typeof one.value === 'number' && one.unit), { case_value: 12.5 })"""),
                          f"The cases change: {label} 12.5 {unit} in {labels[1]}.")
+        # what changes nothing is not named: a factor of 1, 0 that is added, the nominal value that is set
+        neutral = {"scale": (1, "× "), "add": (0, "+ "), "set": (5, "")}
+        for apply, (still, sign) in neutral.items():
+            for moved in range(3):
+                draw = f"""set.inputs.dispersions.push({{ draw: "d", words: "d", paths: [], apply: "{apply}", law: "normal", unit: "", low: 0, high: 1, tables: [],
+                    median: at === 0 ? {still} : at === {moved} ? 2.5 : {still} }})""" if moved else \
+                    f"""set.inputs.dispersions.push({{ draw: "d", words: "d", paths: [], apply: "{apply}", law: "normal", unit: "", low: 0, high: 1, tables: [], median: {still} }})"""
+                text = told(draw)
+                self.run_script("W.sets.forEach(set => set.inputs.dispersions.pop())")
+                self.assertEqual(text, f"The cases change: d {sign}2.50 in {labels[moved]}." if moved else "", (apply, moved))
+
+    def test_the_limits_of_an_output_and_of_its_magnitude_are_on_the_sides_that_they_allow(self):
+        """A value is allowed if it keeps every limit of |x| ≤ 3, and one of both limits of |x| ≥ 3."""
+        self.open(pages.made_up("plain"))
+        for upper in (True, False):
+            for magnitude in (True, False):
+                limits = self.run_script("""const set = W.set(), output = set.outputs[0]; set.requirements = [{ ...set.requirements[0], limit: 3, upper: arguments[0], abs: arguments[1] }]; output.limits = [0];
+                    return W.limits.of(set, output)""", upper, magnitude)
+                self.assertEqual(len(limits), 1 + magnitude)
+                for value in (-5, -3, -1, 0, 1, 3, 5):
+                    size = abs(value) if magnitude else value
+                    kept = [value <= one["value"] if one["upper"] else value >= one["value"] for one in limits]
+                    self.assertEqual(all(kept) if upper else any(kept), size <= 3 if upper else size >= 3, (upper, magnitude, value))
 
     def test_a_nominal_base_that_does_not_turn_is_explained_by_mirror_images(self):
         """Only where the nominal rate is 0 up to rounding and every parameter of the two wings agrees but for its sign."""

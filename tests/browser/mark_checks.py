@@ -229,7 +229,7 @@ class MarkChecks:
         for path, times in zip(self.paths("strips", ".strip"), envelopes["latch_times"], strict=True):
             self.near([(float(place),) for place in re.findall(r"M([-\d.]+),", path)], [(x(time),) for time in times], "strips")
         self.near(self.places("strips", ".strip-median", "x1"), [(x(statistics.median(times)),) for times in envelopes["latch_times"]], "medians")
-        self.assertEqual([one.text for one in self.all("figure.strips .faint-text")], [f"{len(times)} of {envelopes['runs']}" for times in envelopes["latch_times"]])
+        self.assertEqual([one.text for one in self.all("figure.strips .faint-text")], [f"{runs} of {envelopes['runs']}" for runs in envelopes["latched"]])
 
     def test_cases_side_by_side(self):
         self.open(pages.made_up("cases"))

@@ -61,7 +61,8 @@ def envelopes(rng, hinges, rows):
             ordered = [sorted(pair[which] for pair in column) for column in both]
             bands[key].append([[column[int(level * (len(column) - 1))] for column in ordered] for level in levels])
     times = [sorted(row["times"][hinge] for row in sampled if row["times"][hinge] is not None) for hinge in hinges]
-    return {"runs": len(sampled), "t": t, "levels": levels, **bands, "latch_times": times}
+    thinned = [each[:1] + each[2:-1:2] + each[-1:] if len(each) > 50 else each for each in times]
+    return {"runs": len(sampled), "t": t, "levels": levels, **bands, "latch_times": thinned, "latched": [len(each) for each in times]}
 
 
 def wing(hinges):

@@ -264,3 +264,18 @@ TEST_CASE("resuming what is complete changes nothing") {
   CHECK(setting.run(setting.out, {"--resume"}).code == 0);
   CHECK(contents(setting.out) == before);
 }
+
+TEST_CASE("sample prints the draws of each run once, in order, however many there are") {
+  const Folder folder;
+  const std::string file = folder.write("c.json", quick_campaign(4).dump());
+  const std::string out = folder.path() / "draws.csv";
+  const Finished shown = run_program(folder, {"sample", file, "--runs", "3000"});
+  REQUIRE(shown.code == 0);
+  REQUIRE(shown.out.size() > 3 * 65536); // several blocks of output
+  const std::vector<std::string> lines = lines_of(shown.out);
+  REQUIRE(lines.size() == 3001);
+  for (std::size_t run = 0; run < 3000; ++run)
+    REQUIRE(lines[run + 1].starts_with(std::to_string(run) + ","));
+  REQUIRE(run_program(folder, {"sample", file, "--runs", "3000", "--out", out}).code == 0);
+  CHECK(read_text(out).value() == shown.out);
+}

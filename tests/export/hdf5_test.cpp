@@ -227,11 +227,18 @@ TEST_CASE("a name that HDF5 cannot have is another there, and stands in an attri
   const Folder folder;
   const auto path = folder.path() / "r", file = folder.path() / "r.h5";
   Json json = quick_campaign(5);
-  json["dispersions"][0]["name"] = "spring/root";
+  const std::vector<std::pair<std::string, std::string>> names{
+      {"spring/root", "spring∕root"}, {"/of/many/parts/", "∕of∕many∕parts∕"}, {".", "_."}};
+  const Json first = json["dispersions"][0];
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (k > 0) json["dispersions"].push_back(first);
+    (k > 0 ? json["dispersions"].back() : json["dispersions"][0])["name"] = names[k].first;
+    (k > 0 ? json["dispersions"].back() : json["dispersions"][0])["apply"] = "scale";
+  }
   (void)run_into(path, campaign_of(json));
   export_hdf5(path, file);
   const H5::H5File in(file.string(), H5F_ACC_RDONLY);
-  CHECK(attribute(in.openDataSet("spring∕root"), "name") == "spring/root");
+  for (const auto& [name, link] : names) CHECK(attribute(in.openDataSet(link), "name") == name);
 }
 
 TEST_CASE("what cannot be exported is refused, and nothing is left of it") {

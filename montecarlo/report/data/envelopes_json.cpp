@@ -176,6 +176,16 @@ Json latch_times_json(const std::vector<Track>& tracks, std::size_t hinges, std:
   return json;
 }
 
+/// The number of runs in which each hinge latched.
+std::vector<long> latched_runs(const std::vector<Track>& tracks, std::size_t hinges) {
+  std::vector<long> runs;
+  for (int hinge = 0; hinge < static_cast<int>(hinges); ++hinge)
+    runs.push_back(std::ranges::count_if(tracks, [&](const Track& track) {
+      return std::ranges::find(track.latches, hinge, &LatchEvent::hinge) != track.latches.end();
+    }));
+  return runs;
+}
+
 // ---- the sequence of releases and captures
 
 /// Counts and quantiles of one kind of event of a hinge over the runs.
@@ -249,6 +259,7 @@ Json envelopes_json(const PageSource& source, const PageDetail& detail, int thre
           {"angles", bands_json(bands, 0, layout.hinges, 5)},
           {"rates", bands_json(bands, layout.hinges, layout.hinges, 4)},
           {"latch_times", latch_times_json(tracks, layout.hinges, detail.latch_times)},
+          {"latched", latched_runs(tracks, layout.hinges)},
           {"sequence", sequence_json(tracks, source.stored.campaign.scene)}};
 }
 

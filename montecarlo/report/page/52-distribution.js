@@ -4,14 +4,15 @@
   const W = window.wingspread;
   const { format: F, marks: M } = W;
 
-  // The limits of the requirements on an output, each once, as { value (SI), upper }; |output| has two.
+  // The limits of the requirements on an output, each once, as { value (SI), upper }; |output| has two: |x| ≤ 3 is
+  // x ≤ 3 and x ≥ −3, and |x| ≥ 3 is x ≥ 3 or x ≤ −3.
   function limitsOf(set, output) {
     const found = (output.limits || [])
       .map((at) => set.requirements[at])
       .filter((one) => one && W.isNumber(one.limit))
       .flatMap((one) => {
-        const limit = { value: one.limit, upper: one.abs || one.upper };
-        return one.abs ? [limit, { value: -one.limit, upper: false }] : [limit];
+        const limit = { value: one.limit, upper: one.upper };
+        return one.abs ? [limit, { value: -one.limit, upper: !one.upper }] : [limit];
       });
     return [...new Map(found.map((one) => [`${one.value} ${one.upper}`, one])).values()];
   }

@@ -108,11 +108,12 @@
   }
   function strips(set) {
     const { envelopes, wing } = set,
-      row = wing.hinges.length > 12 ? 15 : 30;
+      row = wing.hinges.length > 12 ? 15 : 30,
+      thinned = envelopes.latch_times.some((times, at) => times.length < envelopes.latched[at]);
     return W.figure({
       title: "Latch times of the sampled runs",
       class: "strips",
-      note: `One stroke per run (${F.count(envelopes.runs)} runs); the longer mark is the median. At the right: runs in which the hinge latched.`,
+      note: `${thinned ? "Strokes for a part of the runs, the first and the last to latch among them" : "One stroke per run"} (${F.count(envelopes.runs)} runs); the longer mark is the median. At the right: runs in which the hinge latched.`,
       description: () =>
         wing.hinges
           .map((hinge, at) => {
@@ -153,7 +154,7 @@
             x: width - 70,
             y: middle,
             dy: "0.35em",
-            text: times.length ? `${times.length} of ${envelopes.runs}` : "in none",
+            text: times.length ? `${envelopes.latched[at]} of ${envelopes.runs}` : "in none",
           });
         });
         return box.bottom + (all.length ? 40 : 6);

@@ -1,6 +1,7 @@
 #include "montecarlo/results/streaming/streaming_summary.hpp"
 
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "montecarlo/results/summary/judge_campaign.hpp"
 
 #include <algorithm>
 #include <cmath>

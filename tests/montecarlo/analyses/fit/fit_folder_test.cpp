@@ -116,3 +116,34 @@ TEST_CASE(
         Approx(panel_latch_time(1, 1)).epsilon(0.03)); // of all runs the middle one
   CHECK(time.after[2] > time.after[1]);
 }
+
+// Of two campaigns a and b, the runs cut are cut(a) + cut(b), whichever comes first; quantiles change places.
+TEST_CASE("a prediction counts the cut peaks of both campaigns, and has the quantiles of each") {
+  Json json = panel_campaign(0.05);
+  json["outputs"] = {"latch_time", "peak_moment"};
+  json["integration"]["t_end"] = 2.3; // near the median of the latch time
+  const Campaign a = campaign_of(json);
+  json["integration"]["t_end"] = 2.36;
+  const Campaign b = campaign_of(json);
+  const auto predicted = [](const Campaign& before, const Campaign& after) {
+    return predict(before, after, {.threads = 2}, never).outputs;
+  };
+  const auto same = [](const std::array<double, 3>& x, const std::array<double, 3>& y) {
+    return std::ranges::equal(x, y, [](double one, double other) {
+      return one == other || (std::isnan(one) && std::isnan(other));
+    });
+  };
+  const auto both = predicted(a, b), swapped = predicted(b, a), first = predicted(a, a),
+             second = predicted(b, b);
+  REQUIRE(both.size() == first.size());
+  bool differ = false;
+  for (std::size_t k = 0; k < both.size(); ++k) {
+    CAPTURE(both[k].name);
+    CHECK(2 * both[k].cut == first[k].cut + second[k].cut);
+    CHECK(both[k].cut == swapped[k].cut);
+    CHECK((same(both[k].before, swapped[k].after) && same(both[k].after, swapped[k].before)));
+    CHECK((same(both[k].before, first[k].after) && same(both[k].after, second[k].before)));
+    differ = differ || first[k].cut != second[k].cut;
+  }
+  CHECK(differ);
+}

@@ -245,6 +245,12 @@ TEST_CASE("numbers that no run has, or that cannot be compared, are refused with
   CHECK_THAT(
       refused(Json::array({value(684, 0.6)})),
       Catch::StartsWith("t.json: /tests/0/values/0/value: found 684 s, beyond t_end = 20 s"));
+  // numbers beyond t_end that are no times of outputs
+  CHECK(refused(Json::array({{{"output", "root.peak_moment"}, {"value", 684}, {"std", 60}}}))
+            .empty());
+  CHECK(refused(Json::array(
+                    {{{"parameter", "hinges.root.latch.damping"}, {"value", 684}, {"std", 60}}}))
+            .empty());
   const std::string large = "found numbers too large to be compared with a run by their std";
   const Json spring{{"parameter", "hinges.root.spring.scale"}, {"value", 1e300}, {"std", 0.01}};
   CHECK_THAT(refused(Json::array({value(2.3, 0.01), spring})),

@@ -71,3 +71,20 @@ TEST_CASE("static margins below 0 at a recommended scale are warned of, and only
     for (const Shortfall& each : shorts) CHECK_THAT(line, Catch::Contains(to_string(each)));
   }
 }
+
+TEST_CASE("a scale that static margins rule out is told with its own numbers", "[margin]") {
+  Campaign campaign = campaign_of(one_panel_margin(76));
+  MarginResult result = margin_of(campaign);
+  MarginSearch& search = result.searches.front();
+  REQUIRE(search.recommended);
+  for (const double scale : {0.3, 0.7})
+    for (const MarginKind kind : {MarginKind::ecss, MarginKind::nasa}) {
+      search.passed_over = Shortfall{scale, "root", kind, scale - 1, scale + 1};
+      const Json json = margin_json(margin_report(campaign, result), Json::object());
+      const Json& told = json["searches"][0]["passed_over"];
+      CHECK(told.size() == 5);
+      CHECK((told["scale"] == scale && told["drive"] == "root"));
+      CHECK(told["margin"] == margin_kind_names[static_cast<std::size_t>(kind)]);
+      CHECK((told["at_scale"] == scale - 1 && told["at_1"] == scale + 1));
+    }
+}

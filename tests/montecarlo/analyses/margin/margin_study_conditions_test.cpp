@@ -1,9 +1,13 @@
 #include "montecarlo/analyses/margin/margin_study.hpp"
 #include "montecarlo/analyses/margin/scaled_springs.hpp"
+#include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/foundation/statistics/wilks.hpp"
 #include "montecarlo/model/static_margins/drive.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <random>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -152,4 +156,35 @@ TEST_CASE("requirements that cannot be met together leave no window", "[margin]"
   for (double scale = 0.5; scale <= 2; scale *= 1.002)
     CHECK(closed_form(campaign, scale, 0.2).too_fast > allowed);
   CHECK(closed_by(by_scale) == std::vector<std::size_t>{1});
+}
+
+TEST_CASE("a margin is sought from that number of runs on that can show each requirement alone",
+          "[margin]") {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> share(0.8, 0.99);
+  const std::atomic<bool> stopped = true; // accepted: no run is made
+  for (int k = 0; k < 20; ++k) {
+    Json json = one_panel_margin(100);
+    long least = 0;
+    for (Json& requirement : json["requirements"]) {
+      const double p = share(random), c = share(random);
+      requirement["probability"] = p, requirement["confidence"] = c;
+      least = std::max(least, runs_to_show(p, c, 0).value());
+    }
+    CAPTURE(least);
+    for (const long runs : {least - 1, least, least + 1}) {
+      json["sampling"]["runs"] = runs;
+      const Campaign campaign = campaign_of(json);
+      ThreadEvaluator evaluator({.threads = 1}, stopped);
+      MarginResult result;
+      const auto find = [&] {
+        find_margin(
+            campaign, evaluator, [](const StudyProgress&) {}, result);
+      };
+      if (runs < least)
+        CHECK_THROWS_WITH(find(), Catch::Contains("/sampling/runs: found " + std::to_string(runs)));
+      else
+        CHECK_THROWS_AS(find(), Stopped);
+    }
+  }
 }

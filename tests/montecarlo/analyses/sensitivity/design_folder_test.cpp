@@ -2,6 +2,7 @@
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -100,4 +101,29 @@ TEST_CASE("rows of a design with a gap between them are refused") {
   std::ofstream(path / design_runs_file) << text;
   CHECK_THROWS_WITH(read_design_runs(path, plan),
                     Catch::Contains("found run 5, expected run 4, the next one"));
+}
+
+TEST_CASE("rows of a design are handed on if they are the folder's own, and others are refused") {
+  const Folder folder;
+  const auto path = folder.path() / "design";
+  const SaltelliDesign design = design_of(quick_campaign(10));
+  make(path, design, false);
+  const RunPlan plan = saltelli_plan(design.campaign, design.rows);
+  const long all = runs_of(design).last;
+  for (const long first : {0L, 1L})
+    for (const long last : {3L, all - 1, all, all + 1}) {
+      CAPTURE(first, last);
+      long taken = 0;
+      const std::string told = message_of([&] {
+        for_each_design_row(path, plan, {first, last}, [&](const ResultRow&) { ++taken; });
+      });
+      if (first == 0 && last >= all) {
+        CHECK((told.empty() && taken == all));
+        continue;
+      }
+      const long outside = first > 0 ? 0 : last;
+      CHECK_THAT(told, Catch::EndsWith(fmt::format("found run {}, expected runs from {} up to {}",
+                                                   outside, first, last - 1)));
+      CHECK(taken == (first > 0 ? 0 : last));
+    }
 }

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <random>
 
 using namespace wingspread;
@@ -50,4 +51,25 @@ TEST_CASE("a quadratic output is followed exactly", "[needed]") {
   const auto [mean, bounds] = response.fall(-0.1, 1.5, 0.95);
   CHECK(mean > 0);
   CHECK(*bounds.lower == Approx(mean).epsilon(1e-6)); // no residual is left
+}
+
+// Counts of whole numbers: many runs lie at the limit, and these keep it.
+TEST_CASE("runs at the limit itself are not beyond it", "[needed]") {
+  LeverRuns runs;
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 500; ++i) {
+    const double u = static_cast<double>(random() % 3) - 1, r = static_cast<double>(random() % 4);
+    runs.u.push_back(u), runs.r.push_back(r), runs.d.push_back(1), runs.residual.push_back(0);
+    runs.y.push_back(u + r);
+    runs.group.push_back(i % 16);
+  }
+  runs.fitted = runs.y.size();
+  runs.group_slope.assign(16, 1);
+  const LeverResponse response(runs);
+  for (const double limit : {0., 1., 2., 3.}) {
+    const long beyond = std::ranges::count_if(runs.y, [&](double y) { return y > limit; });
+    CAPTURE(limit, beyond);
+    CHECK(response.change(limit, beyond, -0.6) == 0.0);
+    CHECK(response.change(limit, beyond - 1, -10) != 0.0);
+  }
 }

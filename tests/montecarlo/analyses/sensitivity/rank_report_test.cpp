@@ -6,7 +6,9 @@
 #include "tests/montecarlo/csv_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
 
 using namespace wingspread;
@@ -195,4 +197,24 @@ TEST_CASE("rank coefficients and their bounds stand under their names, in JSON a
                           {"prcc", "-0.5"},
                           {"prcc_lower", "-0.75"},
                           {"prcc_upper", "-0.0625"}});
+}
+
+TEST_CASE("the short table has the larger of two coefficients by size, or the one that is known") {
+  const std::vector<double> some{std::nan(""), -0.9, -0.4, 0.3, 0.7};
+  for (const double spearman : some)
+    for (const double partial : some) {
+      RankSensitivity all;
+      all.dispersions = {"spring"};
+      all.outputs.push_back(
+          {"root.latch_time", 90, 0, {RankEffect{{spearman, {}}, {partial, {}}, true}}, false});
+      const bool any = !std::isnan(spearman) || !std::isnan(partial);
+      const double larger = std::isnan(partial)                      ? spearman
+                            : std::isnan(spearman)                   ? partial
+                            : std::abs(spearman) > std::abs(partial) ? spearman
+                                                                     : partial;
+      CAPTURE(spearman, partial);
+      const std::string table = moved_by_table(all, "t");
+      CHECK((table.find(fmt::format("root.latch_time               spring {:.2f}\n", larger)) !=
+             std::string::npos) == any);
+    }
 }

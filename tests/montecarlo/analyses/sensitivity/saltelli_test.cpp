@@ -82,3 +82,17 @@ TEST_CASE("the columns of rows are one coordinate of the design") {
     }
   }
 }
+
+TEST_CASE("Sobol' points have two coordinates for each dispersion, so half of them may be drawn") {
+  Json json = quick_campaign(10);
+  json["sampling"]["design"] = "sobol";
+  Campaign campaign = campaign_of(json);
+  const Dispersion one = campaign.dispersions.front();
+  for (const std::size_t more : {1, 2, 1000}) {
+    const std::size_t count = most_sobol_dimensions / 2 + more;
+    campaign.dispersions.assign(count, one);
+    CHECK_THROWS_WITH(saltelli_plan(campaign, 8),
+                      Catch::Contains("/dispersions: found " + std::to_string(count)) &&
+                          Catch::Contains("at most " + std::to_string(most_sobol_dimensions / 2)));
+  }
+}

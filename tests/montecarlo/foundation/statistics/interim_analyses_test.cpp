@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 using namespace wingspread;
@@ -127,4 +128,24 @@ TEST_CASE("bounds of all extensions hold together") {
     risk += 1 - InterimAnalyses{1, before}.confidence_of_bound(.9);
   }
   CHECK((risk < .1 && risk > .0998));
+}
+
+TEST_CASE("an analysis of the same runs again, and later ones, change no rule") {
+  std::mt19937_64 random(5);
+  for (int k = 0; k < 100; ++k) {
+    std::vector<long> before;
+    for (long n = 50; before.size() < 1 + random() % 4;) before.push_back(n += 1 + random() % 500);
+    const long n = before.back() + 1 + static_cast<long>(random() % 500);
+    const double p = 0.8 + 0.001 * static_cast<double>(random() % 190),
+                 c = 0.8 + 0.001 * static_cast<double>(random() % 190);
+    const PassingRule rule = passing_rule({1, before}, n, p, c);
+    std::vector<long> with = before;
+    with.push_back(n);
+    const PassingRule again = passing_rule({1, with}, n, p, c);
+    with.push_back(n + 100);
+    const PassingRule later = passing_rule({1, with}, n, p, c);
+    CAPTURE(n, p, c);
+    for (const PassingRule& each : {again, later})
+      CHECK((each.allowed == rule.allowed && each.confidence == rule.confidence));
+  }
 }

@@ -144,6 +144,8 @@ TEST_CASE("Each fault of a case is told", "[cases]") {
         "that one another law in a case)"},
        {"/cases/1/scale", R"({"bodies.outer.inertia": -1})",
         "/cases/1: found bodies.outer.inertia of -0.25, expected > 0, in the case too"},
+       {"/cases/1/set", R"({"bodies.outer.inertia": "-250 kg*mm^2"})",
+        "/cases/1: found bodies.outer.inertia of \"-250 kg*mm^2\", expected > 0, in the case too"},
        {"/cases/1/distributions", "3",
         "/cases/1/distributions: found 3, expected an object with distributions by the names of "
         "dispersions"},

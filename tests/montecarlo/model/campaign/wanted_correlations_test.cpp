@@ -194,3 +194,21 @@ TEST_CASE("A covariance of two normal laws gives their coefficient", "[correlati
       {"type", "uniform"}, {"lower", 0.9}, {"upper", 1.1}};
   CHECK_THAT(problem(R"("covariance": 0.0001)"), Catch::Contains("two normal laws"));
 }
+
+TEST_CASE("a coefficient beside a covariance is a rounded one, and not further off on either side",
+          "[correlations]") {
+  Json document = with_correlations("[]");
+  for (const std::size_t k : {0U, 1U})
+    document["dispersions"][k]["distribution"] = {{"type", "normal"}, {"mean", 1}, {"std", 0.1}};
+  for (const double r : {-0.8, -0.1, 0.0, 0.3, 0.9})
+    for (const double off : {-0.1, -0.011, -0.009, 0.009, 0.011, 0.05}) {
+      const double spearman = 6 / std::numbers::pi * std::asin(r / 2);
+      document["correlations"] = {{{"between", {"spring", "mass.outer"}},
+                                   {"covariance", 0.01 * r},
+                                   {"spearman", spearman + off}}};
+      CAPTURE(r, off);
+      const std::string told = test::message_of([&] { return read_campaign(document.dump(), ""); });
+      CHECK(told.empty() == (std::abs(off) < 0.01));
+      if (!told.empty()) CHECK_THAT(told, Catch::Contains("/correlations/0/spearman: found "));
+    }
+}

@@ -243,3 +243,22 @@ TEST_CASE("What an elastic joint cannot have is refused", "[hinge_json]") {
              }),
              Catch::StartsWith(std::string(place) + ": "));
 }
+
+TEST_CASE("A damper of any law keeps its window and its scale when its scene is written",
+          "[hinge_json]") {
+  for (const char* law : {R"({"law": "viscous", "coefficient": 3})",
+                          R"({"law": "power", "coefficient": 3, "exponent": 0.5})",
+                          R"({"law": "eddy_current", "peak_torque": 3, "peak_rate": 2})"})
+    for (const char* key : {"", "window", "scale"}) {
+      Json damper = parse_json(law);
+      if (*key != '\0') damper[key] = key == std::string("window") ? Json({1.0, 0.25}) : Json(0.75);
+      const Scene scene = read_scene(
+          test::spoil(test::small_scene(), {"/hinges/0/damper", damper.dump().c_str(), ""}));
+      const Json written = write_scene(scene);
+      CAPTURE(damper.dump());
+      for (const auto& [name, value] : damper.items())
+        CHECK(written["hinges"][0]["damper"][name] == value);
+      CHECK(written["hinges"][0]["damper"].contains("window") == damper.contains("window"));
+      CHECK(write_scene(read_scene(written)) == written);
+    }
+}

@@ -7,6 +7,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
 
 using namespace wingspread;
 
@@ -119,4 +122,27 @@ TEST_CASE("A mirrored hold waits for the hinge of its own wing", "[mirror]") {
   CHECK(scene.hinges[1].release->after == 0);
   REQUIRE(scene.hinges[3].name == "L_mid");
   CHECK(scene.hinges[3].release->after == 2);
+}
+
+TEST_CASE("A pattern covers the names that begin and end as it does, without an overlap",
+          "[mirror]") {
+  const std::vector<std::string> words = [] {
+    std::vector<std::string> all{""};
+    for (std::size_t k = 0; all[k].size() < 5; ++k)
+      for (const char c : {'a', 'b'}) all.push_back(all[k] + c);
+    return all;
+  }();
+  for (const std::string& head : words)
+    for (const std::string& tail : words) {
+      if (head.size() + tail.size() > 4) continue;
+      const MirrorNames names{head + "*" + tail, "x*y"};
+      std::map<std::string, std::string> copies;
+      for (const std::string& middle : words) copies[head + middle + tail] = "x" + middle + "y";
+      for (const std::string& name : words) {
+        const auto copy = copies.find(name);
+        CAPTURE(names.of, name);
+        REQUIRE(names.covers(name) == (copy != copies.end()));
+        if (copy != copies.end()) REQUIRE(names.copy_of(name) == copy->second);
+      }
+    }
 }

@@ -357,3 +357,26 @@ TEST_CASE("What a flexible body cannot have is refused at its place", "[scene_js
              }),
              Catch::StartsWith(std::string(place) + ": "));
 }
+
+TEST_CASE("a fault of one element hides no fault of another, also of one whose number begins alike",
+          "[scene_json]") {
+  Json scene = test::small_scene();
+  const Json inner = scene["bodies"][0];
+  for (int k = 2; k < 25; ++k) {
+    scene["bodies"].push_back(scene["bodies"][1]);
+    scene["bodies"].back()["name"] = "more_" + std::to_string(k);
+  }
+  const std::size_t count = scene["bodies"].size();
+  for (std::size_t first = 0; first < count; ++first)
+    for (std::size_t second = 0; second < count; ++second) {
+      if (first == second) continue;
+      Json spoiled = scene;
+      spoiled["bodies"][first] = 3;
+      spoiled["bodies"][second]["mass"] = -1;
+      const std::string told = test::message_of([&] { return read_scene(spoiled); });
+      CAPTURE(first, second);
+      CHECK_THAT(told,
+                 Catch::Contains("/bodies/" + std::to_string(first) + ": found 3") &&
+                     Catch::Contains("/bodies/" + std::to_string(second) + "/mass: found -1"));
+    }
+}

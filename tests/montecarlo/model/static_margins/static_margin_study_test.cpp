@@ -159,3 +159,32 @@ TEST_CASE("a margin of nothing is enough: those below it are short", "[motorizat
   CHECK(root.worst_spread[1].share_short == 0);
   CHECK(root.worst_spread[0].share_short == 1); // by ECSS it takes six times the friction
 }
+
+TEST_CASE("unphysical draws are counted, whether or not some hinge drives", "[motorization]") {
+  for (const bool drives : {true, false}) {
+    Json json = one_panel_margin(200);
+    json["dispersions"] = Json::array();
+    json["dispersions"].push_back(parse_json(R"({ "name": "mass", "apply": "set",
+      "distribution": { "type": "normal", "mean": 1, "std": 1 }, "to": ["bodies.panel.mass"] })"));
+    if (!drives) {
+      Json& hinge = json["scene"]["hinges"][0];
+      for (const char* key : {"spring", "friction", "latch"}) hinge.erase(key);
+      hinge["angle"] = 0, hinge["joint"] = {{"stiffness", 100}};
+      json.erase("margin"), json.erase("requirements");
+      json["outputs"] = Json::array();
+    }
+    const Campaign campaign = campaign_of(json);
+    const StaticMarginStudy study = study_static_margins(campaign);
+    CHECK(study.drives.empty() != drives);
+    const RunPlan plan(campaign);
+    std::vector<double> draws(1);
+    long unphysical = 0;
+    for (long run = 0; run < 200; ++run) {
+      plan.draw(run, draws);
+      unphysical += draws[0] <= 0 ? 1 : 0;
+    }
+    CHECK(unphysical > 10);
+    CHECK(study.invalid == unphysical);
+    CHECK(study.draws == 200 - unphysical);
+  }
+}

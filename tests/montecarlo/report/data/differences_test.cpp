@@ -270,3 +270,16 @@ TEST_CASE("differences have the higher confidence of both sets, which interim an
           Approx(*paired_share_difference(0, 0, 30, 0.9875).bounds.upper).epsilon(1e-4));
   }
 }
+
+TEST_CASE("each further folder is compared with the first and with the one before it", "[page]") {
+  std::vector<std::unique_ptr<PageSource>> sets;
+  for (std::size_t folder = 0; folder < 4; ++folder) {
+    sets.push_back(std::make_unique<PageSource>());
+    sets.back()->argument = folder;
+  }
+  CHECK(pairs_of(sets).both ==
+        std::vector<std::pair<std::size_t, std::size_t>>{{0, 1}, {0, 2}, {1, 2}, {0, 3}, {2, 3}});
+  for (const auto& set : sets) set->argument = 0; // cases of one folder
+  CHECK(pairs_of(sets).both ==
+        std::vector<std::pair<std::size_t, std::size_t>>{{0, 1}, {0, 2}, {1, 2}, {0, 3}, {2, 3}});
+}

@@ -109,6 +109,10 @@ TEST_CASE("envelopes have at most so many runs, spread evenly, and a foreign set
   detail.latch_times = 4; // of 10, with both ends
   CHECK(envelopes_json(*source, detail, 1)["latch_times"][0] ==
         page_numbers(std::vector{times[0], times[3], times[6], times[9]}, 6));
+  for (const std::size_t most : {2, 4, 200}) { // runs are counted, not the times that are shown
+    detail.latch_times = most;
+    CHECK(envelopes_json(*source, detail, 1)["latched"] == Json{10, 10, 10});
+  }
   source->stored.foreign = true;
   CHECK(envelopes_json(*source, detail, 1).is_null());
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 
 using namespace wingspread;
 
@@ -150,4 +151,28 @@ TEST_CASE("few steps are filled up between", "[page]") {
   CHECK(samples.size() <= 51);
   for (const MotionSample& sample : samples)
     CHECK(sample.values[0] == Approx(sample_at(sample.t).angles[0]).margin(1e-12));
+}
+
+// A large start, then a swing of a hundredth: the last quarter is small, so only its turns say whether it is over.
+TEST_CASE("a slow swing with one or two turns in the last quarter has not settled", "[page]") {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform;
+  std::array<int, 4> tried{};
+  for (int trial = 0; trial < 300; ++trial) {
+    const double rate = 0.2 + 14 * uniform(random), phase = 6.3 * uniform(random);
+    std::vector<MotionSample> samples;
+    for (int k = 0; k <= 400; ++k) {
+      const double t = 1 + 0.01 * k;
+      samples.push_back(
+          {t, {0, 0, std::exp(-50 * (t - 1)) + 0.01 * std::cos(rate * t + phase), 0, 0, 0}});
+    }
+    const auto moment = [&](std::size_t k) { return samples[k].values[2]; };
+    std::size_t turns = 0; // from t = 4 on
+    for (std::size_t k = 300; k <= 400; ++k)
+      turns += (moment(k) - moment(k - 1)) * (moment(k - 1) - moment(k - 2)) < 0 ? 1 : 0;
+    CAPTURE(rate, phase, turns);
+    CHECK(has_settled(samples, one, 1) == (turns == 0 || turns > 2));
+    ++tried[std::min<std::size_t>(turns, 3)];
+  }
+  CHECK(std::ranges::min(tried) > 5);
 }

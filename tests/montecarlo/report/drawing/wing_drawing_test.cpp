@@ -158,3 +158,30 @@ TEST_CASE("each spring's arc is centred on its hinge, whichever way the spring t
   CHECK(arc == hinges.size());
   CHECK((flags[0] > 0 && flags[1] > 0));
 }
+
+TEST_CASE("the bar of each view is as long as it says, by the distances of the hinges") {
+  for (const double length : {0.013, 0.1, 0.37, 1.0, 2.6, 40.0}) {
+    WingDesign design;
+    design.panels = 4, design.damper = 0, design.panel_length = length, design.pitch = length / 50;
+    const Scene scene = scene_of(design);
+    const std::string svg = draw_wing(scene);
+    const auto from = drawn_at(svg, "stroke=\"#333\" stroke-width=\"2\"", "x1", "y1"),
+               to = drawn_at(svg, "stroke=\"#333\" stroke-width=\"2\"", "x2", "y2");
+    const auto hinges = drawn_at(svg, "class=\"hinge\"", "cx", "cy");
+    REQUIRE((from.size() == 3 && to.size() == 3 && hinges.size() == 3 * scene.hinges.size()));
+    std::vector<double> said;
+    for (std::size_t at = svg.find(" m</text>"); at != svg.npos; at = svg.find(" m</text>", at + 1))
+      said.push_back(std::stod(svg.substr(svg.rfind('>', at) + 1)));
+    REQUIRE(said.size() == 3);
+    // hinges of one panel: one panel's length apart along it, and a pitch apart across it, in any pose
+    const double apart = std::hypot(length, design.pitch);
+    for (std::size_t view = 0; view < 3; ++view) {
+      const std::size_t first = view * scene.hinges.size() + 1;
+      const double scale = (hinges[first + 1] - hinges[first]).norm() / apart;
+      CAPTURE(length, view, said[view]);
+      CHECK((to[view] - from[view]).norm() / scale == Approx(said[view]).epsilon(0.01));
+      CHECK((to[view] - from[view]).norm() <= 151);
+      CHECK((to[view] - from[view]).norm() > 59); // 1, 2, 5 of a power of ten
+    }
+  }
+}

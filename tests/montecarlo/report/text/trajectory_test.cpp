@@ -54,3 +54,29 @@ TEST_CASE("a trajectory that cannot be written is refused before the run") {
         }) ==
         path.string() + ": found No such file or directory, expected a file that can be written");
 }
+
+TEST_CASE("a trajectory of any length has each row once, in order") {
+  const Folder folder;
+  const auto path = folder.path() / "trajectory.csv";
+  const Scene scene = read_scene_file(three_panel_file());
+  Sample sample{};
+  (void)Deployment().run(scene, {}, {}, [&](const Sample& each) { sample = each; });
+  constexpr int rows = 5000; // several blocks of output
+  {
+    TrajectoryWriter writer(path, scene);
+    const Observer write = writer.observer();
+    for (int k = 0; k < rows; ++k) {
+      sample.t = k / 3.0;
+      write(sample);
+    }
+    writer.finish();
+  }
+  std::ifstream in(path);
+  CsvReader reader(in, "trajectory.csv");
+  REQUIRE(reader.next());
+  for (int k = 0; k < rows; ++k) {
+    REQUIRE(reader.next());
+    REQUIRE(std::stod(reader.cells()[0]) == k / 3.0);
+  }
+  CHECK_FALSE(reader.next());
+}

@@ -254,3 +254,15 @@ TEST_CASE(
   const std::string nothing = analysis_id(at_points(0, 0.5), {2, 2});
   CHECK(analysis_id(at_points(2, 0.25), {2, 2}) == nothing); // no run, no draw
 }
+
+TEST_CASE("a study is the same as another with as many parts as it says, and no other number") {
+  const Json there{{"samples", 100}, {"parts", {"a", "b", "c"}}};
+  for (long parts = 0; parts < 6; ++parts) {
+    const std::string told = message_of([&] {
+      refuse_other_study("log", there, {{"samples", 100}, {"parts", parts}});
+    });
+    CHECK(told == (parts == 3 ? ""
+                              : "log: /parts: found 3, expected " + std::to_string(parts) +
+                                    ", to continue what is there"));
+  }
+}

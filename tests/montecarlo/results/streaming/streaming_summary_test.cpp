@@ -349,27 +349,52 @@ TEST_CASE("a histogram without rows has no bin without width") {
 }
 
 TEST_CASE("without rows a passed requirement's quantiles are not beyond its limit, an atom too") {
-  constexpr long runs = 3000;
-  constexpr double limit = 2.5495097567963922;
-  Json json = quick_campaign(static_cast<int>(runs));
-  json["requirements"] = {
-      {{"output", "root.latch_time"}, {"max", limit}, {"probability", 0.65}, {"confidence", 0.9}},
-      {{"output", "root.latch_time"}, {"min", limit}, {"probability", 0.55}, {"confidence", 0.9}}};
-  const Campaign campaign = campaign_of(json);
+  constexpr long runs = 600;
+  std::mt19937_64 random(9);
+  for (int trial = 0; trial < 30; ++trial) {
+    const double limit = std::uniform_real_distribution<double>(1, 4)(random);
+    CAPTURE(limit);
+    Json json = quick_campaign(static_cast<int>(runs));
+    json["requirements"] = {
+        {{"output", "root.latch_time"}, {"max", limit}, {"probability", 0.65}, {"confidence", 0.9}},
+        {{"output", "root.latch_time"},
+         {"min", limit},
+         {"probability", 0.55},
+         {"confidence", 0.9}}};
+    const Campaign campaign = campaign_of(json);
+    const ResultNames names = RunPlan(campaign).names();
+    const auto row = [&](long run) { // 40 % below the limit, 30 % at it, 30 % above
+      return even_row(names, run, limit + (run % 10 < 4 ? -0.1 : run % 10 < 7 ? 0 : 0.1));
+    };
+    Results pilot(names);
+    for (long run = 0; run < 300; ++run) pilot.append(row(run));
+    StreamingStatistics statistics(campaign, names, pilot);
+    for (long run = 0; run < runs; ++run) (void)statistics.add(row(run), {});
+    const Summary found =
+        streaming_summary({"r", campaign, stamp_of(campaign, {})}, statistics, campaign.statistics);
+    for (const Verdict& verdict : found.requirements) {
+      REQUIRE(verdict.decision == Decision::pass);
+      CHECK(verdict.observed == limit);
+      CHECK(verdict.guaranteed == limit);
+      CHECK(verdict.margin == 0.0);
+    }
+  }
+}
+
+TEST_CASE("without rows there are as many kinds of latch orders as with them, listed or not") {
+  const Campaign campaign = campaign_of(quick_campaign(10));
   const ResultNames names = RunPlan(campaign).names();
-  const auto row = [&](long run) { // 40 % below the limit, 30 % at it, 30 % above
-    const double value = run % 10 < 4 ? limit - 0.1 : run % 10 < 7 ? limit : limit + 0.1;
-    return even_row(names, run, value);
-  };
-  Results pilot(names);
-  for (long run = 0; run < 300; ++run) pilot.append(row(run));
-  StreamingStatistics statistics(campaign, names, pilot);
-  for (long run = 0; run < runs; ++run) (void)statistics.add(row(run), {});
-  const Summary found =
-      streaming_summary({"r", campaign, stamp_of(campaign, {})}, statistics, campaign.statistics);
-  for (const Verdict& verdict : found.requirements) {
-    REQUIRE(verdict.decision == Decision::pass);
-    CHECK(verdict.observed == limit);
-    CHECK(verdict.guaranteed == limit);
+  for (const std::size_t kinds : {std::size_t{3}, most_latch_orders, most_latch_orders + 7}) {
+    Results rows(names);
+    StreamingStatistics statistics(campaign, names, rows);
+    for (std::size_t k = 0; k < kinds; ++k) {
+      ResultRow row = even_row(names, static_cast<long>(k), 1);
+      row.latch_order = "order" + std::to_string(k);
+      (void)statistics.add(row, {});
+    }
+    const Summary found =
+        streaming_summary({"r", campaign, stamp_of(campaign, {})}, statistics, campaign.statistics);
+    CHECK(found.latch_order_kinds == static_cast<long>(kinds));
+    CHECK(found.latch_orders.size() == std::min(kinds, most_latch_orders));
   }
 }
