@@ -94,7 +94,8 @@ public:
     base_search_ = BaseSearch::none;
     locked_.begin();
     if (is_stuck_for_good(run_.system, run_.step.x)) return std::nullopt; // no load changes
-    if (run_.goal.base_motion && run_.at.base != 0) base_search_ = BaseSearch::turn;
+    if (run_.at.base != 0 && (run_.goal.base_motion || run_.goal.to_t_end))
+      base_search_ = BaseSearch::turn;
     if (run_.goal.peak_force)
       forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt,
                         !by_lane.done || by_lane.forces_may_rise);

@@ -186,9 +186,10 @@ private:
     }
     for (const CaseChange& change : changes)
       if (const auto found = writers.find(change.target); found != writers.end())
-        object.at().refuse(fmt::format("a change of {}, which \"{}\" sets in every run",
-                                       path_of(test.campaign.scene, change.target), found->second),
-                           "a parameter that no dispersion sets");
+        object.at().refuse(
+            fmt::format("a change of {}, which \"{}\" sets in every run",
+                        path_of(test.campaign.scene, change.target), found->second),
+            "a parameter that no dispersion sets: fit that one, and state its value");
     make_changes(changes, test.campaign.scene);
     for (const Fault& fault : unphysical(test.campaign.scene))
       object.at().refuse(fmt::format("{} of {}", fault.path, fault.found), fault.expected);

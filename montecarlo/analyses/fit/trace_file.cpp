@@ -44,7 +44,7 @@ std::optional<Place> place_of(const TraceColumn& column, const std::vector<std::
   for (std::size_t i = 0; i < header.size(); ++i) {
     const HeaderCell cell = header_cell(header[i]);
     names.push_back(cell.name);
-    if (cell.name != column.header && header[i] != column.header) continue;
+    if (cell.name != column.header && without_blanks(header[i]) != column.header) continue;
     if (place) {
       column.at.refuse(fmt::format("\"{}\", twice in the header of {}", column.header, file),
                        "a column once in the header");
@@ -108,7 +108,9 @@ private:
     TraceColumn& column = columns_[i];
     const std::string& cell = cells[places_[i].index];
     const auto number = parse_csv_number(cell);
-    if (!number) throw csv_.error(column.header, fmt::format("'{}'", cell), "a finite number");
+    if (!number)
+      throw csv_.error(column.header, fmt::format("'{}'", cell),
+                       "a finite number: leave out rows that lack one");
     const double value = *number * places_[i].factor;
     if (column.ascending && !column.values.empty() && !(value > column.values.back()))
       throw csv_.error(column.header, fmt::format("{} after {}", cell, column.last),

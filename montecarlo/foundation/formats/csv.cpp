@@ -131,12 +131,17 @@ const std::vector<std::string>& CsvReader::cells() {
   return cells_;
 }
 
-HeaderCell header_cell(const std::string& cell) {
+std::string without_blanks(std::string text) {
+  text.erase(0, text.find_first_not_of(' '));
+  while (text.ends_with(' ')) text.pop_back();
+  return text;
+}
+
+HeaderCell header_cell(const std::string& given) {
+  const std::string cell = without_blanks(given);
   const std::size_t open = cell.find_last_of("[(");
   if (open == std::string::npos || !(cell.ends_with(']') || cell.ends_with(')'))) return {cell, ""};
-  std::string name = cell.substr(0, open);
-  while (name.ends_with(' ')) name.pop_back();
-  return {name, cell.substr(open + 1, cell.size() - open - 2)};
+  return {without_blanks(cell.substr(0, open)), cell.substr(open + 1, cell.size() - open - 2)};
 }
 
 } // namespace wingspread

@@ -84,10 +84,13 @@ private:
   bool terminated_ = true;
 };
 
-/// A cell of a header: a name, and a unit in brackets if there is one ("th1 [deg]", "M (N*m)").
+/// The text without blanks at its ends.
+[[nodiscard]] std::string without_blanks(std::string text);
+
+/// A cell of a header: a name, and a unit in brackets if there is one ("th1 [deg]", "M (N*m)"), without blanks around it.
 struct HeaderCell {
   std::string name, unit;
 };
-[[nodiscard]] HeaderCell header_cell(const std::string& cell);
+[[nodiscard]] HeaderCell header_cell(const std::string& given);
 
 } // namespace wingspread

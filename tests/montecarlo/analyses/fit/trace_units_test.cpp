@@ -38,12 +38,11 @@ TEST_CASE("a trace whose numbers are in another unit is refused with the factor 
 TEST_CASE("a header's unit counts whether the column is named with it or without") {
   const Folder folder;
   const Campaign campaign = campaign_of(panel_campaign());
-  std::string text = "t [ms],th [deg],side (left)\n";
+  std::string rows;
   constexpr double degrees = 180 / std::numbers::pi;
   for (int k = 0; k <= 80; ++k)
-    text += csv_cell(20.0 * k) + "," + csv_cell(degrees * panel_angle(0.02 * k, 1.03, 0.8)) + "," +
+    rows += csv_cell(20.0 * k) + "," + csv_cell(degrees * panel_angle(0.02 * k, 1.03, 0.8)) + "," +
             csv_cell(panel_angle(0.02 * k, 1.03, 0.8)) + "\n";
-  folder.write("t1.csv", text);
   const auto measured = [&](const char* time, const char* column) {
     Json tests = parse_json(R"({ "tests": [ { "name": "one", "trace": { "file": "t1.csv",
       "columns": { "root.angle": { "std": 0.01 } } } } ], "fit": { "parameters": ["spring", "friction"] } })");
@@ -53,10 +52,14 @@ TEST_CASE("a header's unit counts whether the column is named with it or without
     return std::pair(spec.tests[0].times.back(), spec.tests[0].columns[0].measured.back());
   };
   const double last = panel_angle(1.6, 1.03, 0.8);
-  for (const char* time : {"t", "t [ms]"})
-    for (const char* column : {"th", "th [deg]", "side (left)"}) {
-      CAPTURE(time, column);
-      CHECK(measured(time, column).first == Approx(1.6));
-      CHECK(measured(time, column).second == Approx(last).margin(1e-9));
-    }
+  for (const std::string header :
+       {"t [ms],th [deg],side (left)", " t [ms] ,  th [deg], side (left) "}) {
+    folder.write("t1.csv", header + "\n" + rows);
+    for (const char* time : {"t", "t [ms]"})
+      for (const char* column : {"th", "th [deg]", "side (left)"}) {
+        CAPTURE(time, column);
+        CHECK(measured(time, column).first == Approx(1.6));
+        CHECK(measured(time, column).second == Approx(last).margin(1e-9));
+      }
+  }
 }

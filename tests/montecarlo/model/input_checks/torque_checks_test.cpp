@@ -105,7 +105,7 @@ TEST_CASE("a wing that its torques hold in balance at the start, without frictio
     for (Json& hinge : document["hinges"]) {
       hinge["spring"] = parse_json(R"({"torque_stowed": 2, "torque_latched": 1.4})");
       hinge["harness"] = parse_json(R"({"torque_stowed": 2, "torque_latched": 0})");
-      hinge.erase("friction");
+      hinge.erase("friction"), hinge.erase("initial_rate");
     }
     change(document);
     InputWarnings warnings({"wing.json", ""});
