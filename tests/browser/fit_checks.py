@@ -18,7 +18,7 @@ TESTS = {
                    "tip.rate": {"column": "w3", "unit": "deg/s"}}},
                "values": [{"output": "root.latch_time", "value": "5.25 s", "std": "0.05 s"},
                           {"output": "root.latch_rate", "value": "-70 deg/s", "std": "3 deg/s"},
-                          {"parameter": "hinges.root.friction.coulomb", "value": 0.21, "std": 0.02}]}],
+                          {"parameter": "hinges.mid.friction.coulomb", "value": 0.021, "std": 0.002}]}],
     "fit": {"parameters": ["root_spring", "tip_spring", "coulomb.mid"], "samples": 200, "starts": 2},
     "candidates": [{"name": "slower start", "set": {"hinges.root.initial_rate": 0.1},
                     "trace": {"times": {"to": "4 s", "step": "50 ms"}, "columns": {"root.angle": {"std": "0.3 deg"}}}}]}
@@ -123,7 +123,7 @@ class FitChecks:
             self.same_numbers(got, [float(cell) for cell in rows[1 + int(at * step + 1e-9)]], f"sample {at}")
         self.assertEqual(len(self.all("figure.fit-pairs circle.sample")), 3 * len(cells))
         values = fit["tests"][0]["values"]
-        units = {"root.latch_time": ("s", 1), "root.latch_rate": ("deg/s", DEGREES), "hinges.root.friction.coulomb": ("N·m", 1)}
+        units = {"root.latch_time": ("s", 1), "root.latch_rate": ("deg/s", DEGREES), "hinges.mid.friction.coulomb": ("N·m", 1)}
         for row, (name, one) in zip(self.table("Measured values"), values.items(), strict=True):
             unit, factor = units[name]
             self.assertEqual((row[0], row[1].replace(" ", "_"), row[2]), ("ground", name if name.startswith("hinges") else name.replace(".", "_"), unit))
