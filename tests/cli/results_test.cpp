@@ -47,6 +47,24 @@ TEST_CASE("analyze leaves an untouched folder as it is, and takes other settings
   CHECK(parse_json_file(done.path / histograms_json_file)["root.latch_time"]["counts"].size() == 4);
 }
 
+TEST_CASE(
+    "a folder that has lost its rows keeps its statistics, and is refused by all that read rows") {
+  const DoneCampaign done(full_campaign(30));
+  std::filesystem::remove(done.path / runs_file);
+  const auto before = contents(done.path);
+  const std::string page = (done.folder.path() / "page.html").string();
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"analyze", done.path},
+                                                {"sensitivity", done.path},
+                                                {"report", done.path, "--out", page}}) {
+    CAPTURE(words[0]);
+    const auto [code, out, error] = run_program(done.folder, words);
+    CHECK(code == 2);
+    CHECK_THAT(error, HasFacts({done.path.string(), "no runs.csv"}));
+  }
+  CHECK(contents(done.path) == before);
+  CHECK_FALSE(std::filesystem::exists(page));
+}
+
 TEST_CASE("report shows what analyze was asked for, in place and elsewhere") {
   Json json = quick_campaign(30);
   json["requirements"] =

@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import json
 import pathlib
 import re
 import signal
@@ -9,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+import types
 import unittest
 
 import numpy as np
@@ -72,6 +74,23 @@ class Manners(unittest.TestCase):
             turns += 1
             time.sleep(0.001)
         return turns
+
+    def test_what_json_cannot_say_has_its_place_in_the_dictionary(self):
+        scene = json.loads(pathlib.Path(SCENE).read_text())
+        scene["bodies"][0]["mass"] = float("nan")
+        scene["bodies"][1]["inertia"] = np.float64("inf")
+        scene["hinges"][0]["child_point"] = np.array([-0.5, np.nan])
+        with self.assertRaises(wingspread.SpecError) as caught:
+            wingspread.simulate(scene)
+        self.assertEqual([problem[1:3] for problem in caught.exception.problems],
+                         [("/bodies/0/mass", "nan"), ("/bodies/1/inertia", "inf"), ("/hinges/0/child_point/1", "nan")])
+        self.assertEqual(str(caught.exception).count("expected a finite number"), 3)
+        scene = json.loads(pathlib.Path(SCENE).read_text())
+        expected = wingspread.simulate(scene)
+        scene["bodies"][0] = types.MappingProxyType(scene["bodies"][0] | {"mass": np.longdouble(scene["bodies"][0]["mass"])})
+        self.assertEqual(wingspread.simulate(types.MappingProxyType(scene)), expected)
+        with self.assertRaisesRegex(TypeError, "/bodies/1: found set"):
+            wingspread.simulate(scene | {"bodies": [scene["bodies"][0], {1}]})
 
     def test_the_stubs_say_what_the_module_has(self):
         tree = ast.parse((pathlib.Path(wingspread.__file__).parent / "_native.pyi").read_text(encoding="utf-8"))

@@ -22,7 +22,10 @@ constexpr double independent_moves = 0.8; // heuristic: the others reach what th
 // with offsets of a clock and of two sensors, ended unfinished.
 constexpr long runs_of_a_sample = 400;
 constexpr std::size_t predicted_rows = 400; // for bands and p-values: 10 rows in each 2.5 % tail
-constexpr int temperings = 2;               // the mode moves little when the likelihood is tempered
+// Heuristic: from so many starts the search goes on where those asked for lead nowhere near a trace. A moment that jumps at
+// its latch has many local modes: 8 starts missed the true one in 5 of 9 trials, 32 in none.
+constexpr int most_starts_of_search = 32;
+constexpr int temperings = 2;   // the mode moves little when the likelihood is tempered
 constexpr int least_tried = 16; // points of the prior that show whether a number can be predicted
 
 std::size_t walkers_for(std::size_t dimensions) {
@@ -142,8 +145,12 @@ public:
 
 private:
   void search_modes() {
-    modes_ = find_modes(data_, runs_,
-                        first_points(space_.size(), spec_.starts, campaign_.sampling.seed));
+    const auto from = [&](int starts) {
+      return find_modes(data_, runs_, first_points(space_.size(), starts, campaign_.sampling.seed));
+    };
+    modes_ = from(spec_.starts);
+    if (is_far_from_a_trace(data_, modes_.front()))
+      modes_ = from(std::max(spec_.starts, most_starts_of_search));
     for (int k = 0; k < temperings; ++k) {
       temper(spec_.tests, modes_.front().prediction, data_);
       std::vector<FitPoint> starts;

@@ -81,9 +81,6 @@ struct FittedValues {
 
 /// Whether a channel contradicts the model: the p-value is below this.
 inline constexpr double misfit_p_value = 0.01;
-/// Heuristic: a trace whose rms residual at the best fit is this many σ is probably of another hinge or in another
-/// unit.
-inline constexpr double foreign_sigmas = 10;
 /// Heuristic: if the rms residual is below σ by this factor, σ is probably in another unit.
 inline constexpr double too_close = 5;
 /// A parameter this far from its prior's median contradicts the prior: the prior's probability is 6e-5.

@@ -131,8 +131,8 @@ void add_misfits(const FitResult& result, const FitSpec& spec, std::vector<std::
     if (far_samples && rest <= foreign_sigmas) continue;
     if (fitted.channel.column && sigmas > foreign_sigmas)
       list.push_back(fmt::format("{}: the residuals are {:.0f} σ at the best fit: a trace of "
-                                 "another hinge, another sense or unit, or a test under other "
-                                 "conditions",
+                                 "another hinge, another sense or unit, a test under other "
+                                 "conditions, or a local optimum: then more \"starts\" fit it",
                                  where, sigmas));
     else if (fitted.channel.column && sigmas > 0 && sigmas * too_close < 1)
       list.push_back(fmt::format("{}: the residuals are {:.2g} σ at the best fit: is its std too "

@@ -61,7 +61,8 @@ std::string describe(const FitDirection& direction, const std::vector<std::strin
   seen[which[0]] = -direction.weights[which[1]], seen[which[1]] = direction.weights[which[0]];
   seen.normalize();
   const double sd = std::sqrt(seen.dot(covariance * seen) / seen.dot(prior * seen));
-  if (!(sd < unseen_ratio)) return unseen();
+  const auto own = [&](Eigen::Index i) { return std::sqrt(covariance(i, i) / prior(i, i)); };
+  if (!(sd < std::min({unseen_ratio, own(which[0]), own(which[1])}))) return unseen();
   const bool same_sign = direction.weights[which[0]] * direction.weights[which[1]] > 0;
   return fmt::format("the tests tell {} and {} only by their {}: sd of the {} {:.2f} of the "
                      "prior's, of the {} {:.2g}",

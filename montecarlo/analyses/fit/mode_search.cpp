@@ -129,6 +129,13 @@ Eigen::MatrixXd laplace_covariance(const FitData& data, TestRuns& runs, const Fi
   return curvature.llt().solve(Eigen::MatrixXd::Identity(at.size(), at.size()));
 }
 
+bool is_far_from_a_trace(const FitData& data, const FitMode& mode) {
+  return std::ranges::any_of(data.channels, [&](const Channel& channel) {
+    const double most = foreign_sigmas * foreign_sigmas * static_cast<double>(channel.count);
+    return channel.column && fit_of(data, channel, mode.prediction).chi_squared > most;
+  });
+}
+
 std::vector<FitMode> find_modes(const FitData& data, TestRuns& runs,
                                 std::span<const FitPoint> starts) {
   std::vector<FitMode> ends, modes;

@@ -21,6 +21,11 @@ struct FitMode {
   Prediction prediction;
 };
 
+/// Heuristic: a trace whose rms residual at the best fit is this many σ is probably of another hinge or in another unit;
+/// or the best fit is a local one.
+inline constexpr double foreign_sigmas = 10;
+[[nodiscard]] bool is_far_from_a_trace(const FitData& data, const FitMode& mode);
+
 /// Derivatives of all predictions in u: a row a number. Missing numbers have the derivative 0.
 [[nodiscard]] Eigen::MatrixXd jacobian_of(TestRuns& runs, const FitPoint& at);
 

@@ -100,10 +100,11 @@ private:
          {-1.0, degrees, 1 / degrees, 1e3, 1e-3, turns, turns_as_degrees, milli_as_degrees})
       list.push_back({own, factor});
     list.push_back({own, 1, 1e-3});
-    list.push_back({own, 1, 1, test_.times.front()});
-    const bool is_angle = column.unit == "rad" && !runs_.empty();
     constexpr double explained =
         4; // standard deviations: an offset that the test allows is no mistake
+    if (test_.times.front() > explained * test_.time_offset_std)
+      list.push_back({own, 1, 1, test_.times.front()});
+    const bool is_angle = column.unit == "rad" && !runs_.empty();
     if (is_angle && std::abs(motion_.at(runs_.front(), own, 0)) > explained * column.offset_std)
       for (const double factor : {1.0, -1.0, degrees, -degrees, 1 / degrees, -1 / degrees})
         list.push_back({own, factor, 1, 0, true});

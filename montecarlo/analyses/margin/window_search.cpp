@@ -217,8 +217,10 @@ double rounded_scale(double scale, double tolerance) {
 std::vector<std::size_t> closed_by(const FailingByScale& by_scale) {
   if (!windows_of(by_scale).empty()) return {};
   const Failing all = ever_failing(by_scale);
+  std::vector<std::size_t> alone;
   for (const std::size_t one : all)
-    if (closes(by_scale, {one})) return {one};
+    if (closes(by_scale, {one})) alone.push_back(one);
+  if (!alone.empty()) return alone;
   for (const std::size_t one : all)
     for (const std::size_t other : all)
       if (closes(by_scale, {one, other})) return {one, other};

@@ -78,8 +78,8 @@ struct Window {
 /// The scale rounded to two digits more than the tolerance has.
 [[nodiscard]] double rounded_scale(double scale, double tolerance);
 
-/// Conditions that together rule out every evaluated scale: one that never holds, else two that never hold at the same
-/// scale, else all that fail at any scale. Of several choices the lowest indices. Empty if there is a window.
+/// Conditions that rule out every evaluated scale: all that never hold; else the first two that never hold at the same
+/// scale; else all that fail at any scale. Empty if there is a window.
 [[nodiscard]] std::vector<std::size_t> closed_by(const FailingByScale& by_scale);
 
 } // namespace wingspread

@@ -134,7 +134,8 @@ public:
   /// Why the wing did not deploy in this run; empty if it did. @pre row < size()
   [[nodiscard]] std::string reason(std::size_t row) const;
 
-  /// Whether the table has all runs of the campaign; false after a stop, or for a folder that is not finished.
+  /// Whether the table has all runs of the campaign, or of its shard; false after a stop, or for a folder that is not
+  /// finished.
   [[nodiscard]] bool is_complete() const;
   /// The campaign with all defaults, as JSON.
   [[nodiscard]] const std::string& campaign() const;

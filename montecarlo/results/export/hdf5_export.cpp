@@ -241,10 +241,7 @@ void add_stamp(H5::H5Object& object, const StoredCampaign& stored) {
 }
 
 void write_table(H5::Group& group, const StoredCampaign& stored) {
-  refuse_rowless(stored.folder);
-  if (!std::filesystem::exists(stored.folder / runs_file))
-    throw SpecError({{stored.folder.string(), "", fmt::format("no {} in it", runs_file),
-                      "a results folder with the rows of its runs"}});
+  refuse_without_rows(stored.folder);
   add_stamp(group, stored);
   const Extent extent = extent_of(stored);
   const std::vector<ExportColumn> columns =

@@ -154,7 +154,10 @@ void FolderWriter::read_existing_rows(const RunPlan& plan) {
       before.seed == stored_.campaign.sampling.seed)
     note_extension(stored_.campaign, before.extended_from);
   refuse_other_campaign(there, stored_.campaign, stored_.stamp);
-  ResultsFile read = read_stored_results(there);
+  refuse_rowless(there.folder);
+  ResultsFile read = std::filesystem::exists(there.folder / runs_file)
+                         ? read_stored_results(there)
+                         : ResultsFile{Results(plan.names()), 0, false};
   refuse_other_rows(plan, read.results, stored_.folder / runs_file);
   rows_.continue_after(std::move(read), stored_.runs().first);
   if (before.runs < stored_.campaign.sampling.runs)

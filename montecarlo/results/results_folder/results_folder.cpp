@@ -223,7 +223,15 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
   return {reader.complete_bytes(), reader.unterminated()};
 }
 
+void refuse_without_rows(const std::filesystem::path& folder) {
+  refuse_rowless(folder);
+  if (!std::filesystem::exists(folder / runs_file))
+    throw SpecError({{folder.string(), "", fmt::format("no {} in it", runs_file),
+                      "a results folder with the rows of its runs"}});
+}
+
 ResultsFile read_stored_results(const StoredCampaign& stored) {
+  refuse_without_rows(stored.folder);
   ResultsFile read{Results(RunPlan(stored.campaign).names()), 0, false};
   const RowsRead rows =
       for_each_stored_row(stored, [&](const ResultRow& row) { read.results.append(row); });

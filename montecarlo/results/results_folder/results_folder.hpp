@@ -81,6 +81,8 @@ void copy_rows(const std::filesystem::path& from, const std::filesystem::path& t
 [[nodiscard]] std::string rows_file(const std::filesystem::path& folder);
 /// @throws SpecError for a folder made with --no-rows
 void refuse_rowless(const std::filesystem::path& folder);
+/// @throws SpecError for a folder made with --no-rows, or without runs.csv
+void refuse_without_rows(const std::filesystem::path& folder);
 
 /// How a file of rows ends.
 struct RowsRead {
@@ -94,10 +96,10 @@ struct RowsRead {
 RowsRead for_each_stored_row(const StoredCampaign& stored,
                              const std::function<void(const ResultRow&)>& take);
 
-/// Reads runs.csv without a torn last line; empty if the file does not exist. A file of another tool is read to its
+/// Reads runs.csv without a torn last line. A file of another tool is read to its
 /// end, with or without a last line break. It must have all runs, because statistics without the lost runs would be too
 /// good.
-/// @throws SpecError if the file is broken, or has a run that is not the folder's
+/// @throws SpecError if the file is missing or broken, or has a run that is not the folder's
 [[nodiscard]] ResultsFile read_stored_results(const StoredCampaign& stored);
 
 /// The statistics, verdicts, stopping goals and warnings of the rows. The interim analyses of the campaign share the

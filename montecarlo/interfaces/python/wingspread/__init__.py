@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import collections.abc
 import json
+import math
 import numbers
 import operator
 import os
@@ -119,7 +120,7 @@ class Table(typing.Mapping[str, npt.NDArray[typing.Any]]):
 
     @property
     def is_complete(self) -> bool:
-        """Whether all runs of the campaign are there; False for a results folder that is not finished."""
+        """Whether all runs of the campaign, or of the folder's shard, are there; False for a results folder that is not finished."""
         return self._native.is_complete
 
     @property
@@ -244,7 +245,11 @@ def evaluate(scene: Source, paths: typing.Sequence[str], x: npt.ArrayLike, outpu
 
 def _input_of(source: Source) -> _native.Input:
     if isinstance(source, collections.abc.Mapping):
-        return _native.Input.from_text(json.dumps(source, default=_plain), "")
+        problems: list[tuple[str, str, str, str]] = []
+        plain = _plain(source, "", problems)
+        if problems:
+            raise _spec_error(problems)
+        return _native.Input.from_text(json.dumps(plain), "")
     if isinstance(source, str) and source.lstrip().startswith("{"):
         return _native.Input.from_text(source, "")
     if isinstance(source, (str, os.PathLike)):
@@ -262,11 +267,14 @@ _MOST_RUNS, _MOST_SEED, _MOST_THREADS = 2**31 - 1, 2**64 - 1, 1024
 """The limits of the options --runs, --seed and --threads"""
 
 
-def _wrong(argument: str, value: typing.Any, expected: str) -> SpecError:
-    option = "--" + argument.replace("_", "-")
-    error = SpecError(f"{option}: found {value!r}, expected {expected}")
-    error.problems = [("", option, repr(value), expected)]
+def _spec_error(problems: list[tuple[str, str, str, str]]) -> SpecError:
+    error = SpecError("\n".join(f"{place}: found {found}, expected {expected}" for _, place, found, expected in problems))
+    error.problems = problems
     return error
+
+
+def _wrong(argument: str, value: typing.Any, expected: str) -> SpecError:
+    return _spec_error([("", "--" + argument.replace("_", "-"), repr(value), expected)])
 
 
 @typing.overload
@@ -309,11 +317,26 @@ def _warn(notices: typing.Iterable[str]) -> None:
         warnings.warn(notice, Notice, stacklevel=depth)
 
 
-def _plain(value: typing.Any) -> typing.Any:
-    """Converts numpy's numbers and arrays for JSON."""
-    if isinstance(value, (np.ndarray, np.generic)):
-        return value.tolist()
-    raise TypeError(f"found {type(value).__name__}, expected a type that JSON has")
+def _plain(value: typing.Any, pointer: str, problems: list[tuple[str, str, str, str]]) -> typing.Any:
+    """Converts mappings, paths, and numpy's numbers and arrays for JSON; notes numbers that are not finite."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    elif isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, np.floating):  # a longdouble
+        value = float(value)
+    if isinstance(value, collections.abc.Mapping):
+        return {key: _plain(each, f"{pointer}/{str(key).replace('~', '~0').replace('/', '~1')}", problems)
+                for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(each, f"{pointer}/{place}", problems) for place, each in enumerate(value)]
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, float) and not math.isfinite(value):
+        problems.append(("", pointer, str(value), "a finite number"))
+    elif value is not None and not isinstance(value, (str, int, float)):
+        raise TypeError(f"{pointer}: found {type(value).__name__}, expected a type that JSON has")
+    return value
 
 
 def _changes_of(changes: Changes | None) -> list[str]:

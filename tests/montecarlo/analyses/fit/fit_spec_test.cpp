@@ -266,6 +266,19 @@ TEST_CASE("a trace of another unit, sense, column or zero of time is refused") {
        {0.5 / M_PI, 1 / 360.0, 1e3 * M_PI / 180}) // turns; turns, milliradians as degrees
     CHECK_THAT(told([&, factor](double t, double angle) { return row(t, factor * angle); }),
                Catch::Contains("times those of the motion"));
+  const auto late = [&](double by, double std) {
+    std::string text = "t,th\n";
+    for (int k = 0; k <= 80; ++k)
+      text += row(0.02 * k + by, panel_angle(0.02 * k, 1.03, 0.8)) + "\n";
+    folder.write("t1.csv", text);
+    Json tests =
+        parse_json(R"({ "tests": [ { "name": "one", "trace": { "file": "t1.csv", "time": "t",
+      "columns": { "root.angle": { "column": "th", "std": 0.01 } } } } ], "fit": { "parameters": ["spring", "friction"] } })");
+    if (std > 0) tests["tests"][0]["trace"]["time_offset_std"] = std;
+    return message_of([&] { return read_fit(tests, "t", folder.path(), campaign); });
+  };
+  CHECK_THAT(late(1.5, 0.2), Catch::Contains("times that begin at 1.5 s"));
+  CHECK(late(1.5, 0.5).empty()); // a clock that may be so far off
   // a wrong trace that nothing explains is for the fit to judge
   CHECK(told([&](double t, double) { return row(t, std::sin(9 * t)); }).empty());
 }

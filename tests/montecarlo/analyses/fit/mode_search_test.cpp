@@ -1,4 +1,5 @@
 #include "montecarlo/analyses/fit/mode_search.hpp"
+#include "montecarlo/engine/runs/runner.hpp"
 #include "tests/montecarlo/analyses/fit/fit_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -142,5 +143,39 @@ TEST_CASE("starts: the prior's median, then points of a design") {
     int above = 0;
     for (std::size_t k = 1; k < 9; ++k) above += points[k][i] > 0;
     CHECK(above == 4); // Sobol' points: half of them on either side
+  }
+}
+
+// The latch's shock is at another time in each run, so that a run far from the trace has no slope towards it.
+TEST_CASE("where the starts asked for lead nowhere near a trace, more are tried") {
+  Json json = panel_campaign(0.05, 0.3);
+  json["integration"]["t_end"] = 3.2;
+  json["outputs"] = {"latch_time"};
+  const auto moments = [&](double spring, double friction) {
+    Json truth = json;
+    truth["scene"]["hinges"][0]["spring"]["scale"] = spring;
+    truth["scene"]["hinges"][0]["friction"]["scale"] = friction;
+    truth.erase("dispersions");
+    const Campaign campaign = campaign_of(truth);
+    const RunPlan plan(campaign, {}, SampledColumns{{3}, 0.02, 3.01});
+    return Runner(plan).run(0).outputs;
+  };
+  const Campaign campaign = campaign_of(json);
+  const Folder folder;
+  for (const auto& [spring, friction] : {std::pair(1.05, 0.74), {0.97, 1.3}}) {
+    std::string text = "t,m\n";
+    const std::vector<double> measured = moments(spring, friction);
+    for (std::size_t k = 0; 2 * k < measured.size(); ++k)
+      text += csv_cell(0.02 * static_cast<double>(k)) + "," + csv_cell(measured[2 * k]) + "\n";
+    folder.write("m.csv", text);
+    const FitSpec spec =
+        read_fit(parse_json(R"({ "tests": [ { "name": "shock", "trace": { "file": "m.csv",
+        "time": "t", "correlated": false, "columns": { "root.moment": { "column": "m", "std": 0.2 } } } } ],
+      "fit": { "parameters": ["spring", "friction"], "starts": 1, "samples": 300 } })"),
+                 "", folder.path(), campaign);
+    const FitResult result = fitted(campaign, spec);
+    CAPTURE(spring, result.parameters[0].mode, result.parameters[1].mode);
+    CHECK(result.channels.at(0).rms < 0.2); // the trace has no noise
+    CHECK(result.parameters[0].mode == Approx(spring).margin(3 * result.parameters[0].std));
   }
 }

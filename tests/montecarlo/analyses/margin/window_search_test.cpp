@@ -76,6 +76,8 @@ TEST_CASE("an empty window is proven by those that never hold together", "[windo
     if (holds.above) CHECK(*holds.above / holds.upper <= 1.01);
   }
   CHECK(closed_by(search({{0, 10}, {3, 10}, {0, 1.1}})) == std::vector<std::size_t>{1});
+  // all that never hold, not the first of them
+  CHECK(closed_by(search({{3, 10}, {0, 1.1}, {0, 0.01}})) == std::vector<std::size_t>{0, 2});
   // no two of three: together they leave nothing
   const FailingByScale three = search_window(range, [](double scale) {
     return scale < 0.8 ? Failing{0} : scale < 1.3 ? Failing{1} : Failing{2};
