@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <H5Cpp.h>
+#include <atomic>
 #include <bit>
 #include <chrono>
 #include <cstdint>
@@ -176,6 +177,45 @@ TEST_CASE("the same folder is exported to the same bytes, in place of what was t
   export_hdf5(path, b);
   CHECK(read_text(a) == read_text(b));
   CHECK_FALSE(std::filesystem::exists(b.string() + ".part"));
+}
+
+TEST_CASE("a folder to which rows are being added is exported as far as it was") {
+  const Folder folder;
+  const auto path = folder.path() / "r", file = folder.path() / "r.h5";
+  (void)run_into(path, campaign_of(quick_campaign(3000)));
+  const std::string all = read_text(path / runs_file).value();
+  const std::vector<std::string> lines = lines_of(all);
+  std::ofstream rows(path / runs_file, std::ios::trunc);
+  const auto add = [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) rows << lines[k] << "\n";
+    rows.flush();
+  };
+  add(0, 1001); // the header and 1000 rows
+  std::atomic<bool> stop = false;
+  std::thread writer([&] {
+    for (std::size_t k = 1001; k < lines.size() && !stop; ++k) {
+      add(k, k + 1);
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+  });
+  std::size_t before = 1000;
+  std::string failure;
+  for (int trial = 0; trial < 5 && failure.empty(); ++trial) {
+    failure = message_of([&] {
+      export_hdf5(path, file);
+      return 0;
+    });
+    if (!failure.empty()) break;
+    const H5::H5File in(file.string(), H5F_ACC_RDONLY);
+    const auto runs = numbers<std::int64_t>(in, "run", H5::PredType::NATIVE_INT64);
+    CHECK(runs.size() >= before);
+    for (std::size_t k = 0; k < runs.size(); ++k) REQUIRE(runs[k] == static_cast<std::int64_t>(k));
+    before = runs.size();
+  }
+  stop = true;
+  writer.join();
+  CHECK(failure.empty());
+  CHECK(before > 1000); // rows were added meanwhile
 }
 
 TEST_CASE("a campaign's cases are exported as groups") {

@@ -255,7 +255,7 @@ void write_table(H5::Group& group, const StoredCampaign& stored) {
   hsize_t rows = 0;
   (void)for_each_stored_row(stored, [&](const ResultRow& row) {
     // A campaign that still runs may have appended rows since the first reading.
-    if (rows++ == extent.rows) return;
+    if (rows++ >= extent.rows) return;
     for (ColumnWriter& writer : writers) writer.take(row);
   });
   for (ColumnWriter& writer : writers) writer.flush();
