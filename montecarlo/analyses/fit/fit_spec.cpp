@@ -349,6 +349,8 @@ private:
       for (const std::size_t index : read_names(name))
         if (std::ranges::find(fitted_, index) == fitted_.end())
           name.refuse(quoted(index) + ", which is not fitted", "one of fit.parameters");
+        else if (std::ranges::find(test.own, index) != test.own.end())
+          name.refuse_repeated(quoted(index), "each parameter once");
         else
           test.own.push_back(index);
   }

@@ -45,6 +45,8 @@ TEST_CASE("a parameter to which a test's case gives another law is the test's ow
                             Catch::Contains("\"spring\"") && Catch::Contains("\"own\""));
   tests["tests"][0]["own"] = {"spring"};
   CHECK(problem().empty());
+  tests["tests"][0]["own"] = {"spring", "spr*"};
+  CHECK_THAT(problem(), Catch::Contains("/tests/0/own/1: ") && Catch::Contains("\"spring\""));
   tests["tests"][0].erase("own");
   tests["tests"][0].erase("case");
   CHECK(problem().empty());
