@@ -43,7 +43,7 @@ COPIED = [":(glob)*", "core", "distributions", "montecarlo", "tests", "studies"]
 PAGE = "montecarlo/report/page/"
 # entry points of other programs, and code for other processors
 LEFT_OUT = re.compile(r"(main|mpi_transport|module|hdf5_missing|pack_neon|pack_avx512|runs_fma)\.cpp$")
-LAST = "^(schema|hdf5|python: the module|pages|ranks: recipes)"  # ctest's names
+LAST = "^(answers|schema|hdf5|python: the module|pages|ranks: recipes)"  # ctest's names
 
 
 def chance(*key):
