@@ -32,6 +32,13 @@ template <class T> struct LinearLaw {
   T damping;   ///< δ, N·m·s/rad
 };
 
+/// Adds the moment of an elastic hold, −k (φ − φ_stowed) − d φ̇, to the law of its hinge.
+template <class T>
+void add_hold(LinearLaw<T>& law, const T& stowed, const T& stiffness, const T& damping) {
+  law.drive = fused(stiffness, stowed - law.latched, law.drive);
+  law.stiffness = law.stiffness + stiffness, law.damping = law.damping + damping;
+}
+
 /// (2) for one state of the latch and of the exact friction.
 /// @param friction exact friction of a sliding hinge, N·m
 /// @param side from the latched angle to where an engaged latch bears: −β/2 or β/2, rad; none inside the backlash

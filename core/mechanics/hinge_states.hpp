@@ -189,15 +189,9 @@ protected:
       if (!wing_.real.empty())
         work_.modes[i] = mode_of(wing_, i, work_.above[i], contact, latch_acts(i));
     work_.laws[i] = linear_law(wing_.hinges[i], latch_acts(i), friction, backlash_side(i));
-    if (is_restrained(i)) add_elastic_hold(i);
-  }
-
-  /// Adds the hold's −k (φ − φ_stowed) − d φ̇ to the hinge's linear law, which counts from the latched angle.
-  void add_elastic_hold(int i) {
-    LinearLaw<T>& law = work_.laws[i];
+    if (!is_restrained(i)) return;
     const ReleaseTerms<T>& hold = wing_.releases[i];
-    law.drive = fused(hold.stiffness, wing_.hinges[i].stowed - wing_.hinges[i].latched, law.drive);
-    law.stiffness = law.stiffness + hold.stiffness, law.damping = law.damping + hold.damping;
+    add_hold(work_.laws[i], wing_.hinges[i].stowed, hold.stiffness, hold.damping);
   }
 
   [[nodiscard]] std::optional<T> backlash_side(int i) const {

@@ -30,22 +30,6 @@ bool is_latched(const std::optional<std::vector<int>>& latched, int hinge) {
   return !latched || std::ranges::find(*latched, hinge) != latched->end();
 }
 
-/// Replaces hinges that elastic holds hold by joints of these holds' stiffness at their stowed angles. A hinge in a loop
-/// stays: the loop needs its travel.
-Scene with_holds_as_joints(Scene scene, const std::optional<std::vector<int>>& latched) {
-  for (int h = 0; h < std::ssize(scene.hinges); ++h) {
-    Hinge& hinge = scene.hinges[h];
-    const bool in_loop = std::ranges::any_of(scene.synchronisations, [h](const auto& loop) {
-      return loop.first == h || loop.second == h;
-    });
-    if (!hinge.latch || !hinge.hold || in_loop || is_latched(latched, h)) continue;
-    hinge.joint = Joint{hinge.hold->stiffness, hinge.hold->damping};
-    hinge.latched = hinge.stowed;
-    hinge.latch.reset(), hinge.release.reset(), hinge.hold.reset(), hinge.motor.reset();
-  }
-  return scene;
-}
-
 /// The wing's linear model, reduced to the hinges that move.
 struct Reduced {
   RestModel model;
@@ -54,19 +38,20 @@ struct Reduced {
   Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   bool inverse = false; ///< M v = K v/ω² was solved: a stiff latch costs the low modes no digits
 
-  /// @param is_held by the scene's hinges @return whether all could be found
+  /// @param is_held by the scene's hinges, rigidly or by an elastic hold @return whether all could be found
   [[nodiscard]] bool make(const Scene& scene, const std::vector<char>& is_held, int options) {
     hinge_of = outward_order(scene);
     Wing<double> wing = make_wing<double>(scene, hinge_of);
     set_parameters(wing, scene);
     std::vector<double> angles;
-    std::vector<char> held;
+    HoldsAtRest holds;
     for (const int h : hinge_of) {
-      if (!is_held[h]) moving.push_back(static_cast<int>(held.size()));
-      held.push_back(is_held[h]);
+      const bool elastic = is_held[h] && scene.hinges[h].hold;
+      if (!is_held[h] || elastic) moving.push_back(static_cast<int>(holds.rigid.size()));
+      holds.rigid.push_back(is_held[h] && !elastic), holds.elastic.push_back(elastic);
       angles.push_back(is_held[h] ? scene.hinges[h].stowed : scene.hinges[h].latched);
     }
-    if (!make_linear_model(wing, angles.data(), held, model)) return false;
+    if (!make_linear_model(wing, angles.data(), holds, model)) return false;
     return moving.empty() || solve(options);
   }
 
@@ -125,7 +110,7 @@ NaturalMode mode_of(const Reduced& reduced, int k, std::size_t hinges) {
 
 std::optional<WingModes> natural_modes(const Scene& scene,
                                        const std::optional<std::vector<int>>& latched) {
-  WingModes found{with_segments(with_holds_as_joints(for_small_swings(scene), latched)), {}, {}};
+  WingModes found{with_segments(for_small_swings(scene)), {}, {}};
   const Scene& wing = found.wing.scene;
   std::vector<char> is_held(wing.hinges.size(), 0);
   for (int h = 0; latched && h < std::ssize(wing.hinges); ++h)

@@ -39,8 +39,8 @@ struct WingModes {
 };
 
 /// Finds all modes. Cost O(n³) with n hinges.
-/// @param latched hinges whose latches are engaged; all others with a latch are held at their stowed angles: rigidly, or as
-///                joints of an elastic hold's stiffness and damping. None: all latches are engaged
+/// @param latched hinges whose latches are engaged; all others with a latch are held at their stowed angles, rigidly or by
+///                the stiffness and damping of an elastic hold. None: all latches are engaged
 /// @return none if no rest was found
 /// @pre unphysical(scene) is empty, and the hinges form a tree
 [[nodiscard]] std::optional<WingModes>

@@ -34,10 +34,11 @@ public:
     return is_finite();
   }
 
-  bool make_linear(const double* angles, const std::vector<char>& is_held) {
+  bool make_linear(const double* angles, const HoldsAtRest& holds) {
+    holds_ = &holds;
     begin(angles);
-    RestSearch search(m_.angles, m_.stiffness, residual_, m_.moment,
-                      [&] { find_balance(is_held); });
+    const auto balance = [&] { find_balance(holds.rigid); };
+    RestSearch search(m_.angles, m_.stiffness, residual_, m_.moment, balance);
     if (!search.converge()) {
       begin(angles);
       if (!search.descend()) return false;
@@ -121,8 +122,13 @@ private:
 
   // ---- rest, K and C
 
+  [[nodiscard]] bool is_held_elastically(int i) const { return holds_ && holds_->elastic[i - 1]; }
   [[nodiscard]] LinearLaw<double> law(int i) const {
-    return linear_law(wing_.hinges[i], wing_.hinges[i].has_latch);
+    const HingeTerms<double>& hinge = wing_.hinges[i];
+    if (!is_held_elastically(i)) return linear_law(hinge, hinge.has_latch);
+    LinearLaw<double> own = linear_law(hinge, false);
+    add_hold(own, hinge.stowed, wing_.releases[i].stiffness, wing_.releases[i].damping);
+    return own;
   }
 
   /// Newton's method for the balance of moments and push. The residual is counted as steady moment: few
@@ -233,7 +239,7 @@ private:
     for (int i = 1; i <= n_; ++i) {
       double& own = m_.damping(i - 1, i - 1) = law(i).damping + m_.remainders[i - 1].motor.taken;
       if (wing_.real.empty() || !wing_.real[i].has_damper) continue;
-      if (!damper_acts_at_rest(wing_.real[i], m_.angles(i - 1))) continue;
+      if (!detail::damper_acts_at_rest(wing_.real[i], m_.angles(i - 1))) continue;
       RestModel::Remainder& left = m_.remainders[i - 1];
       left.damper = wing_.real[i].damper;
       left.taken = secant(*left.damper, std::abs(rates[i - 1]));
@@ -252,16 +258,10 @@ private:
           m_.damping(i - 1, i - 1) += stop.stiffness * stop.dissipation * depth;
         });
       const LatchDissipationTerms<double>& latch = wing_.real[i].dissipation;
-      if (!latch.present) continue;
+      if (!latch.present || is_held_elastically(i)) continue;
       m_.damping(i - 1, i - 1) += latch.strength * std::abs(m_.angles(i - 1) - latch.latched);
       m_.remainders[i - 1].dissipation = latch.strength;
     }
-  }
-
-  /// Whether the damper acts at rest, whatever the hinge's present side of the window. At an edge `room` is 0: no
-  /// bound.
-  [[nodiscard]] static bool damper_acts_at_rest(const RealHingeTerms<double>& real, double rest) {
-    return !real.has_window || (rest > real.window_low && rest < real.window_high);
   }
 
   void add_loops() {
@@ -368,8 +368,9 @@ private:
 
   const Wing<double>& wing_;
   const Workspace<double>& work_;
-  double t_end_;            ///< of bounds
-  bool is_bounded_ = false; ///< not the linear model alone
+  double t_end_;                       ///< of bounds
+  bool is_bounded_ = false;            ///< not the linear model alone
+  const HoldsAtRest* holds_ = nullptr; ///< of the linear model
   RestModel& m_;
   int n_;
   Vec2<double> push_{0, 0}; ///< in the directions that K and the rest know, m/s²
@@ -387,12 +388,13 @@ bool make_rest_model(const Wing<double>& wing, const Workspace<double>& work, co
   return Maker(wing, work, t_end, model).make(angles, rates);
 }
 
-bool make_linear_model(const Wing<double>& wing, const double* angles,
-                       const std::vector<char>& is_held, RestModel& model) {
+bool make_linear_model(const Wing<double>& wing, const double* angles, const HoldsAtRest& holds,
+                       RestModel& model) {
   Workspace<double> at_the_end;
-  for (const MotorTerms<double>& motor : wing.motors)
-    at_the_end.motors.push_back(last_motor_piece(motor));
-  return Maker(wing, at_the_end, 0, model).make_linear(angles, is_held);
+  for (std::size_t i = 0; i < wing.motors.size(); ++i)
+    at_the_end.motors.push_back(i > 0 && holds.elastic[i - 1] ? idle_motor<double>()
+                                                              : last_motor_piece(wing.motors[i]));
+  return Maker(wing, at_the_end, 0, model).make_linear(angles, holds);
 }
 
 } // namespace wingspread

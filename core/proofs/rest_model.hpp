@@ -143,6 +143,11 @@ namespace detail {
 /// Finds `room` and the `remainders` of friction and curves. @pre the model has its angles at rest
 void find_remainders(const Wing<double>& wing, RestModel& model);
 
+/// Whether a damper acts at rest, whatever the hinge's present side of its window. At an edge `room` is 0: no bound.
+[[nodiscard]] inline bool damper_acts_at_rest(const RealHingeTerms<double>& real, double rest) {
+  return !real.has_window || (rest > real.window_low && rest < real.window_high);
+}
+
 } // namespace detail
 
 /// Makes the model of a wing all of whose latches have engaged. Cost O(n³).
@@ -155,13 +160,19 @@ void find_remainders(const Wing<double>& wing, RestModel& model);
                                    const double* angles, const double* rates, double t_end,
                                    RestModel& model);
 
+/// Which hinges, 0 … n − 1, holds keep near their stowed angles: such a hinge has neither latch nor motor.
+struct HoldsAtRest {
+  std::vector<char> rigid; ///< it stays at its angle, with a row and column of the unit matrix in K
+  std::vector<char>
+      elastic; ///< a spring and damper about the stowed angle, those of Wing::releases
+};
+
 /// The angles at rest, mass, stiffness, damping and turns alone, of a wing of any size: no bounds, and no part of air,
 /// friction and backlash. The stiffness includes the push of a base that does not turn, and the bend of loaded gears.
 /// Motors have the command after their last knot. Cost O(n³).
 /// @param angles  of the hinges, 0 … n − 1: where the search for rest begins
-/// @param is_held by hinge: stays at its angle, with a row and column of the unit matrix in K
 /// @return whether rest was found, and all is finite
 [[nodiscard]] bool make_linear_model(const Wing<double>& wing, const double* angles,
-                                     const std::vector<char>& is_held, RestModel& model);
+                                     const HoldsAtRest& holds, RestModel& model);
 
 } // namespace wingspread

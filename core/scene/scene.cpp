@@ -184,6 +184,15 @@ void inspect(const Hinge& hinge, Inspector& check) {
   if (hinge.motor) inspect(*hinge.motor, owner, check);
 }
 
+/// @pre the body is flexible, and its mass and inertia are > 0
+void require_cut(const Body& body, int joints, const Owner& owner, Inspector& check) {
+  if (can_be_cut(body)) return;
+  std::ostringstream words;
+  words << "about mass·length²/12, the inertia of a uniform panel of the plate's length, and with "
+        << joints << (joints == 1 ? " joint" : " joints") << " at least " << least_inertia(body);
+  check.require(false, body.inertia, owner, "inertia", words.str().c_str());
+}
+
 /// @pre the body has a plate
 void inspect(const Body& body, const Flexible& flexible, const Owner& owner, Inspector& check) {
   if (flexible.bending_stiffness)
@@ -193,10 +202,7 @@ void inspect(const Body& body, const Flexible& flexible, const Owner& owner, Ins
     check.require(*flexible.frequency > 0, *flexible.frequency, owner, "flexible.frequency", "> 0");
   check.require(flexible.damping_ratio >= 0, flexible.damping_ratio, owner,
                 "flexible.damping_ratio", ">= 0");
-  if (body.mass > 0 && body.inertia > 0)
-    check.require(can_be_cut(body), body.inertia, owner, "inertia",
-                  "about mass·length²/12, the inertia of a uniform panel of the plate's length, "
-                  "at least some 0.65 of it (more with many joints, less with few)");
+  if (body.mass > 0 && body.inertia > 0) require_cut(body, flexible.joints, owner, check);
 }
 
 void inspect(const Body& body, Inspector& check) {

@@ -171,6 +171,16 @@ bool can_be_cut(const Body& body) {
   return panel.least_weight() > least_weight && panel.inertia(0) > 0;
 }
 
+double least_inertia(Body body) {
+  const double length = Panel(body).length();
+  double low = 0, high = body.mass * length * length / 12; // a rod can be cut
+  for (int halving = 0; halving < 30; ++halving) {
+    body.inertia = (low + high) / 2;
+    (can_be_cut(body) ? high : low) = body.inertia;
+  }
+  return high;
+}
+
 double bending_stiffness(const Body& body) {
   if (body.flexible->bending_stiffness) return *body.flexible->bending_stiffness;
   const double omega = 2 * std::numbers::pi * body.flexible->frequency.value_or(0) / beta_square;

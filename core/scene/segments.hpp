@@ -18,6 +18,8 @@
 ///
 ///     m_j = m l_j/L (1 + a (s − x_j²)),  s = Σ x_j² l_j/L,  J_j = ρ_j,  a such that the inertia is J   (5)
 ///
+/// One joint makes two equal segments, for which (5) has no a: they have (2) with J_j < ρ_j.
+///
 /// Frequencies converge as 1/N² (with joints between equal segments as 1/N).
 #pragma once
 
@@ -27,9 +29,12 @@
 
 namespace wingspread {
 
-/// Whether (2) or (5) gives segments with masses and inertias > 0: for less than about 0.65 m L²/12 there are none.
+/// Whether (2) or (5) gives segments with masses and inertias > 0.
 /// @pre the body is flexible, has a plate, and its mass and inertia are > 0
 [[nodiscard]] bool can_be_cut(const Body& body);
+/// The least inertia with which the body can be cut, kg·m², to 1e-9 of it: of m L²/12 0.75 with one joint, 0.325 with two, 0.5 with
+/// three, up to some 0.64 with many. @pre that of can_be_cut
+[[nodiscard]] double least_inertia(Body body);
 
 /// EI, N·m²: given, or by (4) from the frequency. @pre the body is flexible and has a plate
 [[nodiscard]] double bending_stiffness(const Body& body);

@@ -38,9 +38,9 @@ class FindingChecks:
         found = [item.text for item in self.all(".findings li")]
         self.assertEqual(len(found), min(4, len(worst)))
         for text, one in zip(found, worst.values()):
-            self.assertIn(f"in {one['set']} {one['beyond']:,} of {one['runs']:,} runs", text)
+            self.assertIn(f"in {one['set']} {one['broken']:,} of {one['runs']:,} runs", text)
             self.assertIn("above" if one["upper"] else "below", text)
-            self.check(re.search(r"runs \(([\d.]+) %\)", text)[1], one["beyond"] / one["runs"], share=True, about=one["text"])
+            self.check(re.search(r"runs \(([\d.]+) %\)", text)[1], one["broken"] / one["runs"], share=True, about=one["text"])
             allowed = one.get("allowed")
             self.assertEqual(re.findall(r"where (?:at most )?(\S+) may", text), [] if allowed is None else [str(allowed or "none")], one["text"])
             if one["observed_value"] is not None:
@@ -83,7 +83,7 @@ class FindingChecks:
     def test_why_fewer_runs_may_break_a_requirement_than_its_share(self):
         """Said where the confidence takes some of them, and not where all of the share may."""
         self.open(pages.made_up("loads"))
-        told = lambda allowed: self.run_script("""W.sets.forEach(set => { set.runs = 1000; set.requirements.forEach(one => Object.assign(one, { allowed: arguments[0], probability: 0.99, confidence: 0.9 })); }); W.outcomes();
+        told = lambda allowed: self.run_script("""W.sets.forEach(set => { set.runs = 1000; set.requirements.forEach(one => Object.assign(one, { allowed: arguments[0], probability: 0.99, confidence: 0.9, broken: one.beyond })); }); W.outcomes();
             return document.querySelector('.findings li').textContent""", allowed)
         self.assertIn("where at most 5 may (1 % of the runs is 10; to be 90 % sure, only 5 may). ", told(5))
         self.assertIn("where none may (1 % of the runs is 10; to be 90 % sure, none may). ", told(0))

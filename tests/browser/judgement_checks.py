@@ -244,3 +244,64 @@ class JudgementChecks:
         self.assertEqual(self.run_script("return document.querySelectorAll('table.scene-tables').length"), 0)
         self.run_script("W.set().modes = { wing: W.set().wing, rest: [0, 0, 0], notes: ['root presses its stop'], modes: [{ frequency: 1, damping_ratio: 0, shape: [1, 0, 0], base: null }] }; W.modes()")
         self.assertIn("root presses its stop.", self.one("#modes").text)
+
+    def test_sets_at_different_confidence_have_each_its_own(self):
+        """Beside each outcome's bounds; one confidence for all stands in the caption alone."""
+        self.open(pages.made_up("cases"))
+        self.run_script("W.sets[1].confidence = 0.5; W.outcomes()")
+        captions = self.run_script("return [...document.querySelectorAll('#verdicts caption')].map(one => one.textContent)")
+        (caption,) = [one for one in captions if one.startswith("Outcomes by")]
+        self.assertNotIn("%", caption)
+        for at, row in enumerate(self.table(caption)):
+            self.assertIn("(50 %)" if at == 1 else "(95 %)", row[2])
+        self.assertIn("two-sided bounds at 95 % and 50 %, by case", self.one("#subtitle .facts").text)
+
+    def test_a_curve_over_the_runs_with_a_value_says_so(self):
+        self.open(pages.made_up("plain"))
+        words = lambda: self.run_script("return document.querySelector('figure.distribution').outerHTML")
+        show = "W.choose('output', W.chosen.output)"
+        self.run_script("W.output().missing = 0; " + show)
+        self.assertNotIn("with a value", words())
+        self.run_script("Object.assign(W.output(), { missing: 100, count: 1900 }); " + show)
+        for fact in ("share of the runs with a value at or below", "1,900 of 2,000 runs", "their quantiles with bounds"):
+            self.assertIn(fact, words())
+
+    def test_what_breaks_a_requirement_is_counted_whole(self):
+        """Values beyond the limit are one cause of several; a change of the draws is proposed where they alone are too many."""
+        self.open(pages.made_up("loads"))
+        told = lambda **counts: self.run_script("""W.sets.length = 1; W.chosen.set = 0; const one = W.set().requirements.find(each => each.limit !== null);
+            Object.assign(one, { verdict: "failed", allowed: 90, without_value: 0, margin: null }, arguments[0]); one.broken = one.not_deployed + one.without_value + one.cut + one.beyond; one.runs = W.set().runs = W.set().planned = 200;
+            W.set().requirements = [one]; W.outcomes();
+            return [document.querySelector('.findings:not(.stalls) li').textContent, document.querySelectorAll('.findings:not(.stalls) .needed').length, document.querySelector('.matrix tbody, table.requirements tbody').textContent]""", counts)
+        text, needed, _ = told(not_deployed=98, cut=39, beyond=63)
+        for fact in ("200 of 200 runs (100", "break it, where at most 90 may", ": 98 did not deploy, 39 have a peak that t_end cut and 63 have ", "would be few enough"):
+            self.assertIn(fact, text)
+        self.assertEqual(needed, 0)
+        text, needed, _ = told(not_deployed=0, cut=0, beyond=93, changes=[{"for": "limit", "runs": 200, "explained": 0.9, "levers": [], "needs": []}])
+        self.assertIn("93 of 200 runs", text)
+        self.assertNotIn("few enough", text)
+        self.assertEqual(needed, 1)
+        self.assertIn("1 has a peak", told(not_deployed=1, cut=1, beyond=92)[0])
+
+    def test_cut_peaks_are_named_where_they_decide(self):
+        self.open(pages.made_up("cases"))
+        told = lambda **counts: self.run_script("""W.sets.forEach(set => set.requirements = [Object.assign(set.requirements.find(each => each.limit !== null), { verdict: "failed", allowed: 90, margin: null, guaranteed_value: null, observed_value: null }, arguments[0])]);
+            W.outcomes(); return document.querySelector('table.matrix tbody').textContent""", counts)
+        self.assertIn("58 peaks cut by t_end", told(not_deployed=20, cut=58, beyond=40, broken=118))
+        self.assertIn("151 not deployed", told(not_deployed=151, cut=58, beyond=0, broken=209))
+        self.assertIn("58 peaks cut by t_end", told(not_deployed=0, cut=58, beyond=100, broken=158))
+
+    def test_nothing_that_varies_can_be_changed(self):
+        self.open(pages.made_up("loads"))
+        told = self.run_script("""W.sets.length = 1; W.chosen.set = 0; W.set().inputs.dispersions.forEach(one => Object.assign(one, { low: 1, high: 1 }));
+            for (const one of W.set().requirements) one.changes = [{ for: "limit", runs: 0, explained: null, levers: [], needs: [] }];
+            W.outcomes(); return document.querySelector('.findings').textContent""")
+        self.assertIn("No dispersion varies", told)
+        self.assertNotIn("Too few runs", told)
+
+    def test_a_share_that_is_undecided_has_no_distance(self):
+        self.open(pages.made_up("plain"))
+        row = lambda verdict: self.run_script("""const one = W.set().requirements.find(each => each.output === "deployed"); Object.assign(one, { verdict: arguments[0], guaranteed: 0.1, probability: 0.9 }); W.set().requirements = [one]; W.outcomes();
+            return document.querySelector('table.requirements tbody').textContent""", verdict)
+        self.assertIn("%-points", row("failed"))
+        self.assertNotIn("%-points", row("open"))

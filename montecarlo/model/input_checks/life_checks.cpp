@@ -71,12 +71,20 @@ void check_holds(const Scene& scene, const Integration& integration, InputWarnin
     if (is_elastic(scene.hinges[h]) && loads[h].value > least_load)
       warnings.add(
           fmt::format("/hinges/{}/hold", h),
-          fmt::format(
-              "a hold that starts unstrained under {:.4g} N·m: it rings, and {}.hold_moment "
-              "is up to twice that, {:.4g} N·m (less with damping)",
-              loads[h].value, scene.hinges[h].name, 2 * loads[h].value),
+          fmt::format("a hold that starts unstrained under {:.4g} N·m: it rings, and at the start "
+                      "{}.hold_moment is up to twice that, {:.4g} N·m (less with damping); a latch "
+                      "or another "
+                      "hinge may load it more later",
+                      loads[h].value, scene.hinges[h].name, 2 * loads[h].value),
           "a rigid hold for the load at rest, or a `damping` that ends the ring before the "
           "release");
+}
+
+bool holds_at_the_end(const Outcome& nominal, int hinge) {
+  const auto is_in = [hinge](const std::vector<int>& hinges) {
+    return std::ranges::find(hinges, hinge) != hinges.end();
+  };
+  return is_in(nominal.never_released) || is_in(nominal.may_release_later);
 }
 
 /// Warns of a hinge that reaches its latch while an elastic hold still holds it. A hold that is due at the start holds
@@ -84,16 +92,49 @@ void check_holds(const Scene& scene, const Integration& integration, InputWarnin
 void check_hold_lasts(int h, const Outcome& nominal, InputWarnings& warnings) {
   const auto latched = std::ranges::find(nominal.latches, h, &LatchEvent::hinge);
   const auto released = std::ranges::find(nominal.releases, h, &HingeEvent::hinge);
-  const auto is_in = [h](const std::vector<int>& hinges) {
-    return std::ranges::find(hinges, h) != hinges.end();
-  };
-  const bool holds_on = is_in(nominal.never_released) || is_in(nominal.may_release_later);
   if (latched == nominal.latches.end()) return;
-  if (!holds_on && (released == nominal.releases.end() || released->time <= latched->time)) return;
+  if (!holds_at_the_end(nominal, h) &&
+      (released == nominal.releases.end() || released->time <= latched->time))
+    return;
   warnings.add(
       fmt::format("/hinges/{}/hold/stiffness", h),
       fmt::format("a hinge that latches at {:.4g} s, before its hold lets go", latched->time),
       "a hold that keeps the hinge near its stowed angle");
+}
+
+/// "t waits for r, which loop L ties to t": how a hold waits for the latch of a hinge that cannot move before some hold,
+/// of the same hinge in the end, lets go; else empty. A hinge that an elastic hold or none holds may move.
+std::string tied_wait(const Scene& scene, int hinge, int from, std::vector<char>& seen) {
+  const std::optional<Release>& release = scene.hinges[from].release;
+  if (!release || release->after < 0 || seen[from]) return "";
+  seen[from] = 1;
+  const int awaited = release->after;
+  const std::string wait = scene.hinges[from].name + " waits for " + scene.hinges[awaited].name;
+  if (scene.hinges[awaited].release)
+    if (const std::string rest = tied_wait(scene, hinge, awaited, seen); !rest.empty())
+      return wait + ", " + rest;
+  if (release->event != Release::Event::latched) return "";
+  for (const Synchronisation& loop : scene.synchronisations) {
+    if (loop.first != awaited && loop.second != awaited) continue;
+    const int tied = loop.first == awaited ? loop.second : loop.first;
+    const Hinge& other = scene.hinges[tied];
+    if (!other.release || other.hold) continue;
+    const std::string ties = wait + ", which " + loop.name + " ties to " + other.name;
+    if (tied == hinge) return ties;
+    if (const std::string rest = tied_wait(scene, hinge, tied, seen); !rest.empty())
+      return ties + ", " + rest;
+  }
+  return "";
+}
+
+/// Warns of a hold that, in the nominal run, a loop keeps from letting go. A soft loop may let the awaited hinge latch.
+void check_tied(const Scene& scene, int h, const Outcome& nominal, InputWarnings& warnings) {
+  std::vector<char> seen(scene.hinges.size(), 0);
+  if (!holds_at_the_end(nominal, h)) return;
+  if (const std::string wait = tied_wait(scene, h, h, seen); !wait.empty())
+    warnings.add(fmt::format("/hinges/{}/release/after", h),
+                 "a hold that waits through a loop for itself: " + wait,
+                 "holds of hinges that a loop ties together let go together");
 }
 
 void check_capture(const Scene& scene, int h, const Outcome& nominal, InputWarnings& warnings) {
@@ -127,6 +168,7 @@ void check_life(const Scene& scene, const Integration& integration, const Outcom
   check_holds(scene, integration, warnings);
   for (int h = 0; h < std::ssize(scene.hinges); ++h) {
     if (scene.hinges[h].release) check_release(scene, h, integration.t_end, warnings);
+    if (scene.hinges[h].release) check_tied(scene, h, nominal, warnings);
     if (scene.hinges[h].release && scene.hinges[h].hold) check_hold_lasts(h, nominal, warnings);
     if (scene.hinges[h].latch && scene.hinges[h].latch->can_miss())
       check_capture(scene, h, nominal, warnings);

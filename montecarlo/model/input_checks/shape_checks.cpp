@@ -190,14 +190,42 @@ namespace {
 
 double travel_of(const Hinge& hinge) { return std::abs(hinge.latched - hinge.stowed); }
 
+constexpr double most_out_of_step = 0.01; // of the travel. Heuristic: far above rounded ratios
+
+double gear_of(const Synchronisation& loop, double travel) {
+  return loop.table ? loop.table->value_at(travel) : loop.ratio * travel;
+}
+
+/// Checks that two loops between the same hinges agree all along the travel.
+void check_both(const Scene& scene, std::size_t k, std::size_t m, InputWarnings& warnings) {
+  const Synchronisation &one = scene.synchronisations[k], &other = scene.synchronisations[m];
+  const bool turned = one.first == other.second && one.second == other.first;
+  if (!turned && (one.first != other.first || one.second != other.second)) return;
+  constexpr int steps = 200;
+  const double travel = travel_of(scene.hinges[one.first]);
+  double worst = 0, where = 0;
+  for (int step = 0; step <= steps; ++step) {
+    const double x = travel * step / steps, y = gear_of(one, x);
+    const double apart = turned ? std::abs(gear_of(other, y) - x) : std::abs(gear_of(other, x) - y);
+    if (apart > worst) worst = apart, where = x;
+  }
+  const Hinge& strained = scene.hinges[turned ? one.first : one.second];
+  if (worst <= most_out_of_step * travel_of(strained)) return;
+  warnings.add(
+      fmt::format("/synchronisations/{}", m),
+      fmt::format("a loop {} deg of {} out of step with {} where {} has turned {} deg",
+                  degrees_text(worst), strained.name, one.name, scene.hinges[one.first].name,
+                  degrees_text(where)),
+      "one ratio between two hinges at every angle: else the loops hold them back, which the "
+      "static margins do not count");
+}
+
 /// Checks that a loop lets both of its hinges reach their latches.
 void check_loop(const Scene& scene, std::size_t k, InputWarnings& warnings) {
-  constexpr double most_out_of_step = 0.01; // of the travel. Heuristic: far above rounded ratios
   const Synchronisation& loop = scene.synchronisations[k];
   const Hinge &first = scene.hinges[loop.first], &second = scene.hinges[loop.second];
   if (!first.latch || !second.latch) return;
-  const double given =
-      loop.table ? loop.table->value_at(travel_of(first)) : loop.ratio * travel_of(first);
+  const double given = gear_of(loop, travel_of(first));
   const double needed = travel_of(second);
   if (std::abs(given - needed) <= most_out_of_step * needed) return;
   warnings.add(fmt::format("/synchronisations/{}/ratio", k),
@@ -213,7 +241,11 @@ void check_loop(const Scene& scene, std::size_t k, InputWarnings& warnings) {
 } // namespace
 
 void check_shape(const Scene& scene, InputWarnings& warnings) {
-  for (std::size_t k = 0; k < scene.synchronisations.size(); ++k) check_loop(scene, k, warnings);
+  for (std::size_t k = 0; k < scene.synchronisations.size(); ++k) {
+    check_loop(scene, k, warnings);
+    for (std::size_t m = k + 1; m < scene.synchronisations.size(); ++m)
+      check_both(scene, k, m, warnings);
+  }
   check_stowed(scene, Arms(scene), warnings);
   for (std::size_t h = 0; h < scene.hinges.size(); ++h) {
     const Hinge& hinge = scene.hinges[h];

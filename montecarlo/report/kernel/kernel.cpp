@@ -183,7 +183,7 @@ private:
 
   /// Sets `result`, which 66-run.js reads, in this order:
   ///
-  ///   status, t_end, peaks_final
+  ///   status, t_end, whether the moments (1) and the forces (2) are final, in sum
   ///   number of latches; of each: hinge, time, rates…
   ///   of each hinge: peak moment and its time, peak force, overtravel, hold moment, final angle, motor energy
   ///   the base's peak angle and rate
@@ -193,7 +193,7 @@ private:
   void keep_result(const Outcome& outcome) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     result = {static_cast<double>(outcome.status), outcome.t_end,
-              static_cast<double>(outcome.peaks_final),
+              (outcome.moments_final ? 1.0 : 0.0) + (outcome.forces_final ? 2.0 : 0.0),
               static_cast<double>(outcome.latches.size())};
     for (const LatchEvent& latch : outcome.latches) {
       result.push_back(latch.hinge);

@@ -193,7 +193,7 @@
       margin = marginOf(one);
     if (margin !== null)
       return `${margin > 0 ? "+" : ""}${F.number(margin * factor, 3)} ${unit}`.trim() + (W.isNumber(one.margin) ? "" : " (observed)");
-    return W.isNumber(one.guaranteed) && !W.isNumber(one.limit)
+    return W.isNumber(one.guaranteed) && !W.isNumber(one.limit) && verdictOf(one.verdict) !== "open"
       ? `${one.guaranteed > one.probability ? "+" : ""}${F.number(100 * (one.guaranteed - one.probability), 3)} %-points`
       : F.none;
   }
@@ -290,10 +290,11 @@
       h("p.note", `${shortOf(one)}: no run breaks it. Its distance is small because ${F.runs(set.runs)} can show no more than ${F.share(one.guaranteed)} at ${F.given(100 * one.confidence)} % confidence.`),
     );
   }
-  // Why a requirement has no margin to show: peaks that t_end cut decide where there are runs enough, then wings that did
-  // not deploy; else there are too few runs.
+  // Why a requirement has no margin to show: peaks that t_end cut where they decide, then wings that did not deploy; else
+  // there are too few runs.
   function whyNone(one) {
-    if (one.allowed !== null && one.cut > 0) return `${F.count(one.cut)} ${one.cut === 1 ? "peak" : "peaks"} cut by t_end`;
+    const cutDecides = verdictOf(one.verdict) === "open" || one.broken - one.cut <= one.allowed || !one.not_deployed;
+    if (one.allowed !== null && one.cut > 0 && cutDecides) return `${F.count(one.cut)} ${one.cut === 1 ? "peak" : "peaks"} cut by t_end`;
     if (one.not_deployed) return `${F.count(one.not_deployed)} not deployed`;
     return verdictOf(one.verdict) === "open" && !one.one_run ? "too few runs" : F.none;
   }

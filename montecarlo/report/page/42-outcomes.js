@@ -18,7 +18,8 @@
   const key = (name, style) => h("i", { class: `key ${name}`.trim(), style, "aria-hidden": "true" });
 
   function outcomes() {
-    const confidence = `${100 * (W.set().confidence || 0.95)} % two-sided bounds`;
+    const levels = W.confidences(),
+      confidence = `${levels.length === 1 ? `${levels[0]} ` : ""}two-sided bounds`;
     if (W.sets.length === 1) {
       const set = W.set();
       const rows = set.statuses.map((one) => ({
@@ -48,15 +49,15 @@
         ? h(
             "span.double",
             `${F.count(one.count)} · ${F.share(one.rate)}`,
-            h("small", F.shareBounds(one.lower, one.upper)),
+            h("small", F.shareBounds(one.lower, one.upper), levels.length > 1 ? ` (${W.confidenceOf(set)})` : ""),
           )
         : F.none;
     };
     return [
       h("h3", "Outcomes"),
       W.table(
-        `Outcomes by case, with ${confidence}`,
-        ["Case", number("Runs"), ...statuses.map((status) => number(nameOf(status)))],
+        `Outcomes by ${W.kindOfSets()}, with ${confidence}`,
+        [W.kindOfSets() === "case" ? "Case" : "Folder", number("Runs"), ...statuses.map((status) => number(nameOf(status)))],
         W.sets.map((set) => [set.label, F.count(set.runs), ...statuses.map((status) => cell(set, status))]),
       ),
       h(

@@ -187,7 +187,10 @@
   }
   // Why there is no estimate.
   function unknown(one, set, block, limited) {
-    const draws = ((set.inputs || {}).dispersions || []).length;
+    const all = (set.inputs || {}).dispersions || [],
+      draws = all.length;
+    if (all.length && all.every((each) => W.isNumber(each.low) && each.low === each.high))
+      return "No dispersion varies, so these runs do not show what would change it.";
     if (!limited && one.not_deployed === set.runs) return "No run deploys: these runs do not show what would change it.";
     if (block.runs && limited && block.explained < 0.5)
       return `These runs do not show what would change it: a linear fit explains ${F.share(block.explained, 0)} of the spread. Ask wingspread margin.`;

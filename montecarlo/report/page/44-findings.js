@@ -64,17 +64,27 @@
       side = one.upper ? "above" : "below",
       limit = F.written(one.limit, W.verdicts.unitOf(one, set)),
       name = F.nameOf(one.output).replace("of every hinge", "of the lowest hinge"); // a run breaks it by one hinge
-    const runs = (one.beyond_runs || []).map((each) => each.run);
+    const runs = (one.beyond_runs || []).map((each) => each.run),
+      value = `${one.beyond === 1 ? "has" : "have"} ${one.abs ? `|${name}|` : name} ${side} ${limit}`,
+      alone = one.broken === one.beyond,
+      decides = !W.isNumber(one.allowed) || one.beyond > one.allowed;
+    const rest = [
+      one.not_deployed && `${F.count(one.not_deployed)} did not deploy`,
+      one.without_value && `${F.count(one.without_value)} ${one.without_value === 1 ? "has" : "have"} no value`,
+      one.cut && `${F.count(one.cut)} ${one.cut === 1 ? "has" : "have"} a peak that t_end cut`,
+      `${F.count(one.beyond)} ${value}`,
+    ].filter(Boolean);
     return h(
       "li",
       h("b", W.verdicts.shortOf(one)),
-      `: ${several ? `in ${set.label} ` : ""}${F.count(one.beyond)} of ${F.runs(set.runs)}${W.soFar(set)} (${F.share(one.beyond / Math.max(1, set.runs))}) ${one.beyond === 1 ? "has" : "have"} ${one.abs ? `|${name}|` : name} ${side} ${limit}${mayBreak(one, set)}. `,
+      `: ${several ? `in ${set.label} ` : ""}${F.count(one.broken)} of ${F.runs(set.runs)}${W.soFar(set)} (${F.share(one.broken / Math.max(1, set.runs))}) ${alone ? value : one.broken === 1 ? "breaks it" : "break it"}${mayBreak(one, set)}${alone ? "" : `: ${W.verdicts.listed(rest)}`}. `,
+      decides ? null : `Without the others, those ${side} the limit would be few enough. `,
       quantileText(one, set),
       also.length ? `Also fails in ${W.verdicts.listed(also)}. ` : null,
       runs.length ? [`The worst run is `, h("button.run", { onclick: () => W.selectRun(at, runs[0]) }, String(runs[0])), ". "] : null,
       W.caseMeans(set, one.output),
       W.caseMechanism(set, one.output) ? h("p.mechanism", W.caseMechanism(set, one.output)) : null,
-      W.needed(one, set, "limit"),
+      decides ? W.needed(one, set, "limit") : null,
     );
   }
   // For each requirement that values beyond its limit break: where, how many runs, by how much, and what moves the output.

@@ -28,11 +28,18 @@
     if (unmade) return `${W.sets.length} of ${W.sets.length + unmade} cases: ${W.sets.map((set) => set.label).join(", ")}`;
     return `${W.sets.length} ${cases.length ? "cases" : "folders"}: ${W.sets.map((set) => set.label).join(", ")}`;
   }
+  // The confidence of a set's bounds, "95 %", and those of all sets: folders may have been analysed at different ones.
+  W.confidenceOf = (set) => `${F.given(100 * (set.confidence || 0.95))} %`;
+  W.confidences = () => [...new Set(W.sets.map(W.confidenceOf))];
+  // What the sets are: cases of a campaign, or folders.
+  W.kindOfSets = () => (W.sets.some((set) => set.case) ? "case" : "folder");
   // "requirements at 90 % confidence, two-sided bounds at 95 %": both, where they differ.
-  function confidences(set) {
-    const own = `${F.given(100 * set.confidence)} %`,
+  function confidences() {
+    const levels = W.confidences(),
+      own = W.verdicts.listed(levels),
       asked = [...new Set(W.sets.flatMap((each) => (each.requirements || []).map((one) => `${F.given(100 * one.confidence)} %`)))];
     if (!asked.length || (asked.length === 1 && asked[0] === own)) return `bounds at ${own}`;
+    if (levels.length > 1) return `requirements at ${W.verdicts.listed(asked)} confidence, two-sided bounds at ${own}, by ${W.kindOfSets()}`;
     return `requirements at ${W.verdicts.listed(asked)} confidence, two-sided bounds at ${own}`;
   }
   // Whether planned runs of a set are missing; and all that are missing in words, as the program wrote them: "62 of 500
@@ -53,7 +60,7 @@
           ? `${F.runs(set.runs)}${W.sets.length > 1 ? " each" : ""}`
           : `${F.count(d3.min(W.sets, (each) => each.runs))} to ${F.runs(d3.max(W.sets, (each) => each.runs))}`,
       set.foreign ? "rows from another tool" : null,
-      confidences(set),
+      confidences(),
       set.shard ? `shard ${set.shard}` : null,
       set.stopped ? `stopped early: its goals were met (${F.count(set.planned)} runs planned)` : null,
       set.looks > 1 ? `bounds hold over ${set.looks} interim analyses` : null,

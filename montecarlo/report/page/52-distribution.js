@@ -226,14 +226,21 @@
     const { band } = output.curve,
       // The curve is over the runs with a value, and so are the quantiles on it.
       quantiles = (output.quantiles || []).map((one) => ({ ...one, ...one.among })).filter((one) => W.isNumber(one.value));
-    const text = (one) => `${F.share(one.p)}: ${F.withUnit(one.value, output.unit, F.grain(output))}`;
+    const text = (one) => `${F.share(one.p)}: ${F.withUnit(one.value, output.unit, F.grain(output))}`,
+      partly = cases.filter((one) => one.output.missing).map((one) => `${F.count(one.output.count)} of ${F.runs(one.set.runs)}${cases.length > 1 ? ` of ${one.set.label}` : ""}`);
     return W.figure({
       title: `Distribution function: ${F.name(output)}`,
       printed: 440,
       class: "distribution",
-      note: band ? `Band: ${band}.` : null,
+      note:
+        [
+          partly.length ? `Over the runs that have a value, ${W.verdicts.listed(partly)}; quantiles over all runs are in the table.` : null,
+          band ? `Band: ${band}.` : null,
+        ]
+          .filter(Boolean)
+          .join(" ") || null,
       description: () =>
-        `The share of runs at or below each value, with its confidence band. ${quantiles.map(text).join("; ")}.`,
+        `The share of ${partly.length ? "the runs with a value" : "runs"} at or below each value, with its confidence band. ${quantiles.map(text).join("; ")}.`,
       table: () => ({
         columns: ["case", `value ${unit}`, "share at or below", "lower", "upper"],
         rows: cases.flatMap(({ set: one, output: { curve } }) =>
@@ -247,9 +254,9 @@
     const paper = W.chosen.scale === "probit",
       several = cases.length > 1;
     const own = [
-      { text: "runs", line: "var(--ink)" },
+      { text: cases[0].output.missing ? "runs with a value" : "runs", line: "var(--ink)" },
       { text: "confidence band", fill: "var(--c0)", opacity: 0.2 },
-      ...(quantiles.length ? [{ text: "quantiles with bounds", mark: "var(--c5)" }] : []),
+      ...(quantiles.length ? [{ text: cases[0].output.missing ? "their quantiles with bounds" : "quantiles with bounds", mark: "var(--c5)" }] : []),
     ];
     const top = M.legend(svg, several ? caseLegend(cases) : own, width);
     const smallest = 0.5 / d3.max(cases, (one) => one.output.count),
@@ -262,7 +269,7 @@
     const ticks = PAPER.filter((p) => p >= smallest && p <= 1 - smallest);
     M.axes(svg, box, x, y, {
       xText: view.axis,
-      yText: "share of the runs at or below",
+      yText: cases.some((one) => one.output.missing) ? "share of the runs with a value at or below" : "share of the runs at or below",
       yValues: paper ? ticks.map(probit) : null,
       yFormat: (value, at) => (paper ? paperText(ticks[at]) : `${Math.round(100 * value)} %`),
     });

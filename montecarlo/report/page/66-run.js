@@ -86,6 +86,7 @@
       status: STATUSES[result[0]],
       reason,
       t_end: result[1],
+      final: { peak_moment: Boolean(result[2] & 1), peak_force: Boolean(result[2] & 2) },
       latches,
       each,
       base,
@@ -165,6 +166,21 @@
     );
   }
 
+  // Whether a run keeps a limit. A run that does not deploy breaks every requirement; a peak that t_end cut may still rise.
+  function verdictOf(one, output, made, value) {
+    const size = one.abs ? Math.abs(value) : value;
+    if (made.status !== "deployed" || value === null || (one.upper ? size > one.limit : size < one.limit)) return "failed";
+    return made.final[output.family] === false ? "open" : "passed";
+  }
+  // What the badges do not say.
+  function judgement(set, made) {
+    const all = set.requirements || [],
+      notHere = all.filter((one) => one.static_margin || /^mode_\d|\.peak_bending_moment$/.test(one.output));
+    return [
+      all.length && made.status !== "deployed" ? " It did not deploy, so it breaks every requirement." : "",
+      notHere.length ? ` Not computed here: ${W.verdicts.listed(notHere.map((one) => W.verdicts.shortOf(one)))}.` : "",
+    ].join("");
+  }
   function table(set, made, plain, label) {
     // The kernel's result has no bending moments and no frequencies.
     const known = (output) =>
@@ -182,11 +198,7 @@
       (output.limits || [])
         .map((at) => set.requirements[at])
         .filter((one) => W.isNumber(one.limit))
-        .map(function (one) {
-          const size = one.abs ? Math.abs(value) : value,
-            kept = value !== null && (one.upper ? size <= one.limit : size >= one.limit);
-          return [W.badge(kept ? "passed" : "failed", true), ` ${one.upper ? "≤" : "≥"} ${F.written(one.limit, output.unit)} `];
-        });
+        .map((one) => [W.badge(verdictOf(one, output, made, value), true), ` ${one.upper ? "≤" : "≥"} ${F.written(one.limit, output.unit)} `]);
     const levels = (shown.map((output) => output.quantiles || []).find((list) => list.length) || []).map((one) => one.p);
     const columns = [
       "Output",
@@ -233,7 +245,8 @@
       unchanged = null, // the outcome without changes
       kernel = null;
     const host = h("div", { "aria-live": "polite" }),
-      field = h("input", { type: "number", min: 0, step: 1, value: 0, "aria-label": "Number of the run" });
+      last = set.shard ? Number.MAX_SAFE_INTEGER : Math.max(set.planned, set.runs) - 1, // a shard's runs begin anywhere
+      field = h("input", { type: "number", min: 0, max: last, step: 1, value: 0, "aria-label": "Number of the run" });
     async function show(wanted) {
       run = wanted;
       try {
@@ -252,7 +265,7 @@
           : "computed in this page";
         W.fill(
           host,
-          h("p", h("b", `${label[0].toUpperCase()}${label.slice(1)}`), `: ${made.status.replace("_", " ")}`, made.reason ? `, ${made.reason}` : "", ` · ${why}`),
+          h("p", h("b", `${label[0].toUpperCase()}${label.slice(1)}`), `: ${made.status.replace("_", " ")}`, made.reason ? `, ${made.reason}` : "", ` · ${why}.`, judgement(set, made)),
           table(set, made, plain, label),
           drawsTable(set, kernel.draws()),
         );
@@ -290,9 +303,10 @@
       return set.kernel.hinges.some((hinge) => W.isNumber(hinge[part])) ? h("label.slider", h("span", part), input, text) : null;
     };
     const sliders = h("div.sliders", PARTS.map(slider));
-    const read = () => {
-      const wanted = Math.floor(Number(field.value));
-      return Number.isSafeInteger(wanted) && wanted >= 0 ? wanted : 0;
+    const showTyped = function () {
+      const wanted = field.value === "" ? NaN : Number(field.value);
+      if (Number.isSafeInteger(wanted) && wanted >= 0 && wanted <= last) return show(wanted);
+      W.fill(host, h("p.nothing", `The campaign has the runs 0 to ${F.count(last)}.`));
     };
     const hinge = W.select(
       {
@@ -323,11 +337,11 @@
         {
           onsubmit: (event) => {
             event.preventDefault();
-            show(read());
+            showTyped();
           },
         },
         h("label", h("span", "Run "), field),
-        h("button.show-run", { onclick: () => show(read()) }, "Show this run"),
+        h("button.show-run", { onclick: showTyped }, "Show this run"),
         h("button.show-nominal", { onclick: () => show(null) }, "Nominal wing"),
         h("label", h("span", "Change "), hinge),
         h("button", { onclick: reset }, "Reset factors"),

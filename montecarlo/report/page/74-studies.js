@@ -190,7 +190,7 @@
         title: `Static margin of torque along the travel${kind ? ` (${kind})` : ""}`,
         class: "static-margins",
         printed: 860,
-        note: `Thick: nominal wing, every dispersion at the median of its law${W.sets.length > 1 ? ` in ${set.label}` : ""}.${W.isNumber(share) ? ` Thin: the ${quantile} over ${F.count(draws)} draws.` : ""} 0 is enough.${hinges.length > part.length ? ` The picture has the first ${part.length} of ${hinges.length} hinges; the table has all.` : ""}`,
+        note: `Thick: nominal wing, every dispersion at the median of its law${W.sets.length > 1 ? ` in ${set.label}` : ""}.${W.isNumber(share) ? ` Thin: the ${quantile} over ${F.counted(draws, "draw")}.` : ""} ${hinges.every((one) => one.required === 0) ? "0 is enough." : "The table has what is required."}${hinges.length > part.length ? ` The picture has the first ${part.length} of ${hinges.length} hinges; the table has all.` : ""}`,
         description: () =>
           hinges
             .slice(0, 20)

@@ -119,7 +119,7 @@
           "div.differences",
           W.table(
             `Differences of the means: ${comparison.text}`,
-            ["Output", "Unit", number("Difference"), number(level), number("Relative"), number("Runs")],
+            ["Output", "Unit", number("Difference"), number(level), number("Relative"), number(comparison.paired ? "Runs" : "Runs of each, at least")],
             rows,
             { class: "tall" },
           ),

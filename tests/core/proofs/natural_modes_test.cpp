@@ -200,7 +200,9 @@ TEST_CASE(
 
 TEST_CASE(
     "a hinge that is not latched swings on its elastic hold as on a joint of this stiffness") {
-  Scene held = seed_scene(), jointed = seed_scene();
+  Scene held = seed_scene();
+  held.hinges[1].spring.torque_latched = held.hinges[1].spring.torque_stowed; // without a slope
+  Scene jointed = held;
   held.hinges[1].release = Release{.time = 1}, held.hinges[1].hold = Hold{20, 0.05};
   Hinge& joint = jointed.hinges[1];
   joint.joint = Joint{20, 0.05}, joint.latched = joint.stowed, joint.latch.reset();
@@ -216,11 +218,45 @@ TEST_CASE(
           modes_of(seed_scene(), std::vector<int>{0}).modes[0].frequency);
   }
   CHECK(modes_of(held, std::vector<int>{0, 1, 2}).modes.size() == 3); // latched: the hold is gone
+}
+
+TEST_CASE("a hinge on its elastic hold swings with the hinge that a loop ties to it") {
+  // K = [[k_latch + c g², −c g], [−c g, k_hold + c + spring's slope]], M = diag(1, 2)
+  Scene scene;
+  for (const auto& [name, inertia] : {std::pair("latched", 1.0), {"held", 2.0}}) {
+    Body body;
+    body.name = name, body.mass = 3, body.inertia = inertia;
+    scene.bodies.push_back(body);
+    Hinge hinge;
+    hinge.name = name, hinge.child = static_cast<int>(scene.bodies.size()) - 1;
+    hinge.stowed = 1, hinge.latched = 0, hinge.latch = Latch{1000, 0.05};
+    scene.hinges.push_back(hinge);
+  }
+  Hinge& held = scene.hinges[1];
+  held.release = Release{.time = 400}, held.hold = Hold{400, 0.02};
   Synchronisation loop;
-  loop.name = "loop", loop.first = 0, loop.second = 1, loop.stiffness = 100;
-  held.synchronisations.push_back(loop);
-  CHECK(modes_of(held, std::vector<int>{0}).modes.size() ==
-        1); // held rigidly: the loop needs its travel
+  loop.name = "loop", loop.first = 0, loop.second = 1, loop.stiffness = 50;
+  for (const double gear : {1.0, -0.5}) {
+    loop.ratio = gear, loop.damping = 0.01;
+    scene.synchronisations = {loop};
+    for (const double slope : {0.0, 30.0}) {
+      held.spring.torque_stowed = slope, held.spring.torque_latched = 0;
+      const WingModes found = modes_of(scene, std::vector<int>{0});
+      REQUIRE(found.modes.size() == 2);
+      Eigen::Matrix2d K, C, M = Eigen::Vector2d(1, 2).asDiagonal();
+      K << 1000 + 50 * gear * gear, -50 * gear, -50 * gear, 400 + 50 - slope;
+      C << 0.05 + 0.01 * gear * gear, -0.01 * gear, -0.01 * gear, 0.02 + 0.01;
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> modes(K, M);
+      for (int k = 0; k < 2; ++k) {
+        const double omega = std::sqrt(modes.eigenvalues()(k));
+        const Eigen::Vector2d v = modes.eigenvectors().col(k);
+        CHECK(found.modes[k].frequency == Approx(hertz(omega)).epsilon(1e-10));
+        CHECK(found.modes[k].damping_ratio ==
+              Approx(v.dot(C * v) / (2 * omega * v.dot(M * v))).epsilon(1e-8));
+      }
+    }
+  }
+  CHECK(modes_of(scene, std::vector<int>{}).modes.size() == 1); // the other is held rigidly
 }
 
 TEST_CASE("a cantilever of segments has frequencies that converge as the page says") {

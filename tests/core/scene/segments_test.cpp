@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -196,6 +197,18 @@ TEST_CASE("a flexible body needs a plate, a stiffness, and the inertia of its se
   CHECK(unphysical(scene).empty());
   scene.bodies[0].inertia = 0.5 / 12;
   CHECK(path() == "bodies.rod.inertia");
+  for (const auto& [joints, share] : {std::pair(1, 0.75), {2, 0.325}, {3, 0.5}, {8, 0.5875}}) {
+    scene.bodies[0].flexible->joints = joints;
+    const double least = least_inertia(scene.bodies[0]);
+    CHECK(least == Approx(share / 12).epsilon(1e-3));
+    scene.bodies[0].inertia = least * (1 + 1e-8);
+    CHECK(unphysical(scene).empty());
+    scene.bodies[0].inertia = least * (1 - 1e-8);
+    REQUIRE(path() == "bodies.rod.inertia");
+    std::ostringstream number;
+    number << least;
+    CHECK_THAT(unphysical(scene).front().expected, Catch::Contains(number.str()));
+  }
   scene.bodies[0].inertia = 1.0 / 12;
   scene.bodies[0].flexible->bending_stiffness = 0;
   CHECK(path() == "bodies.rod.flexible.bending_stiffness");

@@ -80,6 +80,42 @@ TEST_CASE("holds wait for themselves where no elastic one lets its hinge pass th
   CHECK(cycles() == 0);
 }
 
+TEST_CASE("a hold waits for itself through a loop that ties the awaited hinge to it",
+          "[warnings]") {
+  Scene scene = read_scene_file(test::three_panel_file());
+  Release& release = scene.hinges[2].release.emplace();
+  release.after = 0, release.event = Release::Event::latched;
+  Synchronisation loop;
+  loop.name = "L1", loop.first = 2, loop.second = 0, loop.stiffness = 200;
+  scene.synchronisations = {loop};
+  Outcome nominal;
+  const auto told = [&] {
+    InputWarnings warnings(ScenePlace{"scene.json"});
+    check_life(scene, Integration(), nominal, warnings);
+    std::string found;
+    for (const InputWarning& each : warnings.list())
+      if (each.found.find("through a loop") != std::string::npos) found += to_string(each) + "\n";
+    return found;
+  };
+  CHECK(told().empty()); // the nominal wing is released
+  nominal.may_release_later = {2};
+  CHECK_THAT(told(), Catch::Contains("/hinges/2/release/after") &&
+                         Catch::Contains("tip waits for root, which L1 ties to tip"));
+  scene.synchronisations[0].first = 0, scene.synchronisations[0].second = 2;
+  CHECK_FALSE(told().empty());
+  scene.synchronisations[0].second = 1; // another hinge, which is free
+  CHECK(told().empty());
+  Release& second = scene.hinges[1].release.emplace(); // … and now waits for the first
+  second.after = 2, second.event = Release::Event::released;
+  CHECK_THAT(told(),
+             Catch::Contains("tip waits for root, which L1 ties to mid, mid waits for tip"));
+  second.after = -1, second.event = Release::Event::time, second.time = 3;
+  CHECK(told().empty());
+  scene.synchronisations[0].second = 2;
+  scene.hinges[2].hold = Hold{50, 0}; // an elastic hold lets the loop move
+  CHECK(told().empty());
+}
+
 TEST_CASE("a hinge that latches before its elastic hold lets go is told", "[warnings]") {
   Scene scene = read_scene_file(test::three_panel_file());
   scene.hinges[1].release.emplace().time = 5;

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <memory>
 #include <numbers>
 
 using namespace wingspread;
@@ -98,4 +99,38 @@ TEST_CASE("two bodies have one place when stowed only if both are modelled witho
       });
       CHECK(told == !(inner_thin && outer_thin));
     }
+}
+
+TEST_CASE("two loops between the same hinges must agree all along the travel", "[warnings]") {
+  Scene scene;
+  scene.bodies = {{"a", 1, 1}, {"b", 1, 1}};
+  for (int k = 0; k < 2; ++k) {
+    Hinge hinge;
+    hinge.name = k == 0 ? "r" : "t", hinge.parent = k - 1, hinge.child = k;
+    hinge.stowed = k == 0 ? 1.5 : -3, hinge.latched = 0, hinge.latch = Latch{100, 1};
+    scene.hinges.push_back(hinge);
+  }
+  const auto loop = [](int first, int second, std::vector<double> from, std::vector<double> to) {
+    Synchronisation made;
+    made.name = "L", made.first = first, made.second = second, made.stiffness = 200;
+    made.table = std::make_shared<const Curve>(from, to, Interpolation::linear);
+    return made;
+  };
+  const auto straight = loop(0, 1, {0, 1.5}, {0, 3});
+  const auto told = [&](Synchronisation other) {
+    scene.synchronisations = {straight, std::move(other)};
+    InputWarnings warnings({"wing.json", ""});
+    check_shape(scene, warnings);
+    for (const InputWarning& each : warnings.list())
+      if (each.pointer == "/synchronisations/1") return each.found;
+    return std::string();
+  };
+  CHECK(told(straight).empty());
+  CHECK(told(loop(1, 0, {0, 3}, {0, 1.5})).empty());
+  // 0.4 rad of t, or 0.2 rad of r, apart in the middle
+  CHECK_THAT(told(loop(0, 1, {0, 0.75, 1.5}, {0, 1.1, 3})),
+             Catch::Contains("22.9") && Catch::Contains("deg of t") && Catch::Contains("43"));
+  CHECK_THAT(told(loop(1, 0, {0, 1.5, 3}, {0, 0.95, 1.5})),
+             Catch::Contains("11.5") && Catch::Contains("deg of r"));
+  CHECK(told(loop(0, 1, {0, 0.75, 1.5}, {0, 1.48, 3})).empty()); // within a hundredth
 }
