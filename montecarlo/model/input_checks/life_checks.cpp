@@ -104,24 +104,26 @@ void check_hold_lasts(int h, const Outcome& nominal, InputWarnings& warnings) {
 
 /// "t waits for r, which loop L ties to t": how a hold waits for the latch of a hinge that cannot move before some hold,
 /// of the same hinge in the end, lets go; else empty. A hinge that an elastic hold or none holds may move.
-std::string tied_wait(const Scene& scene, int hinge, int from, std::vector<char>& seen) {
+/// @param tied whether a loop is among the causes already
+std::string tied_wait(const Scene& scene, int hinge, int from, bool tied, std::vector<char>& seen) {
   const std::optional<Release>& release = scene.hinges[from].release;
   if (!release || release->after < 0 || seen[from]) return "";
   seen[from] = 1;
   const int awaited = release->after;
   const std::string wait = scene.hinges[from].name + " waits for " + scene.hinges[awaited].name;
+  if (tied && awaited == hinge) return wait;
   if (scene.hinges[awaited].release)
-    if (const std::string rest = tied_wait(scene, hinge, awaited, seen); !rest.empty())
+    if (const std::string rest = tied_wait(scene, hinge, awaited, tied, seen); !rest.empty())
       return wait + ", " + rest;
   if (release->event != Release::Event::latched) return "";
   for (const Synchronisation& loop : scene.synchronisations) {
     if (loop.first != awaited && loop.second != awaited) continue;
-    const int tied = loop.first == awaited ? loop.second : loop.first;
-    const Hinge& other = scene.hinges[tied];
+    const int partner = loop.first == awaited ? loop.second : loop.first;
+    const Hinge& other = scene.hinges[partner];
     if (!other.release || other.hold) continue;
     const std::string ties = wait + ", which " + loop.name + " ties to " + other.name;
-    if (tied == hinge) return ties;
-    if (const std::string rest = tied_wait(scene, hinge, tied, seen); !rest.empty())
+    if (partner == hinge) return ties;
+    if (const std::string rest = tied_wait(scene, hinge, partner, true, seen); !rest.empty())
       return ties + ", " + rest;
   }
   return "";
@@ -131,7 +133,7 @@ std::string tied_wait(const Scene& scene, int hinge, int from, std::vector<char>
 void check_tied(const Scene& scene, int h, const Outcome& nominal, InputWarnings& warnings) {
   std::vector<char> seen(scene.hinges.size(), 0);
   if (!holds_at_the_end(nominal, h)) return;
-  if (const std::string wait = tied_wait(scene, h, h, seen); !wait.empty())
+  if (const std::string wait = tied_wait(scene, h, h, false, seen); !wait.empty())
     warnings.add(fmt::format("/hinges/{}/release/after", h),
                  "a hold that waits through a loop for itself: " + wait,
                  "holds of hinges that a loop ties together let go together");
