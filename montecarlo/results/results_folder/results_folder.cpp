@@ -167,9 +167,12 @@ bool is_complete(const StoredCampaign& stored, const Results& results) {
 }
 
 void add_nominal(const Campaign& campaign, Summary& summary) {
-  const Outcome outcome = Deployment().run(nominal_scene(campaign), campaign.integration,
-                                           goal_of(campaign.outputs), Observer{});
-  summary.nominal = {outcome.status, latch_order(campaign.scene, outcome), outcome.reason};
+  const Goal goal = goal_of(campaign.outputs);
+  const Outcome outcome =
+      Deployment().run(nominal_scene(campaign), campaign.integration, goal, Observer{});
+  const bool has_peaks = goal.peak_moment || goal.peak_force;
+  summary.nominal = {outcome.status, latch_order(campaign.scene, outcome), outcome.reason,
+                     has_peaks ? peaks_final_of(outcome) : PeaksFinal::unknown};
   summary.latch_jumps = latch_jumps(nominal_scene(campaign), outcome);
   summary.jump_forces = forces_of_jumps(nominal_scene(campaign), outcome);
   const std::vector<OutputColumn> columns = output_columns(campaign.scene, campaign.outputs);

@@ -93,6 +93,7 @@ struct OutputSummary {
 struct NominalRun {
   Status status = Status::failed;
   std::string latch_order, reason;
+  PeaksFinal peaks = PeaksFinal::unknown; ///< unknown also where the campaign asks for no peaks
 };
 
 /// 1 for a run that deployed, 0 for every other: a draw that is no wing and a run that failed count as in verdicts.

@@ -127,6 +127,7 @@ Json statuses_json(const Summary& summary) {
 Json nominal_json(const NominalRun& run) {
   Json json{{"status", to_string(run.status)}, {"latch_order", run.latch_order}};
   if (!run.reason.empty()) json["reason"] = run.reason;
+  if (run.peaks != PeaksFinal::unknown) json["peaks_final"] = to_string(run.peaks);
   return json;
 }
 

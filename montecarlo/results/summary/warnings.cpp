@@ -19,6 +19,18 @@ std::string warn_of_cut_peaks(const PeaksCount& peaks, long runs) {
          "correlations are of the cut values. Lengthen t_end";
 }
 
+/// Adds a warning if t_end cut the nominal run's peaks.
+void add_nominal_cut(const NominalRun& nominal, std::vector<std::string>& lines) {
+  PeaksCount peaks;
+  peaks.add(nominal.peaks);
+  if (peaks.cut == 0) return;
+  lines.push_back(
+      fmt::format("in the nominal run t_end cut the {}: their nominal values may still rise",
+                  peaks.moments_cut == 0  ? "peak forces"
+                  : peaks.forces_cut == 0 ? "peak moments"
+                                          : "peaks"));
+}
+
 /// Deployed runs with a reason: latches_may_let_go is the only one.
 long count_open_latches(const Summary& summary) {
   long open = 0;
@@ -129,6 +141,7 @@ std::vector<std::string> warnings(const Summary& summary) {
     lines.push_back("in the nominal run: " + warning(summary.latch_jumps));
   if (!summary.jump_forces.empty())
     lines.push_back("in the nominal run: " + warning_of_forces(summary.jump_forces));
+  if (summary.nominal) add_nominal_cut(*summary.nominal, lines);
   if (summary.peaks && summary.peaks->cut > 0)
     lines.push_back(warn_of_cut_peaks(*summary.peaks, summary.runs));
   if (const long open = count_open_latches(summary); open > 0)

@@ -120,6 +120,8 @@ TEST_CASE("summary.json says why the nominal run does not deploy") {
   summary.nominal = NominalRun{Status::stalled, "root", "friction"};
   CHECK(summary_json(summary, {})["nominal"] ==
         Json{{"status", "stalled"}, {"latch_order", "root"}, {"reason", "friction"}});
+  summary.nominal = NominalRun{Status::deployed, "root", "", PeaksFinal::forces};
+  CHECK(summary_json(summary, {})["nominal"]["peaks_final"] == "peak_force");
   CHECK(summary_json(summary, {})["definitions"]["nominal"] ==
         "of the run with every dispersion at the median of its law, tables included");
 }

@@ -157,6 +157,21 @@ TEST_CASE("peaks of one kind that t_end cut are named, and latches that may let 
   CHECK(warnings(summarize(open, {})) == std::vector{warn_of_open_latches(1, 2)});
 }
 
+TEST_CASE("a nominal run whose peaks t_end cut is told") {
+  Summary summary;
+  const auto told = [&](PeaksFinal final) {
+    summary.nominal = NominalRun{Status::deployed, "root", "", final};
+    const std::vector<std::string> lines = warnings(summary);
+    return lines.empty() ? "" : lines.front();
+  };
+  CHECK(told(PeaksFinal::yes).empty());
+  CHECK(told(PeaksFinal::unknown).empty());
+  for (const auto& [final, kind] : {std::pair(PeaksFinal::no, "the peaks:"),
+                                    {PeaksFinal::moments, "the peak forces:"},
+                                    {PeaksFinal::forces, "the peak moments:"}})
+    CHECK_THAT(told(final), Catch::Contains("nominal run") && Catch::Contains(kind));
+}
+
 TEST_CASE("nothing is warned of where there is nothing, or it was not recorded") {
   Results results(ResultNames{{}, {"root.latch_rate"}});
   results.append({0, Status::deployed, {}, {-1.}, "", ""});
