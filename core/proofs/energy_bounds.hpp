@@ -22,6 +22,11 @@
 ///
 ///     Σ m r̈² ≤ Z := Σ m γ² + Σ L²/J,    |Y_i| ≤ √(m outward of i) √Z                           (4)
 ///
+/// The air's force F on a body and its moment about the centre count as γ − F/m and in L: the reactions are those of
+/// r̈ − F/m. No point of a plate is faster than V, by the rates along its path, so that with B of core/laws/air.hpp
+///
+///     |F| ≤ B V²                                                                                (6)
+///
 /// The axis moment of a hinge that is held is a moment of the constraint. It turns all that is outward of the hinge:
 /// with λ_k the way from the hinge to the centre of body k, sums over the bodies outward, and Σ J (ω̇ − L/J)² ≤ Z too,
 ///
@@ -191,8 +196,16 @@ private:
       const int p = system.topology().parent_of(i);
       gamma_(i) = gamma_(p) + spin(p) * length(wing.bodies[i].arm);
       T gamma = gamma_(i) + spin(i) * length(wing.bodies[i].center);
+      speed_(i) = speed_(p) + sqrt(spin(p)) * length(wing.bodies[i].arm);
+      if (!wing.plates.empty()) { // (6)
+        const PlateTerms<T>& plate = wing.plates[i];
+        const Vec2<T>&from = plate.from, to = from + plate.along, &center = wing.bodies[i].center;
+        const T fastest = speed_(i) + sqrt(spin(i)) * larger(length(from), length(to));
+        const T drag = plate.strength * fastest * fastest;
+        gamma = gamma + drag / wing.bodies[i].mass;
+        net_(i) = net_(i) + drag * larger(length(from - center), length(to - center));
+      }
       if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
-        speed_(i) = speed_(p) + sqrt(spin(p)) * length(wing.bodies[i].arm);
         const T speed = speed_(i) + sqrt(spin(i)) * length(wing.bodies[i].center);
         gamma = gamma + load.specific(i) + T(2) * load.spin() * speed;
       }
@@ -205,7 +218,7 @@ private:
   Numbers net_;          ///< L
   Numbers rate_;         ///< bounds |φ̇|, rad/s
   Numbers gamma_;        ///< γ of the hinge point, m/s²
-  Numbers speed_;        ///< of the hinge point, as seen from a base that is driven, m/s
+  Numbers speed_;        ///< of the hinge point, as seen from the base, m/s
 };
 
 } // namespace wingspread

@@ -41,6 +41,8 @@
 /// the latch is stiff, κ and κ⁺ are those of |φ − φ_latched| ≤ r. They hold for ever if the hinge is in there and the
 /// energy does not take it out: |y* − φ_latched| + g/κ + √(2E/κ) < r.
 ///
+/// Air at rest takes energy from a wing on a base that stands still; on a base that moves it may add some: no bound.
+///
 /// A hinge whose rigid hold never lets go does not move: it has no part in any sum.
 ///
 /// A motor under a constant command is a constant drive, which counts in y*, and a part that takes energy: motor.hpp
@@ -73,7 +75,8 @@ public:
     for (Numbers* v : {&stiffness_, &damping_, &steady_, &least_stiffness_, &at_rest_})
       v->setZero(n + 1);
     window_.setConstant(n + 1, T(std::numeric_limits<double>::infinity()));
-    bounded_ = load_.prepare(system) && system.wing().plates.empty();
+    bounded_ =
+        load_.prepare(system) && (system.wing().plates.empty() || stands_still(system.wing().base));
     offset_ = p_ = q_ = T(0);
     if (system.base_motion == BaseMotion::free) largest_inertia_ = largest_inertia(system);
     rest_.assign(system.layout().size(), T(0));
@@ -124,6 +127,12 @@ public:
   [[nodiscard]] const ApparentLoad<T>& load() const { return load_; }
 
 private:
+  /// Whether the base has no motion of its own. A fixed base under gravity is treated as one that accelerates.
+  [[nodiscard]] static bool stands_still(const BaseTerms<T>& base) {
+    const Vec2<T>& a = base.acceleration;
+    return base.motion != BaseMotion::free && !base.table && a.x == T(0) && a.y == T(0) &&
+           base.angular_acceleration == T(0) && base.rate == T(0);
+  }
   /// Whether hinge i has a latch that it cannot reach.
   template <class AnySystem> [[nodiscard]] static bool is_open(const AnySystem& system, int i) {
     return system.wing().hinges[i].has_latch && !system.work().engaged[i] && !system.is_held(i);

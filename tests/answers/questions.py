@@ -333,7 +333,7 @@ def value_at(value, place):
 
 def starters(session):
     session.brief = True
-    for at, words in enumerate(([], ["--panels", 5, "--wings", 2, "--yoke"], ["--panels", 1, "--spring", 0.4, "--friction", 0.3], ["--example", "yoke"],
+    for at, words in enumerate(([], ["--panels", 5, "--wings", 2, "--yoke"], ["--panels", 1, "--spring", 0.4, "--friction", 0.3],
                                 ["--panels", 0], ["--panel-mass", "9 lb", "--bus-width", 2, "--harness", 0, "--damper", 0])):
         session.ask("new", *words, "--out", f"wing{at}")
         for name in ("campaign.json", "scene.json", "README.md"):
@@ -354,11 +354,12 @@ def words_of_program(session):
     for name in ("new", "run", "simulate", "replay", "check", "modes", "sample", "analyze", "merge", "size", "sensitivity", "rare", "margin", "fit",
                  "report", "export", "methods", "schema", "version"):
         session.ask(name, "--help")
+    session.write("wing.json", shipped("studies/scenes/three_panel.json"))
     session.ask("schema", "scene")
     session.ask("schema", "campaign")
     for method in ("dopri5", "rk4", "bulirsch_stoer", "seulex", "rosenbrock4", "nothing", "dop853", "auto"):
-        session.ask("simulate", ROOT / "studies/scenes/three_panel.json", "--method", method, "--json")
-    session.ask("simulate", ROOT / "studies/scenes/three_panel.json", "--check", "--t-end", 9, "--latch", "smoothed:0.01")
+        session.ask("simulate", "wing.json", "--method", method, "--json")
+    session.ask("simulate", "wing.json", "--check", "--t-end", 9, "--latch", "smoothed:0.01")
 
 
 # ---- size

@@ -367,7 +367,7 @@ TEST_CASE("page and program say in the same words which runs are missing", "[rep
   REQUIRE(made < 40);
   const Finished reported = part.program({"report", part.path});
   const std::string missing = std::to_string(made) + " of 40 runs";
-  CHECK(reported.error == "warning: incomplete: " + missing + "; the verdicts are not final\n");
+  CHECK(reported.error == "warning: incomplete: " + missing + "; requirements are not judged\n");
   CHECK(page_data(part.page)["incomplete"] == missing);
 
   Json json = quick_campaign(4500);

@@ -178,8 +178,10 @@ private:
       values.push_back(value);
       ++result_.statuses[static_cast<std::size_t>(status)];
       result_.cut += cut, result_.open_latches += open;
-      result_.undeployed +=
-          !options_.event.output.empty() && status != Status::deployed && !std::isnan(value);
+      if (options_.event.output.empty()) continue;
+      result_.undeployed += status != Status::deployed && !std::isnan(value);
+      result_.absent +=
+          std::isnan(value) && !cut && status != Status::invalid && status != Status::failed;
     }
     made_ += std::ssize(points);
     return values;

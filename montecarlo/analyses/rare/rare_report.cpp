@@ -270,6 +270,11 @@ std::vector<std::string> doubts_of(const RareResult& result) {
     doubts.push_back(fmt::format("{} of {} runs have an unphysical draw and count as the event",
                                  invalid, result.estimate.evaluations));
   if (result.cut > 0) doubts.push_back(cut_text(result));
+  if (result.absent > 0)
+    doubts.push_back(
+        fmt::format("{} of {} runs have no value (a hinge that never latched, for example) and "
+                    "count as the event",
+                    result.absent, result.estimate.evaluations));
   if (result.undeployed > 0)
     doubts.push_back(fmt::format(
         "{} of {} runs did not deploy and count by their value, where a requirement counts "
@@ -340,6 +345,7 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
                    "one less by the bias; no "
                    "lower one where a repeat did not reach the event; by plain_sampling: "
                    "Clopper-Pearson, two-sided"},
+        {"without_value", "runs without the output: they count as the event"},
         {"peaks_cut", "runs whose peak t_end cut: they count as the event, as they break a "
                       "requirement in wingspread run"},
         {"plain_runs", "runs of plain sampling for the same variation"},
@@ -361,6 +367,7 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
       {"repeats", repeats_json(result.strata.front(), options.event)},
       {"statuses", by_status},
       {"peaks_cut", result.cut},
+      {"without_value", result.absent},
       {"likeliest",
        result.likeliest ? likeliest_json(*result.likeliest, campaign) : Json(nullptr)}};
 }

@@ -67,6 +67,19 @@ RareEvent event_of(const RareCommandOptions& options) {
           options.absolute};
 }
 
+/// @throws SpecError for a limit on a time after t_end: a hinge that has not latched by then has no time
+void refuse_late_limit(const RareCommandOptions& options, const Campaign& campaign) {
+  const std::string quantity = parse_output_name(options.output).quantity;
+  const double t_end = campaign.integration.t_end;
+  if (quantity != "latch_time" && quantity != "deployment_time") return;
+  if (limit_of(options) <= t_end) return;
+  throw SpecError(
+      {{"", options.above.empty() ? "--below" : "--above", fmt::format("{} s", limit_of(options)),
+        fmt::format("at most t_end, {} s: later latches are not seen (raise t_end for a "
+                    "later limit)",
+                    t_end)}});
+}
+
 std::string refuse_odd_samples(const std::string& text) {
   return text.ends_with('0') ? "" : fmt::format("found {}, expected a multiple of 10", text);
 }
@@ -137,6 +150,7 @@ int rare(const RareCommandOptions& given) {
   print_warnings(check_input(whole, given.campaign), false);
   Campaign campaign = chosen_case(whole, given.of_case);
   override_sampling(campaign, std::nullopt, given.seed);
+  refuse_late_limit(given, campaign);
   options.confidence = confidence_of(given.confidence, campaign.statistics);
   const auto folder = open_folder(given, options, campaign);
   if (folder && folder->is_finished())

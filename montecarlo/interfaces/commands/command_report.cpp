@@ -58,7 +58,7 @@ int report(const ReportOptions& options) {
       options.out.empty() ? options.folders.front() / report_file : options.out;
   const PageSources sources = read_page_sources(options.folders, options.threads);
   if (const std::string text = incomplete_text(sources); !text.empty())
-    print_message("warning: incomplete: {}; the verdicts are not final\n", text);
+    print_message("warning: incomplete: {}; requirements are not judged\n", text);
   write_file(out,
              html_page(page_json(sources, options.header, command_of(options), options.threads)));
   fmt::print("{}\n", out.string());

@@ -121,7 +121,7 @@ void print_missing_runs(const StoredCampaign& stored, const Results& results,
   if (const auto gaps = gaps_text(stored, results, summary.stopped))
     return print_message("warning: {}\n", *gaps);
   if (summary.stopped || stored.stamp.preview || summary.runs >= planned.size()) return;
-  print_message("warning: incomplete: {} of {} runs{}; the verdicts are not final\n", summary.runs,
+  print_message("warning: incomplete: {} of {} runs{}; requirements are not judged\n", summary.runs,
                 planned.size(),
                 stored.campaign.of_case.empty() ? "" : " of case " + stored.campaign.of_case);
 }

@@ -4,6 +4,7 @@
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/reached_correlation.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/model/input_checks/finality_check.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 namespace wingspread {
 namespace {
@@ -300,8 +302,7 @@ void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& n
   const std::string unit = parse_output_name(own.output).unit;
   const std::optional<double> value = nominal_of(campaign, own.output, nominal);
   const bool is_peak = peak_kind(own.output) != PeakKind::none;
-  const bool rises = is_peak && campaign.scene.base.motion == BaseMotion::prescribed &&
-                     campaign.scene.base.angular_acceleration != 0;
+  const std::string_view why_cut = is_peak ? why_never_final(campaign.scene) : "";
   if (limit < 0 && (own.absolute || is_peak))
     warnings.add(at + key, fmt::format("a limit of {} {} on a magnitude", limit, unit),
                  "a limit ≥ 0");
@@ -316,11 +317,10 @@ void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& n
                              own.output, *value, unit),
                  "a limit in SI, near the nominal value (write degrees as \"5 deg\" or \"5 "
                  "deg/s\": a factor of 57.3)");
-  else if (rises)
-    warnings.add(at,
-                 fmt::format("a limit on {} with a base that turns faster and faster", own.output),
-                 "a base with a constant rate: with a growing rate no peak is proven final, and "
-                 "every run breaks the requirement");
+  else if (!why_cut.empty())
+    warnings.add(at, fmt::format("a limit on {} {}", own.output, why_cut),
+                 "a wing without that: there no peak is proven final, and every run breaks the "
+                 "requirement, whatever t_end is");
 }
 
 } // namespace

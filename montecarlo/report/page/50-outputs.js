@@ -166,7 +166,8 @@
   }
   function quantiles(output, set) {
     const text = inGrain(output);
-    const row = (name, one) => [name, text(one.value), one.note || bounds(one, text)];
+    const note = (words) => h("span.wrapped", words);
+    const row = (name, one) => [name, text(one.value), one.note ? note(one.note) : bounds(one, text)];
     const rows = (output.quantiles || []).map((one) => row(F.quantileName(one.p).toLowerCase(), one));
     for (const one of output.quantiles || [])
       if (one.among && !W.isNumber(one.value))
@@ -175,7 +176,7 @@
       rows.push([
         `tolerance: ${one.text}`,
         [one.lower, one.upper].filter(W.isNumber).map(text).join(" … ") || F.none,
-        one.note || "",
+        one.note ? note(one.note) : "",
       ]);
     return W.table(
       `Quantiles of ${F.name(output)}`, // over all runs

@@ -115,13 +115,15 @@ Json peaks_final_json(const Outcome& outcome) {
   return none || outcome.status == Status::failed ? Json(nullptr) : Json(outcome.peaks_final);
 }
 
+/// The way of a base of prescribed motion is not integrated: its position and velocity are null.
 Json final_json(const Scene& scene, const Configuration& final) {
+  const bool known = scene.base.motion != BaseMotion::prescribed;
   return {{"angles", by_hinge(scene, final.angles)},
           {"rates", by_hinge(scene, final.rates)},
           {"base",
-           {{"position", vector(final.base_position)},
+           {{"position", known ? vector(final.base_position) : Json(nullptr)},
             {"angle", json_number(final.base_angle)},
-            {"velocity", vector(final.base_velocity)},
+            {"velocity", known ? vector(final.base_velocity) : Json(nullptr)},
             {"rate", json_number(final.base_rate)}}}};
 }
 

@@ -302,9 +302,10 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results, int
   summary.overtravels = overtravels(campaign.scene, results);
   if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
   withdraw_if_one_run(campaign, summary);
-  if (stored.stamp.is_part()) withdraw_of_part(summary);
   const bool whole = std::ssize(results.runs) == stored.runs().size();
   summary.stopped = !whole && is_complete(stored, results);
+  const bool unfinished = !stored.foreign && !whole && !summary.stopped;
+  if (stored.stamp.is_part() || unfinished) withdraw_of_part(summary);
   if (!stored.foreign && !stored.stamp.shard && (whole || summary.stopped))
     summary.accuracy = measure_accuracy(campaign, results, {.threads = threads});
   return summary;

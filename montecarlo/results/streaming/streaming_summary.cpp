@@ -273,7 +273,7 @@ Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistic
       summary.peaks->add(final, statistics.peaks()[static_cast<std::size_t>(final)]);
   }
   withdraw_if_one_run(campaign, summary);
-  if (stored.stamp.is_part()) withdraw_of_part(summary);
+  if (stored.stamp.is_part() || statistics.runs() < stored.runs().size()) withdraw_of_part(summary);
   return summary;
 }
 

@@ -23,7 +23,7 @@ namespace wingspread {
 /// Passed requirements then become undecided, without guaranteed numbers: N times the same run show no probability.
 void withdraw_if_one_run(const Campaign& campaign, Summary& summary);
 
-/// Makes all requirements of a shard or a preview undecided: what is merged of them is judged.
+/// Makes all requirements of a shard, a preview or an unfinished folder undecided: the whole is judged.
 void withdraw_of_part(Summary& summary);
 
 } // namespace wingspread

@@ -102,6 +102,29 @@ TEST_CASE("a falling wing whose hinges stick is blown open once it falls fast en
   CHECK(after.final.angles[0] > 0);
 }
 
+TEST_CASE("in still air on a base that stands, peaks are proven final and do not rise") {
+  RealFeatures features{false, false, false, false, false, false,
+                        false, false, false, false, false, false};
+  features.air = true;
+  int deployed = 0, final = 0;
+  for (std::uint64_t seed = 1; seed <= 48; ++seed) {
+    Scene scene = eager(seed);
+    scene.base = Base{};
+    scene = with_real_hinges(scene, seed, features);
+    if (scene.environment.air_density == 0) continue;
+    scene.environment.air_density *= seed % 3 == 0 ? 30 : 1; // blows harder than it weighs
+    if (seed % 2 == 0) scene.environment.gravity = {0.02, -0.05};
+    CAPTURE(seed);
+    check_nothing_lost(scene, 20);
+    const Outcome out = Deployment().run(scene, within(1e-8, 60), {});
+    deployed += out.status == Status::deployed, final += out.peaks_final;
+    scene.base.motion = BaseMotion::prescribed, scene.base.rate = 0.01; // the air may bring energy
+    check_nothing_lost(scene, 20);
+  }
+  CAPTURE(deployed, final);
+  CHECK((deployed >= 15 && final > deployed / 2));
+}
+
 TEST_CASE("with real hinges, an early end misses no latch and no peak", "[long]") {
   int final = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

@@ -181,6 +181,12 @@ TEST_CASE(
             return doubt.starts_with(std::to_string(stalled) + " of ") &&
                    doubt.find("count by their value") != std::string::npos;
           }) == (counts ? 1 : 0));
+    const bool is_absent = output == "root.latch_rate";
+    CHECK(found.absent == (is_absent ? stalled : 0));
+    CHECK(std::ranges::count_if(said, [&](const std::string& doubt) {
+            return doubt.starts_with(std::to_string(stalled) + " of ") &&
+                   doubt.find("no value") != std::string::npos;
+          }) == (is_absent ? 1 : 0));
   }
 }
 

@@ -81,6 +81,11 @@ TEST_CASE("the seed scene's outcome as JSON") {
   CHECK(json["energy"]["initial"] == outcome.energy.initial);
   CHECK(json["energy"]["drift_before_first_latch"].get<double>() < 1e-7);
   CHECK(json["work"]["steps"] == outcome.work.steps);
+  Scene driven = scene; // its way is not integrated
+  driven.base.motion = BaseMotion::prescribed, driven.base.acceleration = {0.01, 0};
+  const Json base = outcome_json(driven, simulate(driven, 10))["final"]["base"];
+  CHECK((base["position"].is_null() && base["velocity"].is_null()));
+  CHECK(base["rate"] == 0);
 }
 
 TEST_CASE("the energy's change before the first latch has its cause") {

@@ -1,0 +1,64 @@
+// Where check says that no peak can be proven final, no run of any length has a proof; elsewhere runs have one.
+#include "core/deployment.hpp"
+#include "montecarlo/model/input_checks/finality_check.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+namespace {
+
+Scene one_panel() {
+  Scene scene;
+  scene.bodies = {{"panel", 10, 0.5}};
+  Hinge hinge;
+  hinge.name = "root", hinge.child = 0, hinge.child_point = {-0.505, 0.02};
+  hinge.stowed = 1.5, hinge.latched = 0, hinge.latch = Latch{1e4, 100};
+  hinge.spring.torque_stowed = hinge.spring.torque_latched = 2;
+  scene.hinges = {hinge};
+  return scene;
+}
+
+void check_agrees(const Scene& scene) {
+  Integration integration;
+  integration.t_end = 200;
+  const Outcome outcome = Deployment().run(scene, integration, Goal());
+  REQUIRE(outcome.status == Status::deployed);
+  CHECK(outcome.peaks_final == why_never_final(scene).empty());
+}
+
+} // namespace
+
+TEST_CASE("where no peak can be proven final, none is, and elsewhere they are", "[warnings]") {
+  Scene scene = one_panel();
+  check_agrees(scene);
+  scene.hinges[0].latch->backlash = 0.002;
+  CHECK_FALSE(why_never_final(scene).empty());
+  check_agrees(scene);
+  scene.hinges[0].friction.coulomb = 0.02;
+  CHECK_FALSE(why_never_final(scene).empty()); // regularized
+  scene.hinges[0].friction.model = FrictionModel::exact;
+  check_agrees(scene);
+
+  Scene in_air = one_panel();
+  in_air.bodies[0].plate = Plate{{-0.5, 0}, {0.5, 0}, 1, 1.2};
+  check_agrees(in_air);
+  in_air.environment.air_density = 1.2;
+  check_agrees(in_air); // a base that stands
+  in_air.environment.gravity = {0, -0.01};
+  check_agrees(in_air);
+  in_air.base.motion = BaseMotion::prescribed;
+  check_agrees(in_air); // without a motion
+  in_air.base.rate = 0.01;
+  CHECK_FALSE(why_never_final(in_air).empty());
+  check_agrees(in_air);
+  in_air.base = Base{};
+  in_air.base.motion = BaseMotion::free, in_air.base.mass = 100, in_air.base.inertia = 50;
+  in_air.environment.gravity = {0, 0};
+  CHECK_FALSE(why_never_final(in_air).empty());
+  check_agrees(in_air);
+
+  Scene quickening = one_panel();
+  quickening.base.motion = BaseMotion::prescribed, quickening.base.angular_acceleration = 1e-4;
+  CHECK_FALSE(why_never_final(quickening).empty());
+}
