@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <sstream>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -26,6 +28,29 @@ std::vector<std::string> warnings_of(const std::string& error) {
        at = error.find("warning: ", at + 1))
     lines.push_back(error.substr(at, error.find('\n', at) - at));
   return lines;
+}
+
+/// Runs the commands by which a page says that its sets are made again. @return the folder that they made
+std::filesystem::path made_again(const Folder& folder, const std::filesystem::path& results) {
+  const std::filesystem::path page = folder.path() / "page.html", again = folder.path() / "again";
+  REQUIRE(run_program(folder, {"report", results, "--out", page}).code == 0);
+  std::filesystem::remove_all(again);
+  std::vector<std::string> commands;
+  const Json data = page_data(page);
+  for (const char* key : {"made_by", "judged_by"})
+    for (const Json& set : data["sets"])
+      if (std::string text = set[key]; !text.empty() && std::ranges::count(commands, text) == 0)
+        commands.push_back(std::move(text));
+  for (const std::string& command : commands) {
+    std::istringstream in(command);
+    std::vector<std::string> words;
+    for (std::string word; in >> word;)
+      words.push_back(word.starts_with("again") ? (folder.path() / word).string() : word);
+    words.erase(words.begin());
+    INFO(command);
+    CHECK(run_program(folder, words).code <= 1);
+  }
+  return again;
 }
 
 } // namespace
@@ -117,6 +142,46 @@ TEST_CASE("the report of rejudged runs prints commands that judge by its require
   REQUIRE(done.program({"analyze", again, "--requirements", done.path / summary_file}).code == 0);
   CHECK(parse_json_file(again / summary_file)["requirements"] ==
         parse_json_file(done.path / summary_file)["requirements"]);
+}
+
+TEST_CASE("the page's commands make every file of analysed runs again, byte for byte") {
+  Json json = quick_campaign(30);
+  json["statistics"] = {{"bins", 7}};
+  const DoneCampaign done(json);
+  const std::string file = done.folder.write("late.json", late.dump());
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {},
+           {"--confidence", "0.5"},
+           {"--quantiles", "0.001,0.25,0.999"},
+           {"--bins", "13"},
+           {"--bins", "auto"},
+           {"--requirements", file},
+           {"--requirements", file, "--confidence", "0.8", "--quantiles", "0.2", "--bins", "3"}}) {
+    std::vector<std::string> analyze{"analyze", done.path};
+    analyze.insert(analyze.end(), options.begin(), options.end());
+    REQUIRE(done.program(analyze).code <= 1);
+    CHECK(contents(made_again(done.folder, done.path)) == contents(done.path));
+  }
+}
+
+TEST_CASE("the page's commands make analysed cases again, whether all alike or one alone") {
+  Json json = quick_campaign(12);
+  json["cases"] = parse_json(R"([ { "name": "slow", "scale": { "bodies.*.inertia": 1.5 } },
+                                  { "name": "plain" } ])");
+  const Folder folder;
+  const std::filesystem::path made = folder.path() / "r";
+  REQUIRE(run_program(folder, {"run", folder.write("c.json", json.dump()), "--out", made}).code ==
+          0);
+  const std::string file = folder.write("late.json", late.dump());
+  const auto same = [&](const std::vector<std::string>& analyze) {
+    REQUIRE(run_program(folder, analyze).code <= 1);
+    const std::filesystem::path again = made_again(folder, made);
+    for (const char* name : {"", "slow", "plain"})
+      CHECK(contents(again / name) == contents(made / name));
+  };
+  same({"analyze", made, "--requirements", file, "--confidence", "0.8", "--bins", "auto"});
+  same({"analyze", made});
+  same({"analyze", made / "slow", "--quantiles", "0.3"});
 }
 
 TEST_CASE("analyze warns of a limit that looks like degrees, at its place in the file") {

@@ -148,13 +148,15 @@ TEST_CASE("analyze counts what stalled with its reason, and takes it for no fail
   std::string csv;
   const ResultNames names = RunPlan(stored.campaign).names();
   append_header(csv, names);
-  const auto deployment =
-      std::ranges::find(names.outputs, "deployment_time") - names.outputs.begin();
+  const auto missing_in = [&](ResultRow& row, const char* name) {
+    const auto at = std::ranges::find(names.outputs, name) - names.outputs.begin();
+    row.outputs.at(static_cast<std::size_t>(at)) = std::nan("");
+  };
   for (std::size_t k = 0; k < 6; ++k) {
     ResultRow row = results.row(k);
     if (k % 2 == 0) {
-      row.status = Status::stalled, row.reason = "friction holds tip";
-      row.outputs.at(static_cast<std::size_t>(deployment)) = std::nan("");
+      row.status = Status::stalled, row.reason = "friction holds tip", row.latch_order = "";
+      missing_in(row, "deployment_time"), missing_in(row, "tip.latch_time");
     }
     append_row(csv, row);
   }

@@ -304,6 +304,41 @@ TEST_CASE("shards of a design are merged to the folder that one process makes, b
         2);
 }
 
+TEST_CASE("a design's folder keeps how its bounds were asked for, and merge uses it") {
+  const Folder folder;
+  const std::string file = folder.write("c.json", quick_campaign(10).dump());
+  const auto at = [&](const std::string& name) { return (folder.path() / name).string(); };
+  const auto make = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"sensitivity",  file,  "--samples", "20",    "--resamples", "50",
+                                   "--confidence", "0.8", "--out",     at(name)};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(folder, words);
+  };
+  CHECK(make("whole", {}).code == 0);
+  const auto whole = contents(at("whole"));
+  CHECK(run_program(folder, {"sensitivity", at("whole")}).code == 0); // as it was made
+  CHECK(contents(at("whole")) == whole);
+  CHECK(make("part1", {"--shard", "1/2"}).code == 0);
+  CHECK(run_program(folder, {"sensitivity", at("part1") + "/design.json", "--out", at("part2"),
+                             "--shard", "2/2"})
+            .code == 0);
+  const auto merge = [&] {
+    return run_program(folder, {"merge", at("part1"), at("part2"), "--out", at("out")});
+  };
+  CHECK(merge().code == 0);
+  CHECK(contents(at("out")) == whole);
+  const auto again = merge(); // its tables may be of another `sensitivity`
+  CHECK(again.code == 2);
+  CHECK_THAT(again.error, HasFacts({at("out"), "--out", "wingspread sensitivity " + at("out")}));
+  CHECK(make("other", {"--shard", "2/2", "--resamples", "60"}).code != 0); // given twice
+  CHECK(run_program(folder, {"sensitivity", file, "--samples", "20", "--shard", "2/2", "--out",
+                             at("other")})
+            .code == 0);
+  const auto mixed = run_program(folder, {"merge", at("part1"), at("other"), "--out", at("mixed")});
+  CHECK(mixed.code == 2);
+  CHECK_THAT(mixed.error, HasFacts({at("other"), "--resamples"}));
+}
+
 TEST_CASE("sensitivity names the file of a campaign that it cannot use") {
   const Folder folder;
   Json json = quick_campaign(5);

@@ -20,13 +20,33 @@ Json body(const SaltelliDesign& design) {
   return {{"samples", design.rows}, {"campaign", design.campaign.resolved}};
 }
 
+Json bounds_json(const BoundsAsked& asked) {
+  Json json = Json::object();
+  if (asked.resamples) json["resamples"] = *asked.resamples;
+  if (asked.confidence) json["confidence"] = *asked.confidence;
+  return json;
+}
+
+BoundsAsked read_bounds(const JsonCursor& at) {
+  BoundsAsked asked;
+  JsonObject object(at, "an object with resamples and confidence");
+  if (object.find("resamples"))
+    object.required("resamples", asked.resamples.emplace(), "an integer");
+  if (object.find("confidence"))
+    object.required("confidence", asked.confidence.emplace(), "a number, > 0 and < 1",
+                    is_proper_share);
+  object.refuse_others();
+  return asked;
+}
+
 void refuse_other_design(const std::filesystem::path& folder, const SaltelliDesign& design) {
   const std::filesystem::path path = folder / design_file;
   const auto there = read_text(path);
   if (there != design_text(design))
-    throw SpecError(
-        {{path.string(), "", there ? "another design or version" : "no such file",
-          "this campaign, seed, number of samples, shard and version, to continue it"}});
+    throw SpecError({{path.string(), "", there ? "another design or version" : "no such file",
+                      "this campaign, seed, number of samples, --resamples, --confidence, shard "
+                      "and version, to "
+                      "continue it"}});
 }
 
 } // namespace
@@ -45,6 +65,7 @@ RunRange runs_of(const SaltelliDesign& design) {
 std::string design_text(const SaltelliDesign& design) {
   Json json{{stamp_key, stamp_json(stamp_of(design))}};
   json.update(body(design));
+  if (Json bounds = bounds_json(design.bounds); !bounds.empty()) json["bounds"] = std::move(bounds);
   return json_text(json);
 }
 
@@ -70,11 +91,13 @@ SaltelliDesign read_design_file(const std::filesystem::path& path) {
   object.required("samples", rows, "an integer, ≥ 1");
   (void)object.require(stamp_key, "version, seed and hash");
   const auto campaign = object.require("campaign", "a campaign");
+  const auto bounds = object.find("bounds");
+  const BoundsAsked asked = bounds ? read_bounds(*bounds) : BoundsAsked{};
   object.refuse_others();
   const Stamp there = read_stamp(JsonCursor(document, path.string(), problems));
   if (!problems.empty()) throw SpecError(std::move(problems));
   SaltelliDesign design{read_campaign(campaign->value().dump(), path.parent_path(), path.string()),
-                        rows, there.shard};
+                        rows, there.shard, asked};
   if (rows < 1 || there.hash != stamp_of(design).hash)
     throw SpecError({{path.string(), "/wingspread/hash", "that of another design",
                       "an unchanged design.json"}});

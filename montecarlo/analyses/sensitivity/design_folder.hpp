@@ -1,6 +1,6 @@
 /// The folder of a design for Sobol' indices.
 ///
-///   design.json       the campaign in full, the number of rows, version and hash
+///   design.json       the campaign in full, the number of rows, version and hash, and the bounds asked for
 ///   design_runs.csv   a row for each run, as in a campaign's runs.csv
 ///
 /// The runs of a design depend on each other and are no sample of the campaign, so the folder is not a results folder.
@@ -23,11 +23,19 @@ inline constexpr const char* design_runs_file = "design_runs.csv";
 inline constexpr const char* sensitivity_json_file = "sensitivity.json";
 inline constexpr const char* sensitivity_csv_file = "sensitivity.csv";
 
-/// A design: the campaign, its rows and its shard.
+/// How the bounds of the indices were asked for by options; nothing: the defaults.
+struct BoundsAsked {
+  std::optional<long> resamples{};
+  std::optional<double> confidence{};
+  bool operator==(const BoundsAsked&) const = default;
+};
+
+/// A design: the campaign, its rows, its shard, and the bounds asked for, which no run depends on.
 struct SaltelliDesign {
   Campaign campaign;
   long rows = 0;              ///< N
   std::optional<Shard> shard; ///< the part of the runs; none: all of them
+  BoundsAsked bounds{};
 };
 
 /// The runs of the design or its shard. @throws SpecError on overflow

@@ -5,6 +5,8 @@
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 #include "montecarlo/results/results_folder/parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -15,6 +17,19 @@ namespace {
 void refuse_other_folder(const std::filesystem::path& out, const SaltelliDesign& whole) {
   if (read_text(out / design_file) != design_text(whole))
     refuse_used_folder(out, "a new or an empty folder for the merged runs");
+  if (std::filesystem::exists(out / sensitivity_csv_file)) // written last
+    throw SpecError(
+        {{out.string(), "", "these shards, merged already",
+          fmt::format("another --out; `wingspread sensitivity {}` makes its tables again",
+                      shell_word(out.string()))}});
+}
+
+void refuse_other_bounds(const std::filesystem::path& folder, const SaltelliDesign& design,
+                         const SaltelliDesign& first) {
+  if (design.bounds != first.bounds)
+    throw SpecError({{(folder / design_file).string(), "/bounds",
+                      "another --resamples or --confidence than in the first shard",
+                      "shards made by the same options"}});
 }
 
 } // namespace
@@ -25,6 +40,7 @@ void merge_designs(const std::vector<std::filesystem::path>& folders,
   std::vector<Part> parts;
   for (const std::filesystem::path& folder : folders) {
     const SaltelliDesign design = read_design(folder);
+    refuse_other_bounds(folder, design, whole);
     parts.push_back({folder, folder, stamp_of(design), runs_of(design)});
   }
   refuse_other_campaigns(parts, design_file);

@@ -14,8 +14,6 @@
 namespace wingspread {
 namespace {
 
-constexpr std::size_t most_lines = 8; ///< lines of an output's table
-
 /// Indices of the dispersions, the largest size first, NaN last.
 std::vector<std::size_t> by_size(std::size_t count,
                                  const std::function<double(std::size_t)>& size) {
@@ -65,27 +63,30 @@ std::string effect_block(const std::string& heading, const std::string& columns,
                          const std::function<std::string(std::size_t)>& line) {
   std::string text = fmt::format("\n{}\n{}\n", heading, columns);
   const std::vector<std::size_t> order = by_size(count, size);
-  const std::size_t shown = count > most_lines + 1 ? most_lines : count;
-  for (std::size_t k = 0; k < shown; ++k) text += line(order[k]);
-  if (shown < count)
-    text += fmt::format("  {} others, at most {:.3f}\n", count - shown,
-                        std::max(0.0, size(order[shown])));
+  for (const std::size_t each : order) text += line(each);
   return text;
 }
 
-void MovedBy::add(const std::string& output, std::size_t count,
-                  const std::function<double(std::size_t)>& size, double least,
-                  const std::function<std::string(std::size_t)>& text) {
-  constexpr std::size_t most = 5;
-  constexpr double smallest_share =
-      0.25; // heuristic: effects below this share of the largest change little
+void MovedBy::add(const std::string& output, const EffectsOnOutput& effects) {
+  const auto& [dispersions, value, least, visible, text] = effects;
+  const auto size = [&](std::size_t j) { return std::abs(value(j)); };
+  const std::vector<std::size_t> order = by_size(dispersions.size(), size);
   std::vector<std::string> parts;
-  const std::vector<std::size_t> order = by_size(count, size);
+  long others = 0;
+  double largest = 0; // of the others
   for (const std::size_t j : order) {
-    const bool moves = size(j) >= std::max(least, smallest_share * size(order.front()));
-    if (!moves || parts.size() == most) break; // NaN ends it too
-    parts.push_back(text(j));
+    if (std::isnan(size(j))) break;
+    if (size(j) >= std::max(least, least_beside_largest * size(order.front())) &&
+        parts.size() < most_shown_effects)
+      parts.push_back(dispersions[j] + ' ' + text(value(j)));
+    else if (visible(j))
+      ++others, largest = std::max(largest, size(j));
   }
+  if (others > 0)
+    parts.push_back(fmt::format("{}{} with visible effect, at most {}", parts.empty() ? "" : "and ",
+                                parts.empty() ? counted(others, "dispersion", "dispersions")
+                                              : counted(others, "other", "others"),
+                                text(largest)));
   if (parts.empty())
     unmoved_.push_back(output);
   else

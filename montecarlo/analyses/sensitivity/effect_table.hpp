@@ -32,7 +32,7 @@ inline constexpr std::size_t name_width = 30;
 /// " · 12 cut by t_end"; empty for none.
 [[nodiscard]] std::string cut_heading(long cut);
 
-/// One output's table: the largest effects first, one line for the rest.
+/// One output's table, the largest effects first.
 /// @param size sort key of each of `count` dispersions; NaN comes last
 /// @param line text of each dispersion, with its line feed
 [[nodiscard]] std::string effect_block(const std::string& heading, const std::string& columns,
@@ -40,16 +40,27 @@ inline constexpr std::size_t name_width = 30;
                                        const std::function<double(std::size_t)>& size,
                                        const std::function<std::string(std::size_t)>& line);
 
+/// Heuristics of the short tables, which the commands' help states: the smallest effect that is shown, as the magnitude
+/// of a rank correlation (4 % of the ranks' variance) and as a share of the variance; the smallest one beside the
+/// largest of the same output; and how many an output shows.
+inline constexpr double least_shown_correlation = 0.2, least_shown_share = 0.02,
+                        least_beside_largest = 0.25;
+inline constexpr std::size_t most_shown_effects = 5;
+
+/// The effects of all dispersions on one output, by index.
+struct EffectsOnOutput {
+  const std::vector<std::string>& dispersions;
+  std::function<double(std::size_t)> value; ///< signed; NaN: none
+  double least;                             ///< smallest magnitude that is shown
+  std::function<bool(std::size_t)> visible; ///< whether its bounds show that there is an effect
+  std::function<std::string(double)> text;  ///< "−0.81"
+};
+
 /// The outputs of a short table, each with the few dispersions that move it.
 class MovedBy {
 public:
-  /// Adds an output.
-  /// @param size of each of `count` dispersions' effects, ≥ 0; those below `least` or a quarter of the largest, and
-  ///   NaN, are left out, and all but the five largest
-  /// @param text "spring.root −0.81"
-  void add(const std::string& output, std::size_t count,
-           const std::function<double(std::size_t)>& size, double least,
-           const std::function<std::string(std::size_t)>& text);
+  /// Adds an output with its largest effects, and the number of visible ones that are left out.
+  void add(const std::string& output, const EffectsOnOutput& effects);
 
   /// Adds an output whose effects are unknown, because some rows lack it.
   void add_unknown(const std::string& output) { unknown_.push_back(output); }

@@ -34,6 +34,11 @@ std::string bounds_definition(const RankSensitivity& all) {
   return text;
 }
 
+std::string too_few_runs(const RankSensitivity& all) {
+  return fmt::format("{} too few to show an effect: it takes {} or more",
+                     counted(all.runs, "run is", "runs are"), least_runs_for_effects);
+}
+
 } // namespace
 
 Json sensitivity_json(const RankSensitivity& all, const Json& about) {
@@ -112,7 +117,8 @@ std::string sensitivity_table(const RankSensitivity& all, std::string_view title
 }
 
 std::string moved_by_table(const RankSensitivity& all, std::string_view title) {
-  constexpr double least = 0.2; // heuristic: less than 4 % of the ranks' variance
+  if (all.runs < least_runs_for_effects)
+    return fmt::format("{}\n\n  not known: {}\n", title, too_few_runs(all));
   MovedBy moved;
   for (const OutputRanks& output : all.outputs) {
     const auto larger = [&](std::size_t j) {
@@ -120,11 +126,14 @@ std::string moved_by_table(const RankSensitivity& all, std::string_view title) {
                    partial = output.effects[j].partial.value;
       return std::isnan(partial) || std::abs(spearman) > std::abs(partial) ? spearman : partial;
     };
-    moved.add(
-        output.output, all.dispersions.size(),
-        [&](std::size_t j) { return output.effects[j].seen ? std::abs(larger(j)) : std::nan(""); },
-        least,
-        [&](std::size_t j) { return fmt::format("{} {:.2f}", all.dispersions[j], larger(j)); });
+    const auto seen = [&](std::size_t j) {
+      return output.effects[j].seen ? larger(j) : std::nan("");
+    };
+    const auto visible = [&](std::size_t j) {
+      return output.effects[j].seen && output.effects[j].spearman.bounds.lower;
+    };
+    moved.add(output.output, {all.dispersions, seen, least_shown_correlation, visible,
+                              [](double value) { return fmt::format("{:.2f}", value); }});
   }
   return fmt::format("{}\n\n", title) +
          moved.table("moved by (rank correlation, partial or Spearman's, the larger)",
@@ -137,6 +146,7 @@ std::vector<std::string> warnings(const RankSensitivity& all) {
   std::vector<CutOutput> cut;
   for (const OutputRanks& output : all.outputs) cut.push_back({output.output, output.cut});
   warn_of_t_end(cut, all.open_latches, all.runs, list);
+  if (all.runs < least_runs_for_effects) list.push_back(too_few_runs(all));
   if (!all.unvaried.empty())
     list.push_back(fmt::format("the draws of {} do not vary", quoted(all.unvaried)));
   if (!all.idle.empty())

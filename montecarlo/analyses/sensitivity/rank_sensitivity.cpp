@@ -238,7 +238,7 @@ private:
   }
 
   [[nodiscard]] static double standard_errors(double coefficient, long n) {
-    if (std::isnan(coefficient) || n <= 3) return 0;
+    if (std::isnan(coefficient) || n < least_runs_for_effects) return 0;
     return std::abs(std::atanh(coefficient)) * std::sqrt(static_cast<double>(n - 3));
   }
   [[nodiscard]] static bool excludes_0(const Bounds& bounds) {
@@ -307,6 +307,7 @@ OutputRanks output_ranks(const std::string& name, const Found& found, const Resu
 /// Lists the constant, idle and collinear dispersions.
 void note_dispersions(const Results& results, const std::vector<RankedColumn>& draws,
                       const Rows& with_draws, RankSensitivity& all) {
+  if (all.runs < least_runs_for_effects) return;
   const RankedDraws ranked(draws, with_draws);
   const std::vector<double> explained = ranked.partial().explained();
   const bool enough =

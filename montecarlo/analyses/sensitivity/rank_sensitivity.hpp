@@ -20,6 +20,9 @@ struct Coefficient {
   Bounds bounds;
 };
 
+/// With fewer runs no effect is visible: Fisher's z has the variance 1/(n − 3).
+inline constexpr long least_runs_for_effects = 4;
+
 /// The effect of a dispersion on an output.
 struct RankEffect {
   Coefficient spearman, partial;
@@ -41,9 +44,9 @@ struct RankSensitivity {
   int replicates = 0;        ///< replicates behind the bounds; 0: independent draws
   std::vector<std::string> dispersions;
   std::vector<OutputRanks> outputs;  ///< the campaign's, then `deployed` when it varies
-  std::vector<std::string> unvaried; ///< dispersions with constant draws
+  std::vector<std::string> unvaried; ///< dispersions with constant draws; none of too few runs
   /// Dispersions that vary without a visible effect: none of their coefficients differs from 0 at the confidence shared
-  /// over all outputs (Bonferroni).
+  /// over all outputs (Bonferroni). None of too few runs.
   std::vector<std::string> idle;
   /// Dispersions whose ranks are explained by those of the others (R² ≥ 0.5). Partial coefficients omit their joint
   /// effect.

@@ -11,10 +11,6 @@
 namespace wingspread {
 namespace {
 
-/// With fewer rows an index has no bounds: nominal 95 % ones held it in about 50, 70 and 85 % of the designs of 2, 3 and 7
-/// rows, and in 88 to 93 % of 20 rows and more.
-constexpr long least_for_bounds = 16;
-
 /// A design's values by row: A, B, AB_1, …; an incomplete last row is ignored.
 std::vector<std::span<const double>> rows_of(std::span<const double> values, std::size_t points) {
   std::vector<std::span<const double>> rows;
@@ -154,7 +150,7 @@ void add_indices(std::span<const std::span<const double>> rows, double mean, con
   const auto index = [&](std::size_t i, double Estimate::*which) -> SobolIndex {
     const std::vector<double> values = of_dispersion(again, i, which);
     const double value = whole[i].*which;
-    if (std::ssize(rows) < least_for_bounds) return {value, {}};
+    if (std::ssize(rows) < least_rows_for_bounds) return {value, {}};
     return {value, independent ? percentiles(values, how.confidence)
                                : jackknife_bounds(value, values, how.confidence)};
   };

@@ -42,6 +42,10 @@ struct SaltelliPoint {
   return {run / points, run % points};
 }
 
+/// With fewer rows an index has no bounds: nominal 95 % ones held it in about 50, 70 and 85 % of the designs of 2, 3 and 7
+/// rows, and in 88 to 93 % of 20 rows and more.
+inline constexpr long least_rows_for_bounds = 16;
+
 /// The method of the bounds.
 struct SobolBounds {
   double confidence = 0.95;

@@ -60,8 +60,10 @@ Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
       {"warnings", warnings(all)},
       {"confidence", all.bounds.confidence},
       {"definitions",
-       {{"first", "Saltelli 2010: mean of f_B (f_ABi - f_A) over the variance"},
-        {"total", "Jansen 1999: mean of (f_A - f_ABi)^2 over twice the variance"},
+       {{"first", "Saltelli 2010, centred: mean over the N rows of (f_B - m)(f_ABi - f_A), over "
+                  "the variance; m is the mean of all 2N values f_A and f_B"},
+        {"total", "Jansen 1999: mean over the N rows of (f_A - f_ABi)^2, over twice the variance"},
+        {"variance", "of the 2N values f_A and f_B about m, with the divisor 2N"},
         {"bounds", bounds_definition(all.bounds)},
         {"cut", "runs whose peak t_end cut: their values are those up to t_end"},
         {"incomplete", "rows in which one of the points does not have the output: where there are "
@@ -113,7 +115,8 @@ std::string sensitivity_table(const SobolSensitivity& all, std::string_view titl
 }
 
 std::string moved_by_table(const SobolSensitivity& all, std::string_view title) {
-  constexpr double least = 0.02; // heuristic: of the variance
+  constexpr double least = least_shown_share;
+  constexpr double least_counted = 0.005; // of the variance; less is 0 % as printed
   MovedBy moved;
   for (const auto& [name, indices, cut] : all.outputs) {
     const SobolIndices& found = indices;
@@ -122,9 +125,11 @@ std::string moved_by_table(const SobolSensitivity& all, std::string_view title) 
       continue;
     }
     const auto total = [&](std::size_t i) { return found.effects[i].total.value; };
-    moved.add(name, all.dispersions.size(), total, least, [&](std::size_t i) {
-      return fmt::format("{} {:.0f} %", all.dispersions[i], 100 * total(i));
-    });
+    const auto visible = [&](std::size_t i) {
+      return found.effects[i].total.bounds.lower.value_or(0) >= least_counted;
+    };
+    moved.add(name, {all.dispersions, total, least, visible,
+                     [](double share) { return fmt::format("{:.0f} %", 100 * share); }});
   }
   return fmt::format("{}\n\n", title) +
          moved.table("moved by (share of the variance, interactions included)");
@@ -148,6 +153,10 @@ std::vector<std::string> warnings(const SobolSensitivity& all) {
                                quoted(names)));
   if (all.runs < all.total)
     list.push_back(fmt::format("only {} of {} runs are complete", all.runs, all.total));
+  if (all.rows < least_rows_for_bounds && all.bounds.replicates != 1)
+    list.push_back(fmt::format("no bounds: {} too few, it takes {}",
+                               counted(all.rows, "sample is", "samples are"),
+                               least_rows_for_bounds));
   return list;
 }
 

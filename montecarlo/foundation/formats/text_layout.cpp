@@ -134,6 +134,19 @@ std::string as_written(double value, std::string_view unit) {
                      unit.substr(3));
 }
 
+int digits_that_tell(std::span<const double> ascending, int least) {
+  constexpr int most = 17; // all of a double's
+  const auto alike = [&](int digits) {
+    return std::ranges::adjacent_find(ascending, [&](double a, double b) {
+             return a != b &&
+                    fmt::format("{:.{}g}", a, digits) == fmt::format("{:.{}g}", b, digits);
+           }) != ascending.end();
+  };
+  int digits = least;
+  while (digits < most && alike(digits)) ++digits;
+  return digits;
+}
+
 std::string spaced(std::string_view name) {
   std::string words(name);
   std::ranges::replace(words, '_', ' ');

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -30,6 +31,9 @@ inline constexpr int table_width = 100;
 
 /// Five significant digits with trailing zeros, so that columns line up; "–" of NaN.
 [[nodiscard]] std::string in_digits(double value);
+
+/// The fewest significant digits, from `least` to 17, that tell neighbours of an ascending sequence apart.
+[[nodiscard]] int digits_that_tell(std::span<const double> ascending, int least);
 
 /// Lines indented by `indent`, broken at blanks to stay within `table_width`; ends with a line feed.
 [[nodiscard]] std::string paragraph(std::string_view text, std::size_t indent = 2);

@@ -126,7 +126,7 @@ void add_design_options(CLI::App& command, NewOptions& options) {
     if (number.of_yoke) option->needs(yoke);
   }
   add_number(command, options, damper_option,
-             "damper of the root hinge, ≥ 0; default: one that doubles the time", "N·m·s/rad",
+             "damper of the root hinge, ≥ 0; default: doubles the time, to a tenth", "N·m·s/rad",
              [](const std::string& text, WingDesign& into) { return read_damper(text, into); });
 }
 

@@ -30,7 +30,7 @@ struct SensitivityOptions {
   std::optional<std::uint64_t> seed;
   std::optional<double> confidence;
   std::string shard;
-  long resamples = 1000;
+  std::optional<long> resamples;
   MachineOptions machine;
   bool resume = false, json = false, all = false;
 };
@@ -112,8 +112,15 @@ int analyze_design(const SaltelliDesign& design, const Results& results,
   const std::string kind(design_names[static_cast<std::size_t>(sampling.design)]);
   const int replicates =
       has_replicates(sampling) ? static_cast<int>(saltelli_replicates(sampling, design.rows)) : 0;
-  const SobolBounds bounds{confidence_of(options.confidence, design.campaign.statistics),
-                           replicates, options.resamples, sampling.seed};
+  const auto given = [](const auto& option, const auto& of_design) {
+    return option ? option : of_design;
+  };
+  const SobolBounds bounds{
+      confidence_of(given(options.confidence, design.bounds.confidence),
+                    design.campaign.statistics),
+      replicates,
+      given(options.resamples, design.bounds.resamples).value_or(SobolBounds().resamples),
+      sampling.seed};
   show_analysis(sobol_sensitivity(results, coordinates_of(design.campaign.dispersions).names,
                                   design.rows, kind, bounds),
                 stamp_json(stamp_of(design)),
@@ -177,6 +184,8 @@ SaltelliDesign design_of(const SensitivityOptions& options) {
   SaltelliDesign design =
       is_design_file(options.from) ? read_given_design(options) : new_design(options);
   design.shard = parse_shard(options.shard);
+  if (options.resamples) design.bounds.resamples = options.resamples;
+  if (options.confidence) design.bounds.confidence = options.confidence;
   return design;
 }
 
@@ -272,11 +281,14 @@ replicates; one replicate gives none. An output that is missing at some point of
 Sobol' indices.
 
 The runs of a design can be made in shards, each with --out and --shard; `wingspread merge` gives
-the folder that making all runs at once gives, byte for byte.
+the folder that making all runs at once gives, byte for byte. The folder keeps --resamples and
+--confidence, for `merge` and for tables made again.
 
-Both analyses name for each output the dispersions that move it, the most important first; --all
-prints the coefficients with their bounds. They write all of them to sensitivity.json and
-sensitivity.csv in the folder, or in --out. A warning names each dispersion that moves no output.
+Both analyses name for each output the dispersions that move it, the most important first: at most
+five, with a rank correlation of 0.2 or more or 2 % of the variance, and at least a quarter of the
+largest; others with visible effect are counted. --all prints every coefficient with its bounds.
+sensitivity.json and sensitivity.csv in the folder, or in --out, have all of them. A warning names
+each dispersion that moves no output.
 Effects on peaks that t_end cut are those on the values up to t_end: a warning gives the number of
 runs, and a longer t_end decides them.
 

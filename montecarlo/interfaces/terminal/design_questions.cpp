@@ -103,7 +103,7 @@ WingDesign ask_design(std::istream& in, std::ostream& out) {
   }
   if (more)
     (void)ask(in, out, "damper of the root hinge, 0: none",
-              fmt::format("one that doubles the time, {}", damper_dimension.unit),
+              fmt::format("one that doubles the time, to a tenth, {}", damper_dimension.unit),
               [&](const std::string& text) { return read_damper(text, design); });
   return design;
 }

@@ -119,7 +119,8 @@ void report_cases(const std::vector<CaseSummary>& cases, bool may_grow) {
 void add_display_options(CLI::App& command, Display& display) {
   command.add_flag("--table", display.table,
                    "Print the table even if standard output is not a terminal");
-  command.add_flag("--all", display.all, "Print the table with every output and its accuracy");
+  command.add_flag("--all", display.all,
+                   "Print every line of the table, with the accuracy of each output");
   command.add_flag("--histograms", display.histograms,
                    "Print the table and each output's histogram");
 }

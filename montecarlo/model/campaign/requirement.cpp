@@ -264,4 +264,9 @@ double in_unit_of_limit(const Requirement& requirement, double value) {
                : value;
 }
 
+std::string unit_of_limit(const Requirement& requirement) {
+  const std::string unit = parse_output_name(requirement.output).unit;
+  return in_unit_of_limit(requirement, 1) == 1 ? unit : "deg" + unit.substr(3);
+}
+
 } // namespace wingspread

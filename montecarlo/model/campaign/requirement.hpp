@@ -69,5 +69,7 @@ void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requi
 
 /// A value of the output, in SI, in the unit in which to_string states the limit: a rate in deg/s beside "≤ 60 deg/s".
 [[nodiscard]] double in_unit_of_limit(const Requirement& requirement, double value);
+/// That unit: "deg" where the limit is written in degrees, though the output is in radians; may be empty.
+[[nodiscard]] std::string unit_of_limit(const Requirement& requirement);
 
 } // namespace wingspread

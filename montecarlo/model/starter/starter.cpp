@@ -55,7 +55,10 @@ std::string described(const WingDesign& design) {
 
 Starter make_starter(WingDesign design, const std::string& command) {
   check_design(design);
-  if (!design.damper) design.damper = suggested_damper(design);
+  if (!design.damper) {
+    design.damper = suggested_damper(design);
+    design.damper_suggested = true;
+  }
   const auto limits = starter_limits(design);
   StarterLimits used;
   if (limits)

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace wingspread {
@@ -103,7 +105,9 @@ AnnotatedLines torque_lines(const WingDesign& design, bool root) {
     lines.push_back(
         {fmt::format(R"(      "damper": {{ "law": "viscous", "coefficient": {} }},)",
                      short_number(*design.damper)),
-         "a rotary damper, N·m·s/rad, here chosen so that the wing takes about twice the time"});
+         design.damper_suggested
+             ? "a rotary damper, N·m·s/rad, here chosen so that the wing takes about twice the time"
+             : "a rotary damper, N·m·s/rad"});
   return lines;
 }
 
@@ -167,6 +171,29 @@ AnnotatedLines loops(const WingDesign& design, const std::vector<DesignedWing>& 
   return joined(std::move(elements));
 }
 
+/// When the last latch of the nominal wing engages, s; infinite if it does not deploy by t_end.
+double deployment_time(const WingDesign& design, double t_end) {
+  Goal goal;
+  goal.peak_moment = goal.peak_force = goal.audit = false;
+  Integration integration;
+  integration.t_end = t_end;
+  const Outcome outcome = Deployment().run(scene_of(design), integration, goal);
+  return outcome.status == Status::deployed ? outcome.latches.back().time
+                                            : std::numeric_limits<double>::infinity();
+}
+
+/// The mean torque of all hinges of one wing, referred to its root by the loops, N·m.
+double mean_torque(const WingDesign& design) {
+  double torque = 0;
+  const auto hinges = designed_wing(design, false).hinges.size();
+  for (std::size_t h = 0; h < hinges; ++h) {
+    const double spring = 0.5 * (1 + latched_share) * spring_of(design, h == 0);
+    const double cables = 0.5 * (1 + stowed_harness_share) * design.harness;
+    torque += (h == 0 ? 1 : 2) * (spring - cables - design.friction);
+  }
+  return torque;
+}
+
 void append(AnnotatedLines& lines, AnnotatedLines more) {
   for (AnnotatedLine& line : more) lines.push_back(std::move(line));
 }
@@ -202,21 +229,37 @@ Scene scene_of(const WingDesign& design) {
 }
 
 double suggested_damper(WingDesign design) {
+  constexpr double wanted = 2, close = 0.05, tolerance = 0.1; // of the ratio of both times
+  constexpr double longest = 4;                               // times the time without a damper
+  constexpr int most_trials = 12; // heuristic: usual wings take two to four
   design.damper = 0;
-  Goal goal;
-  goal.peak_moment = goal.peak_force = goal.audit = false;
-  Integration integration;
-  integration.t_end = latest_end;
-  const Outcome alone = Deployment().run(scene_of(design), integration, goal);
-  if (alone.status != Status::deployed) return 0;
-  double torque = 0; // of one wing, referred to its root
-  const auto hinges = designed_wing(design, false).hinges.size();
-  for (std::size_t h = 0; h < hinges; ++h) {
-    const double spring = 0.5 * (1 + latched_share) * spring_of(design, h == 0);
-    const double cables = 0.5 * (1 + stowed_harness_share) * design.harness;
-    torque += (h == 0 ? 1 : 2) * (spring - cables - design.friction);
+  const double alone = deployment_time(design, latest_end);
+  if (std::isinf(alone)) return 0;
+  struct Trial {
+    double damper, ratio;
+    [[nodiscard]] double off() const { return std::abs(ratio - wanted); }
+  };
+  Trial below{0, 1}, best = below;
+  std::optional<Trial> above;
+  // The damper that takes the mean torque at the root's mean rate slows a wing to 1.4 to 1.8 times.
+  double next = two_digits(mean_torque(design) * alone / (std::numbers::pi / 2));
+  for (int k = 0; k < most_trials && best.off() > close; ++k) {
+    design.damper = next;
+    const Trial trial{next, deployment_time(design, longest * alone) / alone};
+    if (trial.off() < best.off()) best = trial;
+    if (trial.ratio > wanted)
+      above = trial;
+    else
+      below = trial;
+    const Trial from = above ? below : Trial{0, 1}, to = above ? *above : below;
+    next = std::isinf(to.ratio) ? 0.5 * (from.damper + to.damper)
+           : to.ratio <= 1
+               ? 2 * next
+               : std::lerp(from.damper, to.damper, (wanted - from.ratio) / (to.ratio - from.ratio));
+    next = two_digits(next);
+    if (next == below.damper || (above && next == above->damper)) break;
   }
-  return two_digits(torque * alone.latches.back().time / (std::numbers::pi / 2));
+  return best.off() <= tolerance * wanted ? best.damper : 0;
 }
 
 } // namespace wingspread

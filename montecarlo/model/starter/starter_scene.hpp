@@ -16,9 +16,8 @@ inline constexpr double latest_end = 3600;
 /// The scene as `check` reads it.
 [[nodiscard]] Scene scene_of(const WingDesign& design);
 
-/// A damper with which the wing takes about twice the time that it takes without: T t/φ, with the root's travel φ, the
-/// time t without a damper and the mean torque T of all hinges, referred to the root by the loops. Two digits,
-/// N·m·s/rad. 0 if the wing does not deploy.
+/// A damper with which the nominal wing takes twice the time that it takes without, to a tenth. Two digits, N·m·s/rad.
+/// 0 if there is none, because the wing does not deploy without or with so large a damper.
 [[nodiscard]] double suggested_damper(WingDesign design);
 
 /// Rounds to two digits: an engineer's number.

@@ -45,6 +45,7 @@ struct WingDesign {
   double harness = 0.15;     ///< largest torque of a hinge's cables, N·m
   std::optional<double>
       damper{}; ///< of the root hinge, N·m·s/rad; 0: none; not given: suggested_damper()
+  bool damper_suggested = false; ///< whether suggested_damper() gave it
 };
 
 /// A number that the user may give, as an option or as the answer to a question.

@@ -135,8 +135,8 @@ Json scatter_json(const PageSource& source, const Pair& pair) {
   return {{"draw", x.name},
           {"output", y.name},
           {"spearman", page_number(pair.spearman, 4)},
-          {"x_edges", page_numbers(x_edges)},
-          {"y_edges", page_numbers(y_edges)},
+          {"x_edges", page_numbers(x_edges, digits_that_tell(x_edges, page_digits))},
+          {"y_edges", page_numbers(y_edges, digits_that_tell(y_edges, page_digits))},
           {"density", density},
           {"points", points_json(source, x, y)}};
 }

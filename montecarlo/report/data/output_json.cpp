@@ -1,6 +1,7 @@
 #include "montecarlo/report/data/output_json.hpp"
 
 #include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/report/data/convergence.hpp"
 #include "montecarlo/report/data/distribution_curve.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace wingspread {
@@ -28,18 +30,24 @@ Json moments_json(const OutputSummary& output) {
           {"kurtosis", page_number(m.kurtosis)}};
 }
 
-Json quantiles_json(const OutputSummary& output) {
+Json quantiles_json(const Summary& summary, const OutputSummary& output) {
   Json json = Json::array();
   const auto add = [](Json& to, const QuantileValue& quantile) {
     to["value"] = page_number(quantile.value);
     add_bounds(to, quantile.bounds);
   };
+  // The page says "above 3" where one bound is there; the note is why it has none.
+  const auto has_none = [](const QuantileValue& quantile) {
+    return !quantile.bounds.lower && !quantile.bounds.upper;
+  };
   for (const QuantileEstimate& quantile : output.quantiles) {
     json.push_back({{"p", quantile.p}});
     add(json.back(), quantile.all);
     if (quantile.among) add(json.back()["among"], *quantile.among);
-    if (std::string why = why_no_quantile(output, quantile); !why.empty())
-      json.back()["note"] = std::move(why);
+    if (std::isnan(quantile.all.value) || has_none(quantile.all))
+      json.back()["note"] = why_missing(summary, output, quantile);
+    if (quantile.among && has_none(*quantile.among) && summary.replicates == 1)
+      json.back()["among"]["note"] = one_replicate;
   }
   return json;
 }
@@ -64,7 +72,7 @@ Json histogram_json(const PageSource& source, std::size_t index, std::span<const
   const Histogram shown = own.counts.size() <= most_bins ? own
                           : source.has_rows() ? histogram(sorted, static_cast<int>(most_bins))
                                               : coarser(own, most_bins);
-  return {{"edges", page_numbers(shown.edges, 10)},
+  return {{"edges", page_numbers(shown.edges, digits_that_tell(shown.edges, 10))},
           {"counts", shown.counts},
           {"by_order", source.orders->counts(shown, source.results.outputs[index].values)}};
 }
@@ -158,7 +166,7 @@ Json output_json(const PageSource& source, std::size_t index, const PageDetail& 
       {"family", name.quantity},
       {"hinge", name.hinge.empty() || name.hinge == "base" ? Json(nullptr) : Json(name.hinge)}};
   json.update(moments_json(output));
-  json["quantiles"] = quantiles_json(output);
+  json["quantiles"] = quantiles_json(source.summary, output);
   (source.has_rows() ? add_pictures : add_streaming_pictures)(source, index, detail, json);
   json["tolerance_limits"] = tolerance_json(source.summary, output);
   json["limits"] = limits_json(source, output.name);

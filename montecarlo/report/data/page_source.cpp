@@ -4,9 +4,13 @@
 #include "montecarlo/results/streaming/streaming_folder.hpp"
 #include "montecarlo/results/streaming/streaming_summary.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <variant>
 
 namespace wingspread {
 namespace {
@@ -44,11 +48,32 @@ std::optional<JudgedRun> worst_kept(const StreamingStatistics& statistics,
   return std::nullopt;
 }
 
+std::string requirements_of(const PageSource& source, const std::filesystem::path& folder) {
+  return source.stored.own_requirements
+             ? " --requirements " + shell_word((folder / summary_file).string())
+             : "";
+}
+
 } // namespace
 
 std::string requirements_option(const PageSource& source) {
-  if (!source.stored.own_requirements) return "";
-  return " --requirements " + shell_word((source.stored.folder / summary_file).string());
+  return requirements_of(source, source.stored.folder);
+}
+
+std::string analysis_options(const PageSource& source) {
+  std::string options = requirements_of(source, source.analyzed_in);
+  const StatisticsSpec& asked = source.stored.campaign.statistics;
+  const Json now = write_statistics(asked),
+             own = source.stored.campaign.resolved.at("statistics"); // as before `analyze`
+  const auto differs = [&](const char* key) { return now.at(key) != own.at(key); };
+  if (differs("quantiles"))
+    options += fmt::format(" --quantiles {}", fmt::join(asked.quantiles, ","));
+  if (differs("confidence")) options += fmt::format(" --confidence {}", asked.confidence);
+  if (differs("bins")) {
+    const int* const count = std::get_if<int>(&asked.bins);
+    options += " --bins " + (count ? std::to_string(*count) : "auto");
+  }
+  return options;
 }
 
 BrokenRuns broken_runs_of(const PageSource& source, const Verdict& verdict, std::size_t most) {
@@ -68,7 +93,7 @@ std::unique_ptr<PageSource> read_page_source(StoredCampaign stored, const std::s
   source->before_case = before_case ? *before_case : stored.campaign;
   if (stored.own_requirements) source->before_case.requirements = stored.campaign.requirements;
   source->stored = std::move(stored);
-  source->made_from = source->stored.folder;
+  source->made_from = source->analyzed_in = source->stored.folder;
   if (is_streaming_folder(source->stored.folder))
     read_streaming(*source);
   else

@@ -22,6 +22,10 @@ struct PageSource {
   std::filesystem::path made_from; ///< the folder whose campaign reproduces the rows
   std::vector<std::string>
       made_cases; ///< cases made from that folder, if some of its cases are missing
+  /// The set's folder or, if one `analyze` of the whole folder gives the statistics of all cases, that of the first.
+  std::filesystem::path analyzed_in;
+  bool analyzed_alone =
+      false; ///< whether the cases of its folder have been analysed in different ways
   /// The campaign without its case's changes; the set's own campaign without cases.
   Campaign before_case;
   Results results; ///< all rows; without rows (`streaming`) those of broken_runs.csv
@@ -39,6 +43,10 @@ struct PageSource {
 /// The option " --requirements FILE" of commands that judge as the last `analyze` of the folder did; empty if it judged
 /// by the campaign's own requirements.
 [[nodiscard]] std::string requirements_option(const PageSource& source);
+
+/// All options of the last `analyze` of the folder that changed its statistics or verdicts, each after a blank: those
+/// which summary.json has as "analyzed".
+[[nodiscard]] std::string analysis_options(const PageSource& source);
 
 /// As broken_runs (broken_runs.hpp); also works for a folder without rows.
 [[nodiscard]] BrokenRuns broken_runs_of(const PageSource& source, const Verdict& verdict,

@@ -20,6 +20,11 @@
 namespace wingspread {
 namespace {
 
+/// The folder that the commands make from the folder of this set: each of the page's folders has another one.
+std::string again(const PageSource& source) {
+  return source.argument == 0 ? "again" : fmt::format("again{}", source.argument + 1);
+}
+
 /// The command that reproduces the rows.
 std::string made_by(const PageSource& source) {
   const StoredCampaign& stored = source.stored;
@@ -31,14 +36,17 @@ std::string made_by(const PageSource& source) {
   if (const auto& shard = stored.stamp.shard)
     text += fmt::format(" --shard {}/{}", shard->index, shard->of);
   if (!source.has_rows()) text += " --no-rows";
-  return text + " --out again";
+  return text + " --out " + again(source);
 }
 
-/// The command that judges the rows of made_by's command by the requirements on the page; empty if they are the
-/// campaign's own.
+/// The command that makes the page's statistics and verdicts from the rows of made_by's command; empty if that command
+/// has made them.
 std::string judged_by(const PageSource& source) {
-  const std::string option = requirements_option(source);
-  return option.empty() ? "" : "wingspread analyze again" + option;
+  const StoredCampaign& stored = source.stored;
+  const std::string options = analysis_options(source);
+  if (options.empty() || stored.foreign) return "";
+  return "wingspread analyze " + again(source) +
+         (source.analyzed_alone ? "/" + stored.campaign.of_case : "") + options;
 }
 
 Json identity_json(const PageSource& source) {
@@ -75,6 +83,8 @@ Json statuses_json(const Summary& summary) {
                     {"count", share.count},
                     {"rate", page_number(share.rate)}});
     add_bounds(json.back(), share.bounds);
+    if (std::string why = why_no_bound(summary, share); !why.empty())
+      json.back()["note"] = std::move(why);
   }
   return json;
 }

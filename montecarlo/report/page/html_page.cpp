@@ -1,6 +1,7 @@
 #include "montecarlo/report/page/html_page.hpp"
 
 #include "montecarlo/foundation/platform/thread_pool.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/report/data/differences.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/set_json.hpp"
@@ -31,6 +32,19 @@ std::string name_of_folder(const std::filesystem::path& folder) {
   return name.empty() || name == "." || name == ".." ? folder.string() : name.string();
 }
 
+/// Says of the cases of a folder whether one `analyze` of it gives the statistics of all of them.
+void note_analyses(std::span<const std::unique_ptr<PageSource>> cases) {
+  const auto as_the_first = [&](const auto& source) {
+    return write_analysis(source->stored.campaign) ==
+           write_analysis(cases.front()->stored.campaign);
+  };
+  const bool alike = std::ranges::all_of(cases, as_the_first);
+  for (const auto& source : cases) {
+    source->analyzed_alone = !alike;
+    if (alike) source->analyzed_in = cases.front()->stored.folder;
+  }
+}
+
 /// Adds the sets of one folder. @param several whether the page has several folders; then labels of cases name the
 /// folder
 void read_folder(const std::filesystem::path& folder, bool several, int threads,
@@ -47,6 +61,7 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
   }
   const StoredCampaign whole = read_stored_campaign(folder);
   const std::vector<CaseSpec> made = made_cases(whole);
+  const std::size_t before = sources.runs.size();
   for (const CaseSpec& spec : made) {
     sources.runs.push_back(read_page_source(as_analyzed(read_stored_campaign(folder / spec.name)),
                                             several ? name + " · " + spec.name : spec.name,
@@ -55,6 +70,7 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
     if (made.size() < whole.campaign.cases.size())
       for (const CaseSpec& each : made) sources.runs.back()->made_cases.push_back(each.name);
   }
+  note_analyses(std::span(sources.runs).subspan(before));
   for (const CaseSpec& spec : whole.campaign.cases)
     if (std::ranges::find(made, spec.name, &CaseSpec::name) == made.end())
       sources.unmade.push_back(

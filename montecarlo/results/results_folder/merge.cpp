@@ -41,6 +41,15 @@ void refuse_other_folder(const std::filesystem::path& out, const std::string& te
     refuse_used_folder(out, "a new or an empty folder for the merged results");
 }
 
+/// Refuses a folder whose statistics are there, because another `analyze` may have made them.
+/// @param last the file that is written last
+void refuse_finished(const std::filesystem::path& out, const char* last) {
+  if (!std::filesystem::exists(out / last) || read_stored_campaign(out).stamp.preview) return;
+  throw SpecError({{out.string(), "", "a finished results folder of this campaign",
+                    fmt::format("another --out; `wingspread analyze {}` makes its statistics again",
+                                shell_word(out.string()))}});
+}
+
 /// The checked input of a merge.
 struct Merging {
   StoredCampaign whole;
@@ -144,6 +153,7 @@ Summary merge_folders(const std::vector<std::filesystem::path>& folders,
   PartFaults faults;
   Merging merging = merging_of(folders, "", out, kind, faults);
   faults.refuse();
+  refuse_finished(out, histograms_csv_file);
   return write_merged(std::move(merging));
 }
 
@@ -169,6 +179,7 @@ std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& f
   if (all.runs < all.of) whole.stamp.preview = all;
   const std::string text = campaign_text(whole.campaign, whole.stamp);
   refuse_other_folder(out, text);
+  refuse_finished(out, cases_file);
   const FolderLock lock(out);
   refuse_other_folder(out, text);
   write_file(out / campaign_file, text);

@@ -33,6 +33,13 @@ std::filesystem::path refuse_missing(const std::filesystem::path& folder) {
   return path;
 }
 
+/// The rules for rows. Draws cannot change t_end, nor add a hold.
+RowRules rules_of(const Campaign& campaign) {
+  return {campaign.integration.t_end,
+          std::ranges::any_of(campaign.scene.hinges,
+                              [](const Hinge& hinge) { return hinge.release.has_value(); })};
+}
+
 /// The stamp for summary.json, which marks missing runs.
 Json about(const StoredCampaign& stored, const Summary& summary) {
   Json json = stamp_json(stored.stamp);
@@ -212,7 +219,7 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
   const ResultNames names = RunPlan(stored.campaign).names();
   RowReader reader(in, path.string(), names,
                    stored.foreign ? UnterminatedRow::read : UnterminatedRow::drop);
-  const RowCheck check(names);
+  const RowCheck check(names, rules_of(stored.campaign));
   const auto [first, last] = stored.runs();
   while (reader.next()) {
     if (const auto fault = check.fault_in(reader.row()))

@@ -26,7 +26,7 @@ std::vector<std::string> split_order(std::string_view order) {
 
 } // namespace
 
-RowCheck::RowCheck(const ResultNames& names) {
+RowCheck::RowCheck(const ResultNames& names, const RowRules& rules) : rules_(rules) {
   for (std::size_t i = 0; i < names.outputs.size(); ++i) {
     const OutputName name = parse_output_name(names.outputs[i]);
     if (name.kind && !name.kind->has_sign)
@@ -39,6 +39,7 @@ RowCheck::RowCheck(const ResultNames& names) {
 std::optional<RowFault> RowCheck::fault_in(const ResultRow& row) const {
   if (auto fault = fault_of_size(row)) return fault;
   if (auto fault = fault_of_status(row)) return fault;
+  if (auto fault = fault_of_latches(row)) return fault;
   return fault_of_order(row);
 }
 
@@ -48,6 +49,9 @@ std::optional<RowFault> RowCheck::fault_of_size(const ResultRow& row) const {
     if (value < 0)
       return RowFault{name, fmt::format("{}", value),
                       is_time ? "a time ≥ 0" : "≥ 0: this output has no sign"};
+    if (is_time && value > rules_.t_end * (1 + 1e-9)) // of a tool that rounds
+      return RowFault{name, fmt::format("{} s", value),
+                      fmt::format("at most t_end, {} s: a run ends there", rules_.t_end)};
   }
   return std::nullopt;
 }
@@ -75,6 +79,17 @@ std::optional<RowFault> RowCheck::fault_of_status(const ResultRow& row) const {
                   "nothing: only a deployed run has a deployment time"};
 }
 
+std::optional<RowFault> RowCheck::fault_of_latches(const ResultRow& row) const {
+  const bool ended_open = row.status == Status::stalled || row.status == Status::timed_out;
+  if (!ended_open || rules_.holds || latches_.empty() ||
+      std::ranges::any_of(latches_,
+                          [&](const Latch& each) { return std::isnan(row.outputs[each.column]); }))
+    return std::nullopt;
+  return RowFault{"status",
+                  fmt::format("{} with the latch times of all hinges", to_string(row.status)),
+                  "deployed, or a hinge without a latch time: nothing but its latches holds it"};
+}
+
 std::optional<RowFault> RowCheck::fault_of_order(const ResultRow& row) const {
   const auto fault = [&](const std::string& what, const char* expected) {
     return RowFault{std::string(latch_order_column), fmt::format("'{}', {}", row.latch_order, what),
@@ -99,6 +114,11 @@ std::optional<RowFault> RowCheck::fault_of_order(const ResultRow& row) const {
     seen.push_back(name);
     last = time;
   }
+  for (const auto& [hinge, column] : latches_)
+    if (!seen.empty() && !std::isnan(row.outputs[column]) &&
+        std::ranges::find(seen, hinge) == seen.end())
+      return fault(fmt::format("without {}, which latched at {} s", hinge, row.outputs[column]),
+                   "every hinge with a latch time");
   return std::nullopt;
 }
 

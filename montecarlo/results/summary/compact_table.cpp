@@ -163,8 +163,8 @@ std::string in_two_digits(double error) {
   return std::isnan(error) ? "–" : fmt::format("{:.2g}", error);
 }
 
-/// The largest errors of the integration. An output that does not vary, or of a single run, has no standard error: its
-/// error is compared with its value.
+/// The largest errors of the integration. An output that does not vary, or of a single run or replicate, has no
+/// standard error: its error is compared with its value.
 struct LargestErrors {
   double of_standard_error =
       undefined;               ///< over the standard error of the mean; NaN if no output has one
@@ -189,6 +189,12 @@ LargestErrors largest_errors(const Summary& summary) {
   return found;
 }
 
+/// Why some output has no standard error.
+std::string_view why_no_standard_error(const Summary& summary) {
+  if (summary.runs == 1) return "a single run";
+  return summary.replicates == 1 ? "one replicate has none: take two or more" : "it does not vary";
+}
+
 /// "≤ 8e-06 % of a standard error, ≤ 2e-07 % of a value that does not vary".
 std::string errors_text(const Summary& summary) {
   const LargestErrors found = largest_errors(summary);
@@ -198,8 +204,7 @@ std::string errors_text(const Summary& summary) {
   // next to an error of a standard error, exactness needs no word
   if (parts.empty() ? !std::isnan(found.of_value) : found.of_value > 0)
     parts.push_back(fmt::format("≤ {:.1g} % of a value without standard error ({})",
-                                100 * found.of_value,
-                                summary.runs == 1 ? "a single run" : "it does not vary"));
+                                100 * found.of_value, why_no_standard_error(summary)));
   if (!found.of_zero.empty()) parts.push_back(found.of_zero + ", which is 0");
   return parts.empty() ? "unknown" : fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -326,10 +331,17 @@ namespace {
 /// @param names of the outputs that some run lacks, by where those runs rank
 std::string described_ranks(const std::map<MissingRank, std::vector<std::string>>& names) {
   if (names.empty()) return "";
-  std::string text = "Runs without a value rank above every value";
-  for (const auto& [end, outputs] : names)
-    if (end != MissingRank::above)
-      text += fmt::format("; {} in {}", words_of(end), fmt::join(outputs, ", "));
+  const auto in = [&](MissingRank end) {
+    const auto found = names.find(end);
+    return found == names.end() ? "" : fmt::format(" in {}", fmt::join(found->second, ", "));
+  };
+  const std::string below = in(MissingRank::below), either = in(MissingRank::either);
+  std::string text = "Runs without a value rank";
+  if (names.contains(MissingRank::above) || !either.empty())
+    text += fmt::format(" {}{}", words_of(MissingRank::above), below.empty() ? "" : ";");
+  if (!below.empty()) text += fmt::format(" {}{}", words_of(MissingRank::below), below);
+  if (!either.empty())
+    text += fmt::format(";{} bounds hold for both ends, which requirements limit", either);
   return text;
 }
 

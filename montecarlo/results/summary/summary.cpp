@@ -20,6 +20,9 @@ namespace wingspread {
 
 namespace {
 
+constexpr std::string_view replicates_agree =
+    "no bounds: all replicates agree, which says nothing about the error";
+
 Bounds replicate_share_bounds(const std::vector<bool>& hit, double confidence,
                               const Replication& replication) {
   std::vector<long> hits_of(static_cast<std::size_t>(replication.replicates), 0), sizes = hits_of;
@@ -228,6 +231,9 @@ std::string why_no_quantile(const OutputSummary& output, const QuantileEstimate&
                      count + output.missing, words_of(output.missing_end));
 }
 
+namespace {
+
+/// Why a quantile lacks a bound, though it exists.
 std::string why_no_bound(const Summary& summary, const OutputSummary& output) {
   if (summary.replicates == 1) return std::string(one_replicate);
   const std::string values = output.missing > 0
@@ -242,6 +248,20 @@ std::string why_no_bound(const Summary& summary, const OutputSummary& output) {
                      output.missing == 0 && output.moments.count == 1 ? values + " is"
                                                                       : values + " are",
                      summary.confidence);
+}
+
+} // namespace
+
+std::string why_missing(const Summary& summary, const OutputSummary& output,
+                        const QuantileEstimate& quantile) {
+  const Bounds& bounds = quantile.all.bounds;
+  std::string why = why_no_quantile(output, quantile);
+  return why.empty() && !(bounds.lower && bounds.upper) ? why_no_bound(summary, output) : why;
+}
+
+std::string why_no_bound(const Summary& summary, const StatusShare& share) {
+  if (share.bounds.lower || summary.replicates == 0) return "";
+  return std::string(summary.replicates == 1 ? one_replicate : replicates_agree);
 }
 
 std::string why_no_limit(const Summary& summary, const ToleranceLimitEstimate& estimate) {

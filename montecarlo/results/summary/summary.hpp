@@ -188,8 +188,11 @@ struct Summary {
 /// Empty if it has it.
 [[nodiscard]] std::string why_no_quantile(const OutputSummary& output,
                                           const QuantileEstimate& quantile);
-/// Why a quantile lacks a bound, though it exists.
-[[nodiscard]] std::string why_no_bound(const Summary& summary, const OutputSummary& output);
+/// Why a quantile over all runs or one of its bounds is missing; empty if none is.
+[[nodiscard]] std::string why_missing(const Summary& summary, const OutputSummary& output,
+                                      const QuantileEstimate& quantile);
+/// Why a share of dependent draws has no bounds; empty if it has them, and for independent draws.
+[[nodiscard]] std::string why_no_bound(const Summary& summary, const StatusShare& share);
 /// Why a tolerance limit that was asked for is missing; empty if none is.
 [[nodiscard]] std::string why_no_limit(const Summary& summary,
                                        const ToleranceLimitEstimate& estimate);

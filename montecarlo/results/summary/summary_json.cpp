@@ -17,9 +17,6 @@
 namespace wingspread {
 namespace {
 
-constexpr std::string_view replicates_agree =
-    "no bounds: all replicates agree, which says nothing about the error";
-
 /// A note on how the confidence is shared among interim analyses; empty if there is only one.
 std::string over_interim_analyses(const Summary& summary) {
   const InterimAnalyses& interim = summary.interim;
@@ -117,8 +114,8 @@ Json statuses_json(const Summary& summary) {
                {"rate", json_number(share.rate)},
                {"lower", json_number(share.bounds.lower)},
                {"upper", json_number(share.bounds.upper)}};
-    if (!share.bounds.lower && summary.replicates > 0)
-      entry["note"] = summary.replicates == 1 ? one_replicate : replicates_agree;
+    if (std::string why = why_no_bound(summary, share); !why.empty())
+      entry["note"] = std::move(why);
     json[to_string(share.status)] = std::move(entry);
   }
   return json;
@@ -177,13 +174,10 @@ void add_quantile(Json& json, const QuantileValue& quantile) {
 Json quantiles_json(const Summary& summary, const OutputSummary& output) {
   Json json = Json::array();
   for (const QuantileEstimate& quantile : output.quantiles) {
-    const Bounds& bounds = quantile.all.bounds;
     Json entry{{"p", quantile.p}};
     add_quantile(entry, quantile.all);
-    if (std::string why = why_no_quantile(output, quantile); !why.empty())
+    if (std::string why = why_missing(summary, output, quantile); !why.empty())
       entry["note"] = std::move(why);
-    else if (!bounds.lower || !bounds.upper)
-      entry["note"] = why_no_bound(summary, output);
     if (quantile.among) add_quantile(entry["among_runs_with_value"], *quantile.among);
     json.push_back(std::move(entry));
   }

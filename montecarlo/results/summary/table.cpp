@@ -21,7 +21,7 @@ namespace wingspread {
 
 namespace {
 
-constexpr std::size_t most_lines = 8; ///< of reasons and of latch orders
+constexpr std::size_t most_lines = 8; ///< of reasons and of latch orders, unless all are asked for
 constexpr std::size_t columns_per_block = 6, label_width = 19, number_width = 11; // of outputs
 
 std::string percent_bounds(const Bounds& bounds) {
@@ -60,10 +60,11 @@ std::string outcomes(const Summary& summary, bool all) {
   return text;
 }
 
-std::string reasons(const Summary& summary) {
+std::string reasons(const Summary& summary, bool all) {
   if (summary.reasons.empty()) return "";
   std::string text = fmt::format("\n{:<12}{:>8}  {}\n", "WHY", "runs", "reason");
-  const std::size_t shown = std::min(summary.reasons.size(), most_lines);
+  const std::size_t shown =
+      all ? summary.reasons.size() : std::min(summary.reasons.size(), most_lines);
   for (const auto& [status, reason, count] : std::span(summary.reasons).first(shown))
     text +=
         fmt::format("  {:<10}{:>8}  {}\n", spaced(to_string(status)), count, wrapped(reason, 22));
@@ -88,13 +89,14 @@ std::string stalled_at(const Summary& summary) {
   return text;
 }
 
-std::string latch_orders(const Summary& summary) {
+std::string latch_orders(const Summary& summary, bool all) {
   std::string text = fmt::format("\n{:<50}{:>10}{:>12}\n", "LATCH ORDER", "runs", "share");
   const auto line = [&](std::string_view order, long count) {
     text += fmt::format("{}{:>10}{:>12}\n", in_column(fmt::format("  {}", order), 50), count,
                         percent(share_of(count, summary.runs)));
   };
-  const std::size_t shown = std::min(summary.latch_orders.size(), most_lines);
+  const std::size_t shown =
+      all ? summary.latch_orders.size() : std::min(summary.latch_orders.size(), most_lines);
   long others = summary.runs - summary.without_latch;
   for (const auto& [order, count] : std::span(summary.latch_orders).first(shown)) {
     line(order, count);
@@ -360,8 +362,8 @@ std::string bar(long eighths) {
 
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder,
                           bool all) {
-  return std::string(title) + '\n' + outcomes(summary, all) + reasons(summary) +
-         stalled_at(summary) + latch_orders(summary) + outputs(summary, all) +
+  return std::string(title) + '\n' + outcomes(summary, all) + reasons(summary, all) +
+         stalled_at(summary) + latch_orders(summary, all) + outputs(summary, all) +
          accuracy_text(summary, all) + tolerance(summary) + requirements(summary, folder) +
          stopping(summary) + warning_lines(warnings(summary)) + files(summary, folder);
 }
@@ -374,12 +376,18 @@ std::string draw_histogram(std::string_view name, std::string_view unit, const H
   const Histogram bins = coarser(histogram, 20);
   double highest = 0;
   for (std::size_t i = 0; i < bins.counts.size(); ++i) highest = std::max(highest, bins.density(i));
-  const double eighths = 8.0 * (width - 24);
+  const int digits = digits_that_tell(bins.edges, 6);
+  int edge_width = 12;
+  for (const double edge : bins.edges)
+    edge_width =
+        std::max(edge_width, static_cast<int>(fmt::formatted_size("{:.{}g}", edge, digits)));
+  const int bar_width = width - edge_width - 11;
+  const double eighths = 8.0 * (bar_width - 1);
   for (std::size_t i = 0; i < bins.counts.size(); ++i)
-    text += fmt::format("{:>12.6g} │{:<{}}{:>9}\n", bins.edges[i],
-                        bar(std::lround(eighths * bins.density(i) / highest)), width - 23,
+    text += fmt::format("{:>{}.{}g} │{:<{}}{:>9}\n", bins.edges[i], edge_width, digits,
+                        bar(std::lround(eighths * bins.density(i) / highest)), bar_width,
                         bins.counts[i]);
-  return text + fmt::format("{:>12.6g} ┘\n", bins.edges.back());
+  return text + fmt::format("{:>{}.{}g} ┘\n", bins.edges.back(), edge_width, digits);
 }
 
 } // namespace wingspread

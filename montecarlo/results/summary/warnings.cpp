@@ -40,11 +40,17 @@ long count_open_latches(const Summary& summary) {
 }
 
 std::string warn_of_far_limit(const Verdict& verdict) {
+  const Requirement& requirement = verdict.requirement;
+  const auto in_its_unit = [&](double value) {
+    const std::string unit = unit_of_limit(requirement);
+    return fmt::format("{:.5g}{}{}", in_unit_of_limit(requirement, value), unit.empty() ? "" : " ",
+                       unit);
+  };
   const auto& [least, largest] = *verdict.beyond_zero;
-  return fmt::format("{}: every value (least {:.5g}, largest {:.5g}) is on the other side of zero "
-                     "from the limit{}",
-                     to_string(verdict.requirement), least, largest,
-                     verdict.requirement.absolute ? "" : "; \"abs\": true limits the magnitude");
+  return fmt::format("{}: every value of the runs that deployed (least {}, largest {}) is on the "
+                     "other side of zero from the limit{}",
+                     to_string(requirement), in_its_unit(least), in_its_unit(largest),
+                     requirement.absolute ? "" : "; \"abs\": true limits the magnitude");
 }
 
 /// "a, b and 3 more outputs".

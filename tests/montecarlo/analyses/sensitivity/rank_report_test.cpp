@@ -2,6 +2,7 @@
 #include "montecarlo/analyses/sensitivity/rank_report.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
+#include "tests/montecarlo/analyses/sensitivity/rank_support.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 #include "tests/montecarlo/csv_support.hpp"
 
@@ -37,8 +38,9 @@ TEST_CASE("rank correlations as JSON, CSV and a table", "[parallel]") {
   CHECK(table.find("root_spring", block) < table.find("mass.panel_1", block)); // it matters most
 }
 
-TEST_CASE("what is undefined is null, an empty cell and a dash; many are cut short and counted") {
+TEST_CASE("what is undefined is null, an empty cell and a dash; every dispersion has its line") {
   RankSensitivity all;
+  all.runs = 5;
   OutputRanks output{"x.latch_time", 3, 2, {}, true};
   for (int j = 0; j < 12; ++j) {
     all.dispersions.push_back(std::string("d") += std::to_string(j));
@@ -54,7 +56,8 @@ TEST_CASE("what is undefined is null, an empty cell and a dash; many are cut sho
   const std::string table = sensitivity_table(all, "t");
   CHECK(table.find("· 2 without") != std::string::npos);
   CHECK(table.find("d11") < table.find("d10")); // entangled: by Spearman's
-  CHECK(table.find("4 others, at most 0.150\n") != std::string::npos);
+  for (const std::string& name : all.dispersions)
+    CHECK(table.find("\n  " + name + " ") != std::string::npos);
   CHECK(table.find("–") != std::string::npos);
   const auto said = warnings(all);
   REQUIRE(said.size() == 2);
@@ -64,6 +67,7 @@ TEST_CASE("what is undefined is null, an empty cell and a dash; many are cut sho
 
 TEST_CASE("what a dispersion does with others is not hidden by what it does by itself") {
   RankSensitivity all;
+  all.runs = 90;
   all.dispersions = {"alone", "together", "nothing"};
   const auto effect = [](double spearman, double partial) {
     return RankEffect{{spearman, {}}, {partial, {}}};
@@ -83,6 +87,7 @@ TEST_CASE("what a dispersion does with others is not hidden by what it does by i
 
 TEST_CASE("columns of one rows are told as such") {
   RankSensitivity all;
+  all.runs = 90;
   CHECK_FALSE(sensitivity_json(all, {}).contains("rows"));
   all.rows = {{"alone", {"mass"}}, {"fitted", {"spring", "friction"}}};
   CHECK(sensitivity_json(all, {})["rows"]["fitted"] == Json::array({"spring", "friction"}));
@@ -104,12 +109,13 @@ TEST_CASE("the report says what its bounds are") {
   CHECK_THAT(definition(8, 1), Catch::Contains("8 independent replicates"));
   CHECK(definition(1, 1) == one_replicate);
   RankSensitivity one;
-  one.replicates = 1;
+  one.runs = 90, one.replicates = 1;
   CHECK(warnings(one) == std::vector<std::string>{std::string(one_replicate)});
 }
 
 TEST_CASE("the short table names what moves an output, and stops") {
   RankSensitivity all;
+  all.runs = 90;
   all.dispersions = {"spring", "damper", "mass", "nothing"};
   const auto effect = [](double spearman, double partial, bool seen = true) {
     return RankEffect{{spearman, {}}, {partial, {}}, seen};
@@ -138,11 +144,12 @@ TEST_CASE("the short table names what moves an output, and stops") {
 
 TEST_CASE("a line with many dispersions goes on below its second column") {
   MovedBy moved;
-  const auto name = [](std::size_t k) {
-    return "a_dispersion_of_a_long_name_" + std::to_string(k);
-  };
-  moved.add(
-      "root.latch_time", 5, [](std::size_t) { return 1; }, 0.1, name);
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < 5; ++k)
+    names.push_back("a_dispersion_of_a_long_name_" + std::to_string(k));
+  moved.add("root.latch_time",
+            {names, [](std::size_t) { return 1; }, 0.1, [](std::size_t) { return true; },
+             [](double) { return std::string("1"); }});
   std::istringstream table(moved.table("moved by"));
   std::string line;
   std::getline(table, line);
@@ -152,9 +159,59 @@ TEST_CASE("a line with many dispersions goes on below its second column") {
     CHECK(line.size() <= table_width);
     CHECK(line.find("a_dispersion") == name_width + 2);
     CHECK((lines == 0 || line.find_first_not_of(' ') == name_width + 2));
-    for (std::size_t k = 0; k < 5; ++k) found += line.find(name(k)) != std::string::npos;
+    for (std::size_t k = 0; k < 5; ++k) found += line.find(names[k]) != std::string::npos;
   }
   CHECK(found == 5);
+}
+
+TEST_CASE("the short table counts the visible effects that it leaves out, with the largest") {
+  RankSensitivity all;
+  all.runs = 900;
+  const auto effect = [](double value, bool seen = true) {
+    return RankEffect{{value, {value - 0.05, value + 0.05}}, {value, {}}, seen};
+  };
+  OutputRanks many{"many", 900, 0, {}, false}, small = many, none = many;
+  for (int k = 0; k < 9; ++k) {
+    all.dispersions.push_back("d" + std::to_string(k));
+    many.effects.push_back(effect(k < 6 ? 0.9 - 0.05 * k : -0.15, k < 8)); // d8: not visible
+    small.effects.push_back(effect(0.1 + 0.01 * k, k < 3));
+    none.effects.push_back(effect(0.1, false));
+  }
+  small.output = "small", none.output = "none";
+  all.outputs = {many, small, none};
+  std::istringstream words(moved_by_table(all, "t"));
+  std::string text, word;
+  while (words >> word) text += word + ' ';
+  CHECK_THAT(text, Catch::Contains("d4 0.70, and 3 others with visible effect, at most 0.65 ") &&
+                       Catch::Contains("small 3 dispersions with visible effect, at most 0.12 ") &&
+                       Catch::Contains("no visible effect on none"));
+  for (OutputRanks& output : all.outputs) // of one replicate nothing is known of the others
+    for (RankEffect& each : output.effects) each.spearman.bounds = {}, each.seen = true;
+  CHECK(moved_by_table(all, "t").find("visible effect, at most") == std::string::npos);
+}
+
+TEST_CASE("up to three runs are told to be too few, not to have no effect or draws that vary") {
+  for (std::size_t runs = 0; runs < 6; ++runs) {
+    std::vector<double> rising;
+    for (std::size_t k = 0; k < runs; ++k) rising.push_back(static_cast<double>(k));
+    const RankSensitivity all = rank_sensitivity(results_of({rising}, rising), 0.95);
+    const std::vector<std::string> said = warnings(all);
+    const std::string table = moved_by_table(all, "t");
+    CAPTURE(runs, said, table);
+    const bool few = runs < 4;
+    const auto tells = [&](const std::string& text, const char* fact) {
+      return text.find(fact) != std::string::npos;
+    };
+    CHECK(std::ranges::any_of(said, [&](const std::string& each) {
+            return tells(each, "too few") && tells(each, "takes 4");
+          }) == few);
+    CHECK(tells(table, "too few") == few);
+    CHECK(tells(table, "x0 1.00") == !few);
+    for (const std::string& each : said)
+      CHECK_FALSE((tells(each, "no visible effect") || tells(each, "do not vary")));
+    CHECK_FALSE(tells(table, "no visible effect"));
+    CHECK((all.idle.empty() && all.unvaried.empty()));
+  }
 }
 
 TEST_CASE("effects on peaks that t_end cut are told to be those on the cut values") {
@@ -204,6 +261,7 @@ TEST_CASE("the short table has the larger of two coefficients by size, or the on
   for (const double spearman : some)
     for (const double partial : some) {
       RankSensitivity all;
+      all.runs = 90;
       all.dispersions = {"spring"};
       all.outputs.push_back(
           {"root.latch_time", 90, 0, {RankEffect{{spearman, {}}, {partial, {}}, true}}, false});

@@ -28,7 +28,7 @@ TEST_CASE("Sobol' indices as JSON, CSV and a table; what does not vary is named"
                                                  12, "random", {.resamples = 50});
   CHECK(all.unvaried == std::vector<std::string>{"none"});
   CHECK(all.idle().empty());
-  REQUIRE(warnings(all).size() == 1);
+  REQUIRE(warnings(all).size() == 2); // and too few samples for bounds
   CHECK_THAT(warnings(all)[0], Catch::Contains("\"none\" do not vary"));
   const Json read = parse_json(json_text(sensitivity_json(all, {})));
   CHECK(read["samples"] == 12);
@@ -100,6 +100,69 @@ TEST_CASE("the short table has shares of the variance") {
   CHECK(moved_by_table(all, "t") == "t\n\nOUTPUT                          moved by (share of the "
                                     "variance, interactions included)\n"
                                     "  root.latch_time               c 70 %\n");
+}
+
+TEST_CASE("the short table of shares counts the others that are visible") {
+  SobolSensitivity all;
+  all.dispersions = {"a", "b", "c", "d"};
+  const auto effect = [](double total, double lower) {
+    return SobolEffect{{0, {}}, {total, {lower, 2 * total}}, false};
+  };
+  SobolIndices indices;
+  indices.effects = {effect(0.1, 0.05), effect(0.004, 0.003), effect(0.7, 0.6),
+                     effect(0.03, 0.001)};
+  all.outputs.push_back({"root.latch_time", indices});
+  CHECK_THAT(moved_by_table(all, "t"),
+             Catch::Contains("c 70 %, and 1 other with visible effect, at most 10 %\n"));
+}
+
+TEST_CASE("indices are what their definitions say, from the rows of a design") {
+  const Campaign campaign = campaign_of(quick_campaign(1));
+  const std::size_t d = campaign.dispersions.size();
+  const long rows = 20;
+  const RunPlan plan = saltelli_plan(campaign, rows);
+  const Results results = rows_of(plan, {0, saltelli_runs(rows, d)});
+  const Json json = sensitivity_json(
+      sobol_sensitivity(results, plan.coordinates().names, rows, "random", {.resamples = 20}), {});
+  const Json& definitions = json["definitions"];
+  CHECK_THAT(definitions["first"],
+             Catch::Contains("(f_B - m)(f_ABi - f_A)") && Catch::Contains("2N values f_A and f_B"));
+  CHECK_THAT(definitions["total"], Catch::Contains("(f_A - f_ABi)^2"));
+  CHECK_THAT(definitions["variance"], Catch::Contains("2N"));
+  for (const Column& output : results.outputs) {
+    const auto at = [&](long row, std::size_t place) {
+      return output.values[static_cast<std::size_t>(row) * (d + 2) + place];
+    };
+    double mean = 0, variance = 0;
+    for (long row = 0; row < rows; ++row) mean += (at(row, 0) + at(row, 1)) / (2 * rows);
+    for (long row = 0; row < rows; ++row)
+      for (const std::size_t place : {0u, 1u})
+        variance += std::pow(at(row, place) - mean, 2) / (2 * rows);
+    const Json& found = json["outputs"][output.name];
+    CAPTURE(output.name);
+    CHECK(found["variance"].get<double>() == Approx(variance).epsilon(1e-9));
+    if (variance < 1e-12) continue;
+    for (std::size_t i = 0; i < d; ++i) {
+      double first = 0, total = 0;
+      for (long row = 0; row < rows; ++row) {
+        const double change = at(row, 2 + i) - at(row, 0);
+        first += (at(row, 1) - mean) * change / rows / variance;
+        total += change * change / rows / (2 * variance);
+      }
+      const Json& effect = found["dispersions"][results.draws[i].name];
+      CHECK(effect["first"]["value"].get<double>() == Approx(first).epsilon(1e-8).margin(1e-10));
+      CHECK(effect["total"]["value"].get<double>() == Approx(total).epsilon(1e-8).margin(1e-10));
+    }
+  }
+}
+
+TEST_CASE("fewer samples than bounds take are told, with the number that they take") {
+  for (const long rows : {3L, 15L, 16L}) {
+    SobolSensitivity all{rows, 3 * rows, 3 * rows, "random", {.resamples = 50}, {"a"}, {}};
+    const std::vector<std::string> said = warnings(all);
+    REQUIRE(said.size() == (rows < 16 ? 1 : 0));
+    if (rows < 16) CHECK_THAT(said[0], Catch::Contains("too few") && Catch::Contains("16"));
+  }
 }
 
 TEST_CASE("the short table has outputs without indices as not known, and warns of constant draws") {

@@ -40,7 +40,8 @@ TEST_CASE("an output's blocks agree with each other and with the summary", "[pag
     CHECK(output["curve"]["x"].size() == output["curve"]["upper"].size());
     for (const Json& quantile : output["quantiles"]) {
       CHECK(quantile.contains("among") == (output["missing"] > 0 && output["count"] > 0));
-      CHECK(quantile.contains("note") == quantile["value"].is_null());
+      const auto lacks = [&](const char* key) { return quantile[key].is_null(); };
+      CHECK(quantile.contains("note") == (lacks("value") || (lacks("lower") && lacks("upper"))));
     }
     if (output["count"] > 0) {
       CHECK(output["curve"]["x"].back() == page_number(summary.moments.max));
@@ -53,6 +54,20 @@ TEST_CASE("an output's blocks agree with each other and with the summary", "[pag
   CHECK(missing > 0);
 }
 
+TEST_CASE("one replicate is the reason why quantiles have no bounds", "[page]") {
+  for (const int replicates : {1, 4}) {
+    Json json = quick_campaign(64);
+    json["sampling"]["design"] = "latin_hypercube", json["sampling"]["replicates"] = replicates;
+    const auto source = made(json);
+    for (const Json& output : outputs_json(*source, {}, 1))
+      for (const Json& quantile : output["quantiles"]) {
+        REQUIRE_FALSE(quantile["value"].is_null());
+        CHECK((quantile.value("note", "") == one_replicate) == (replicates == 1));
+        CHECK((quantile["lower"].is_null() || replicates > 1));
+      }
+  }
+}
+
 TEST_CASE("an output that never happened has empty blocks", "[page]") {
   Json json = quick_campaign(3);
   json["integration"]["t_end"] = 0.5; // nothing latches
@@ -62,6 +77,18 @@ TEST_CASE("an output that never happened has empty blocks", "[page]") {
   CHECK(outputs[0]["histogram"]["counts"].empty());
   CHECK(outputs[0]["curve"]["x"].empty());
   CHECK(outputs[0]["convergence"]["mean"] == Json{nullptr});
+}
+
+TEST_CASE("edges of values that differ in their last digits differ on the page", "[page]") {
+  const auto source = made(quick_campaign(20));
+  Column& column = source->results.outputs.front();
+  for (std::size_t k = 0; k < column.values.size(); ++k)
+    column.values[k] = 1e6 + 1e-8 * static_cast<double>(k);
+  source->summary = stored_summary(source->stored, source->results, 1);
+  const auto edges =
+      outputs_json(*source, {}, 1)[0]["histogram"]["edges"].get<std::vector<double>>();
+  REQUIRE(edges.size() > 2);
+  CHECK(std::ranges::adjacent_find(edges, std::ranges::greater_equal{}) == edges.end());
 }
 
 TEST_CASE("a histogram has no more bins than the page has room for", "[page]") {

@@ -19,7 +19,7 @@ inline std::unique_ptr<PageSource> source_of(const Campaign& campaign, Results r
   auto source = std::make_unique<PageSource>();
   source->label = "set";
   source->stored = {"results/set", campaign, stamp_of(campaign, {})};
-  source->made_from = source->stored.folder;
+  source->made_from = source->analyzed_in = source->stored.folder;
   source->before_case = campaign;
   source->results = std::move(results);
   source->replication = replication_of(campaign.sampling, source->results);

@@ -131,6 +131,20 @@ TEST_CASE("shards are not merged into a folder in use, nor from what is none") {
         "no: found no such folder, expected a results folder");
 }
 
+TEST_CASE("a finished folder is not merged into again, an interrupted merge is") {
+  const Shards shards;
+  (void)merge_folders(shards.parts, shards.out);
+  const auto whole = contents(shards.out);
+  std::ofstream(shards.out / summary_file) << "of another analyze";
+  const std::string refused = message_of([&] { return merge_folders(shards.parts, shards.out); });
+  CHECK_THAT(refused, Catch::Contains("finished") && Catch::Contains("--out") &&
+                          Catch::Contains("wingspread analyze"));
+  CHECK(read_text(shards.out / summary_file) == "of another analyze");
+  std::filesystem::remove(shards.out / histograms_csv_file); // which is written last
+  (void)merge_folders(shards.parts, shards.out);
+  CHECK(contents(shards.out) == whole);
+}
+
 TEST_CASE("a campaign that stops at a width is not merged") {
   const Folder folder;
   Json json = quick_campaign(10);

@@ -14,10 +14,11 @@ const ResultNames columns_to_check{
     {"root.latch_time", "tip.latch_time", "root.peak_moment", "tip.latch_rate", "deployment_time"}};
 
 /// "column: found" of a row's fault; empty without one.
-std::string fault_of(Status status, const std::vector<double>& outputs, const std::string& order) {
+std::string fault_of(Status status, const std::vector<double>& outputs, const std::string& order,
+                     const RowRules& rules = {}) {
   ResultRow row;
   row.status = status, row.outputs = outputs, row.latch_order = order;
-  const auto fault = RowCheck(columns_to_check).fault_in(row);
+  const auto fault = RowCheck(columns_to_check, rules).fault_in(row);
   return fault ? fault->column + ": " + fault->found : "";
 }
 
@@ -52,4 +53,31 @@ TEST_CASE("a row that contradicts itself has a fault, in its column") {
         "latch_order: 'tip>root', but root latched earlier, at 1 s");
   CHECK(fault_of(Status::deployed, {1, 2, -5, 0, 2}, "root>tip") == "root.peak_moment: -5");
   CHECK(fault_of(Status::deployed, {-1, 2, 5, 0, 2}, "root>tip") == "root.latch_time: -1");
+}
+
+TEST_CASE("times beyond t_end are a fault, and t_end itself is none") {
+  const RowRules rules{.t_end = 2};
+  CHECK(fault_of(Status::deployed, {1, 2, 5, -3, 2}, "root>tip", rules) == "");
+  CHECK(fault_of(Status::deployed, {1, 2.5, 5, -3, 2.5}, "root>tip", rules) ==
+        "tip.latch_time: 2.5 s");
+  CHECK(fault_of(Status::stalled, {300, missing, 5, -3, missing}, "root", rules) ==
+        "root.latch_time: 300 s");
+}
+
+TEST_CASE("where every hinge latched and no hold holds one, the run is deployed") {
+  for (const Status status : {Status::stalled, Status::timed_out})
+    for (const char* order : {"", "root>tip"}) {
+      CAPTURE(to_string(status), order);
+      const std::vector<double> all{1, 2, 5, -3, missing}, one{1, missing, 5, -3, missing};
+      CHECK(fault_of(status, all, order, {.holds = true}) == "");
+      CHECK(fault_of(status, all, order, {.holds = false}).starts_with("status: "));
+      CHECK(fault_of(status, one, *order ? "root" : "", {.holds = false}) == "");
+    }
+  CHECK(fault_of(Status::failed, {1, 2, 5, -3, missing}, "root>tip", {.holds = false}) == "");
+}
+
+TEST_CASE("an order has every hinge that latched, or is empty") {
+  CHECK(fault_of(Status::deployed, {1, 2, 5, -3, 2}, "root") ==
+        "latch_order: 'root', without tip, which latched at 2 s");
+  CHECK(fault_of(Status::stalled, {1, missing, 5, -3, missing}, "") == "");
 }

@@ -107,3 +107,43 @@ TEST_CASE("an output that varies in any one case has its line in every block of 
     CHECK(count(compact_cases_table(cases, "title", "out"), "\n  root.overtravel ") == 0);
   }
 }
+
+TEST_CASE("without a standard error the accuracy says why") {
+  CaseSummary made = compact_case("hot", 0);
+  Summary& summary = made.summary;
+  summary.accuracy.emplace().runs = 10;
+  summary.accuracy->outputs.assign(3, {"root.latch_time", 10, 1e-6, 1e-6});
+  for (OutputSummary& output : summary.outputs) output.mean_error = none;
+  summary.replicates = 1;
+  CHECK_THAT(accuracy_text(summary, false), Catch::Contains("one replicate") &&
+                                                Catch::Contains("two or more") &&
+                                                !Catch::Contains("does not vary"));
+  summary.replicates = 0;
+  CHECK_THAT(accuracy_text(summary, false), Catch::Contains("does not vary"));
+}
+
+TEST_CASE("runs without a value are said to rank once, with the outputs of each end") {
+  const auto text = [](const std::vector<MissingRank>& ends) {
+    std::vector<OutputSummary> outputs;
+    for (const MissingRank end : ends) {
+      outputs.emplace_back();
+      outputs.back().name = "o" + std::to_string(outputs.size());
+      outputs.back().missing = 1, outputs.back().missing_end = end;
+    }
+    return missing_ranks(outputs);
+  };
+  using enum MissingRank;
+  CHECK(text({}) == "");
+  CHECK(text({above}) == "Runs without a value rank above every value");
+  CHECK(text({below}) == "Runs without a value rank below every value in o1");
+  for (const auto& ends :
+       std::vector<std::vector<MissingRank>>{{either}, {above, either}, {below, either, above}}) {
+    const std::string said = text(ends);
+    CAPTURE(said);
+    CHECK(said.find("above every value") == said.rfind("above every value"));
+    const auto place = std::ranges::find(ends, either) - ends.begin() + 1;
+    CHECK(said.find("in o" + std::to_string(place) + " bounds hold for both ends") !=
+          std::string::npos);
+    CHECK((said.find("below every value in o1") != std::string::npos) == (ends.size() == 3));
+  }
+}

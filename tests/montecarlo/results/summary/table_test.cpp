@@ -168,6 +168,28 @@ TEST_CASE("the table counts the latch orders and reasons that it leaves out") {
   const std::string table = summary_table(summarize(results, {}), "", "");
   CHECK(contains(table, "and 4 other reasons, in summary.json"));
   CHECK(contains(table, "4 other orders" + std::string(43, ' ') + "4    33.333 %"));
+  const std::string whole = summary_table(summarize(results, {}), "", "", true);
+  CHECK_FALSE(contains(whole, "other"));
+  for (long run = 0; run < 12; ++run)
+    for (const char* name : {"  order", "  reason"})
+      CHECK(contains(whole, name + std::to_string(run)));
+}
+
+TEST_CASE("a drawn histogram has as many digits as tell its edges apart") {
+  for (const auto& [least, width] : std::vector<std::array<double, 2>>{
+           {1e15, 0.5}, {1, 1e-8}, {-1, 1e-8}, {1, 4e-16}, {-1e-300, 1e-309}, {0, 1}}) {
+    Histogram histogram{{least}, {}};
+    for (int i = 1; i <= 4; ++i)
+      histogram.edges.push_back(least + i * width), histogram.counts.push_back(i);
+    const std::vector<std::string> rows = lines(draw_histogram("x", "", histogram, 100));
+    REQUIRE(rows.size() == 6);
+    CAPTURE(least, width);
+    for (std::size_t row = 1; row < rows.size(); ++row) {
+      CHECK(std::stold(rows[row]) == Approx(histogram.edges[row - 1]).epsilon(1e-5));
+      if (row > 1) CHECK(std::stold(rows[row]) > std::stold(rows[row - 1]));
+      if (row < 5) CHECK(count_characters(rows[row]) == 100);
+    }
+  }
 }
 
 TEST_CASE("a drawn histogram: one line per bin, its count, and a bar as long as its density") {

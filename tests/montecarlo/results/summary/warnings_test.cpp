@@ -40,14 +40,27 @@ TEST_CASE("what is to be warned of stands in the table and in summary.json") {
   const std::vector<std::string> expected{
       "in 1 of 4 runs t_end cut the peaks: they may still rise, and break every requirement on a "
       "peak; statistics and correlations are of the cut values. Lengthen t_end",
-      "root.latch_rate ≤ 1.5 rad/s, 50 % at 50 %: every value (least -2, largest -1.25) is on the "
-      "other side of zero from the limit; \"abs\": true limits the magnitude"};
+      "root.latch_rate ≤ 1.5 rad/s, 50 % at 50 %: every value of the runs that deployed (least -2 "
+      "rad/s, largest -1.25 rad/s) is on the other side of zero from the limit; \"abs\": true "
+      "limits the magnitude"};
   CHECK(warnings(summary) == expected);
   const Json json = summary_json(summary, {});
   CHECK(json["warnings"] == Json(expected));
   CHECK(json["peaks_final"] == Json{{"true", 2}, {"false", 1}, {"missing", 1}});
   CHECK(json["definitions"].contains("peaks_final"));
   CHECK_THAT(summary_table(summary, "four", ""), Catch::Contains(warning_lines(expected)));
+}
+
+TEST_CASE("values are compared with a limit in degrees in degrees") {
+  const Results results = four_runs();
+  Summary summary = summarize(results, {});
+  const double degree = std::acos(-1) / 180;
+  summary.requirements = {judge({"", "root.latch_rate", 60 * degree, {}, .5, .5}, results)};
+  REQUIRE(warnings(summary).size() == 1);
+  CHECK_THAT(warnings(summary).front(),
+             Catch::Contains("60 deg/s") &&
+                 Catch::Contains(fmt::format("least {:.5g} deg/s, largest {:.5g} deg/s",
+                                             -2 / degree, -1.25 / degree)));
 }
 
 TEST_CASE("where nothing is wrong nothing is warned of") {
