@@ -54,7 +54,8 @@ class Session:
             out = digest.of_whole_json(done.stdout)
         elif self.brief and out:
             out = [digest.of_text("\n".join(out))]
-        self.lines += ["$ wingspread " + " ".join(map(str, words)), *out, *(f"! {line}" for line in clean(done.stderr))]
+        lines = ["$ wingspread " + " ".join(map(str, words)), *out, *(f"! {line}" for line in clean(done.stderr))]
+        self.lines += [line.replace(str(HERE.parents[1]), "ROOT") for line in lines]
         if done.returncode:
             self.lines.append(f"exit code {done.returncode}")
         return done
