@@ -15,7 +15,7 @@ import zlib
 NUMBER = re.compile(r"(?<![A-Za-z_0-9.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 RELATIVE, ABSOLUTE = 2e-6, 1e-9  # an adaptive method's steps, and so its errors of some 1e-8, depend on the processor's instructions
 # Of effort and the machine: not compared.
-EFFORT = re.compile(r"hash|evaluations|steps|rejected|seconds|threads|lanes|isa|method_(share|switches)|processor|version|program|rhs|wall|bytes")
+EFFORT = re.compile(r"hash|kernel|evaluations|steps|rejected|seconds|threads|lanes|isa|method_(share|switches)|processor|version|program|rhs|wall|bytes")
 
 
 def of_numbers(numbers):
@@ -96,7 +96,7 @@ def value(cell):
 
 
 class Page(html.parser.HTMLParser):
-    """What a page says and draws, a line for each heading."""
+    """What a drawing says and draws, a line for each heading."""
 
     def __init__(self):
         super().__init__(convert_charrefs=True)

@@ -221,7 +221,7 @@ def sensitivities(session):
 
 
 def pages(session):
-    """Reports as a browser shows them: cases, one folder, a comparison, and wings of all kinds."""
+    """Reports of cases, of one folder, without rows, and a comparison."""
     session.write("plain.json", small_campaign())
     session.write("cases.json", small_campaign(cases=CASES, report={"title": "A title", "document": "D-1"}))
     session.write("stronger.json", small_campaign(sampling={"runs": 30, "seed": 5}, cases=CASES[:2] + [{"name": "hot", "scale": {"hinges.*.spring.scale": 1.1}}]))

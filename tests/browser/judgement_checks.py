@@ -305,3 +305,16 @@ class JudgementChecks:
             return document.querySelector('table.requirements tbody').textContent""", verdict)
         self.assertIn("%-points", row("failed"))
         self.assertNotIn("%-points", row("open"))
+
+    def test_an_outcome_without_bounds_says_why_and_each_analysis_has_its_command(self):
+        self.open(pages.made_up("cases"))
+        self.run_script("""W.sets.forEach((set, at) => { set.made_by = "wingspread run c.json --out again"; set.judged_by = ["wingspread analyze again --bins 7", "wingspread analyze again --bins 7", "wingspread analyze again/hot --bins 9"][at];
+            set.statuses.forEach(one => Object.assign(one, { lower: null, upper: null, note: "one replicate has none" })); }); W.outcomes()""")
+        commands = self.run_script("return [...document.querySelectorAll('.again .command code')].map(e => e.textContent)")
+        self.assertEqual(commands[:3], ["wingspread run c.json --out again", "wingspread analyze again --bins 7", "wingspread analyze again/hot --bins 9"])
+        self.assertIn("one replicate has none", self.table("Outcomes by case, with 95 % two-sided bounds")[0][2])
+        told = lambda judged_by: self.run_script("""W.sets.forEach(set => set.judged_by = arguments[0]); W.outcomes(); return document.querySelector('.findings')?.textContent ?? ''""", judged_by)
+        self.open(pages.made_up("loads"))
+        if "It judges all" in told(""):
+            self.assertIn("requirements of the campaign's file", told("wingspread analyze again --bins 7"))
+            self.assertIn("requirements on this page", told("wingspread analyze again --requirements r.json"))

@@ -14,6 +14,8 @@
         .map((one) => h("span", { class: one.status, style: `flex-grow:${Math.max(one.count, 0.006 * total)}` })),
     );
   }
+  // The bounds of an outcome's share, or why there are none.
+  W.boundsOf = (one) => (one.note ? h("span.wrapped", one.note) : F.shareBounds(one.lower, one.upper));
   const nameOf = (status) => status.replace("_", " ");
   const key = (name, style) => h("i", { class: `key ${name}`.trim(), style, "aria-hidden": "true" });
 
@@ -28,7 +30,7 @@
           h("span", key(one.status), nameOf(one.status)),
           F.count(one.count),
           F.share(one.rate),
-          F.shareBounds(one.lower, one.upper),
+          W.boundsOf(one),
         ],
       }));
       return [
@@ -49,7 +51,7 @@
         ? h(
             "span.double",
             `${F.count(one.count)} · ${F.share(one.rate)}`,
-            h("small", F.shareBounds(one.lower, one.upper), levels.length > 1 ? ` (${W.confidenceOf(set)})` : ""),
+            h("small", W.boundsOf(one), levels.length > 1 ? ` (${W.confidenceOf(set)})` : ""),
           )
         : F.none;
     };
@@ -265,14 +267,13 @@
 
   const designOf = (set) => `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}`;
   function again() {
-    const made = [...new Map(W.sets.filter((set) => set.made_by).map((set) => [set.made_by, set])).values()];
+    const made = [...new Map(W.sets.filter((set) => set.made_by).map((set) => [set.made_by, set])).values()],
+      analysed = [...new Map(W.sets.filter((set) => set.judged_by).map((set) => [set.judged_by, set])).values()];
     return h(
       "div.again",
       h("h3", "Reproduce"),
-      made.map((set) => [
-        W.command(set.made_by, `command of ${set.label}`),
-        set.judged_by ? W.command(set.judged_by, `command that judges ${set.label}`) : null,
-      ]),
+      made.map((set) => W.command(set.made_by, `command of ${set.label}`)),
+      analysed.map((set) => W.command(set.judged_by, `command that analyses ${set.label}`)),
       W.command(W.data.command, "command of this report"),
       h(
         "p.note",

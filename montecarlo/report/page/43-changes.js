@@ -207,7 +207,7 @@
       h("summary", `Confirm ${first ? "the first change" : "the change"} with new runs: wingspread margin`),
       h(
         "p.note",
-        `It judges all ${W.sets.some((set) => set.judged_by) ? "requirements on this page" : "requirements of the campaign's file"}${asked ? "" : ". Static margins are not among them; it prints them for the springs as they are and for the scale that it recommends"}.`,
+        `It judges all ${W.sets.some((set) => /--requirements/.test(set.judged_by)) ? "requirements on this page" : "requirements of the campaign's file"}${asked ? "" : ". Static margins are not among them; it prints them for the springs as they are and for the scale that it recommends"}.`,
       ),
       W.command(command, "command that confirms the change"),
     );
