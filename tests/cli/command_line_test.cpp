@@ -117,6 +117,18 @@ TEST_CASE("a command line that makes no sense is refused") {
   }
 }
 
+TEST_CASE("a folder may have the name of a command") {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"report", "rare"},
+                                             {"report", "none", "rare"},
+                                             {"merge", "none", "fit", "--out", "x"}}) {
+    const auto refused = run_program(Folder(), arguments);
+    CAPTURE(refused.error);
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.error, Catch::Contains("found no such folder"));
+  }
+}
+
 TEST_CASE("the version and the methods") {
   const Folder folder;
   const std::string expected = "wingspread " + std::string(version()) + "\n";

@@ -378,9 +378,11 @@ TEST_CASE("analyze says that runs are missing, and that rows with gaps look sele
   const std::size_t last = whole.rfind("\n59,") + 1, middle = whole.find("\n30,") + 1;
   REQUIRE((last > middle && middle > 1));
   write_file(rows, whole.substr(0, last));
-  const auto part = run({"analyze", run.out}); // perhaps the last run is missing because of what it does
-  CHECK_THAT(part.error, Catch::Contains("incomplete: 59 of 60 runs; requirements are not judged") &&
-                             Catch::Contains("not judged: a part of the campaign's runs"));
+  const auto part =
+      run({"analyze", run.out}); // perhaps the last run is missing because of what it does
+  CHECK_THAT(part.error,
+             Catch::Contains("incomplete: 59 of 60 runs; requirements are not judged") &&
+                 Catch::Contains("not judged: a part of the campaign's runs"));
   CHECK(part.code == 1);
   write_file(rows, whole.substr(0, middle) + whole.substr(whole.find('\n', middle) + 1));
   CHECK_THAT(run({"analyze", run.out}).error,

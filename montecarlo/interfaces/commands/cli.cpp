@@ -208,6 +208,7 @@ ParsedArguments parse_arguments(int argc, const char* const* argv,
   CLI::App app(description, "wingspread");
   app.footer(footer);
   app.set_version_flag("--version", version_text());
+  app.require_subcommand(0, 1); // after the first, a folder may have a command's name
   Action action;
   for (const Command& command : commands) command.add(app, action);
   try {

@@ -47,8 +47,8 @@ struct Verdict {
   std::optional<long> least_runs; ///< fewest runs that could show it, if none broke it
   bool disproved = false;         ///< P < p is shown at the same confidence
   bool one_run = false;           ///< all runs are the same run and show no probability
-  bool of_part = false;           ///< of a shard, a preview or an unfinished folder, which are not judged
-  long cut = 0;                   ///< deployed runs that break it because t_end cut their peak
+  bool of_part = false; ///< of a shard, a preview or an unfinished folder, which are not judged
+  long cut = 0;         ///< deployed runs that break it because t_end cut their peak
   long open = 0;   ///< those among them whose cut peak is not beyond the limit: they may meet it
   long absent = 0; ///< runs that break a limit because they did not deploy or lack the output
   /// Least and largest value, if the limit lies on the other side of zero from all values; not of static

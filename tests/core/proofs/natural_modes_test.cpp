@@ -257,7 +257,7 @@ TEST_CASE("a hinge on its elastic hold swings with the hinge that a loop ties to
     }
   }
   CHECK(modes_of(scene, std::vector<int>{}).modes.size() == 1); // the other is held rigidly
-  scene.synchronisations.clear(); // −400 (φ − 1) − 30 φ = 0
+  scene.synchronisations.clear();                               // −400 (φ − 1) − 30 φ = 0
   CHECK(modes_of(scene, std::vector<int>{0}).rest[1] == Approx(400.0 / 430).epsilon(1e-12));
 }
 
