@@ -144,7 +144,7 @@ TEST_CASE("a campaign without a stamp is another tool's, and read in full") {
   for (const auto* list : {&names.outputs, &names.draws})
     for (const std::string& name : *list) csv += "," + name;
   for (const char* run : {"0", "1", "2"}) { // the last line without an end
-    csv += std::string("\r\ndeployed,") + run + ",root";
+    csv += std::string("\r\ndeployed,") + run + ",root>mid>tip";
     for (std::size_t i = 0; i < names.outputs.size() + names.draws.size(); ++i) csv += ",1.5";
   }
   folder.write(runs_file, csv);
