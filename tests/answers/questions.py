@@ -82,7 +82,7 @@ def a_campaign(session, seed, brief):
     session.ask("sample", "campaign.json")
     case = ["--case", campaign["cases"][1]["name"]] if "cases" in campaign else []
     folder = "results" + ("/" + case[1] if case else "")
-    session.ask("replay", folder, 0, "--json")
+    session.ask("replay", folder, "--run", 0, "--json")
     session.ask("simulate", "campaign.json", "--json", *case)
     session.ask("sensitivity", folder, "--all", "--resamples", 50)
     session.ask("report", "results")
@@ -258,9 +258,9 @@ def fits(session):
     columns = {"root.angle": {"column": "root.angle", "std": "0.3 deg", "offset_std": "0.2 deg"}, "tip.rate": {"column": "tip.rate", "std": 0.01}}
     tests = {"tests": [{"name": "ground", "trace": {"file": "trace.csv", "time": "t", "time_offset_std": "0.01 s", "columns": columns},
                         "values": [{"output": "root.latch_time", "value": "4.9 s", "std": "0.2 s"}]}],
-             "fit": {"parameters": ["spring", "friction"], "starts": 2, "samples": 60}}
+             "fit": {"parameters": ["spring", "friction"], "starts": 4, "samples": 100}}
     session.write("tests.json", tests)
-    session.ask("fit", "campaign.json", "tests.json", "--out", "fit", "--runs", 20)
+    session.ask("fit", "campaign.json", "tests.json", "--out", "fit", "--runs", 2500)
     session.ask("report", "fit")
     session.page("fit/report.html")
     session.brief = True

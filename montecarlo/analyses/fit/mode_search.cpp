@@ -131,7 +131,7 @@ Eigen::MatrixXd laplace_covariance(const FitData& data, TestRuns& runs, const Fi
 
 bool is_far_from_a_trace(const FitData& data, const FitMode& mode) {
   return std::ranges::any_of(data.channels, [&](const Channel& channel) {
-    const double most = foreign_sigmas * foreign_sigmas * static_cast<double>(channel.count);
+    const double most = settled_sigmas * settled_sigmas * static_cast<double>(channel.count);
     return channel.column && fit_of(data, channel, mode.prediction).chi_squared > most;
   });
 }
