@@ -76,6 +76,9 @@ class Session:
 
     def page(self, name):
         """The data of a report page: its scripts' work is for tests/browser."""
+        if not (self.folder / name).exists():
+            self.lines.append(f"@ {name}: none")
+            return
         text = (self.folder / name).read_text(encoding="utf-8")
         data = re.search(r'<script type="application/json"[^>]*>(.*?)</script>', text, re.DOTALL)[1]
         self.lines += [f"@ {name}, its data", *digest.of_json(data.replace("<\\/", "</"))]
