@@ -63,6 +63,9 @@ TEST_CASE("run makes a results folder for each case, and holds them side by side
           2); // a warning before: 20 is where the temperatures' table ends
   CHECK_THAT(lines_of(error)[0], HasFacts({"/dispersions/", "50 % of the draws", "temperature"}));
 
+  const auto [checked, described, warned] = cases.program({"check", cases.file});
+  CHECK(checked == 0);
+  CHECK_THAT(described, Catch::Contains("120 runs in 3 cases"));
   const Json side_by_side = parse_json_file(cases.folder.path() / "r" / cases_file);
   const Json& late = side_by_side["requirements"][0];
   CHECK(late["name"] == "T-1");
