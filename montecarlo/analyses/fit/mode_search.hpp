@@ -24,7 +24,7 @@ struct FitMode {
 /// Heuristic: a trace whose rms residual at the best fit is this many σ is probably of another hinge or in another unit.
 inline constexpr double foreign_sigmas = 10;
 /// Heuristic: at more than so many σ the best fit may be a local one. Larger: a noise-free trace of the seed wing is missed from
-/// two starts, at 2.03 σ. Smaller: where the noise is but underestimated, 32 starts in place of 8 double the runs of a fit.
+/// two starts, at 2.03 σ. Smaller: where the noise is but underestimated, the search takes 32 starts too.
 inline constexpr double settled_sigmas = 1.5;
 /// Whether the rms residual of a trace is larger than `settled_sigmas`.
 [[nodiscard]] bool is_far_from_a_trace(const FitData& data, const FitMode& mode);

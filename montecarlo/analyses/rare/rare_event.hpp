@@ -45,8 +45,7 @@ struct RareResult {
   long open_latches = 0;          ///< deployed runs whose latches may let go after t_end
   long undeployed =
       0; ///< runs that did not deploy, but have the event's output: they count by its value
-  long absent =
-      0; ///< runs without the event's output, for example a hinge that never latched; they count as the event
+  long absent = 0; ///< runs without the event's output; they count as the event
   std::optional<LikeliestRun> likeliest; ///< none if no sampled run has the event
 };
 

@@ -73,8 +73,7 @@ void check_holds(const Scene& scene, const Integration& integration, InputWarnin
           fmt::format("/hinges/{}/hold", h),
           fmt::format("a hold that starts unstrained under {:.4g} N·m: it rings, and at the start "
                       "{}.hold_moment is up to twice that, {:.4g} N·m (less with damping); a latch "
-                      "or another "
-                      "hinge may load it more later",
+                      "or another hinge may load it more later",
                       loads[h].value, scene.hinges[h].name, 2 * loads[h].value),
           "a rigid hold for the load at rest, or a `damping` that ends the ring before the "
           "release");
