@@ -5,11 +5,15 @@
     tests/mutants/mutants.py --seed 7 --count 60      others
     tests/mutants/mutants.py --part montecarlo/results '.*/statistics/.*cpp' page
     tests/mutants/mutants.py --unseen                 again those that no test saw
-    tests/mutants/mutants.py --near --count 400       many at once, each against the tests of its room alone
+    tests/mutants/mutants.py --near --count 400       many at once, each against the tests of its room and the recorded answers
+    tests/mutants/mutants.py --from faults.json       a reviewer's own faults in place of drawn ones
 
 The faults are drawn, not listed: an operator exchanged, a sign, a bound, a term, condition or statement dropped, a constant
 changed, arguments exchanged. The seed draws files by their length, and in each a place by its function's name and text (places.py
 for C++, by libclang; page_places.js for the page's scripts, by acorn); no line number and no text of the code stands here.
+
+A reviewer's file is a list of {"file", "function", "old", "new"}: "old" is an expression (or, with "statement": true, a statement that
+declares nothing) that stands once in the file, or once on the line "line".
 
 C++: all faults are compiled into one copy of the program in build/mutants (or MUTANTS_FOLDER); WINGSPREAD_MUTANT switches one on.
 Libraries with a fault are compiled at -O1, the others as tests/run does it: a ccache with base_dir may have them. A fault that
@@ -87,6 +91,24 @@ def draw(seed, count, parts):
     return drawn
 
 
+def read_faults(path):
+    """The faults of a reviewer's file, placed as drawn ones are."""
+    placed = []
+    for fault in json.loads(pathlib.Path(path).read_text("utf-8")):
+        content, old = (SOURCE / fault["file"]).read_bytes(), fault["old"].encode()
+        begins = [found.start() for found in re.finditer(re.escape(old), content)]
+        if "line" in fault:
+            begins = [at for at in begins if content.count(b"\n", 0, at) + 1 == fault["line"]]
+        if len(begins) != 1:
+            sys.exit(f"mutants.py: {path}: {fault['old']!r} stands {len(begins)} times in {fault['file']}: it must stand there once, or once on \"line\"")
+        at = begins[0]
+        if fault["file"].endswith(".js"):
+            at = len(content[:at].decode())  # of texts: characters
+            old = fault["old"]
+        placed.append({"function": "", **fault, "edits": [(at, at + len(old), fault["new"])]})
+    return placed
+
+
 def write(path, content):
     """Leaves a file that is the same alone, so that it is not compiled again."""
     if not path.exists() or path.read_bytes() != content:
@@ -102,7 +124,7 @@ def switched(content, faults):
         cast = "wingspread_mutant_condition" if fault.get("condition") else ""
         form = f"(wingspread_mutant({number}) ? {cast}({new}) : {cast}({old}))"
         if fault.get("statement"):
-            form = f"if (wingspread_mutant({number})) {{}} else {{ {old} }}"
+            form = f"if (wingspread_mutant({number})) {{ {new} }} else {{ {old} }}"
         content = content[:begin] + form.encode() + content[end:]
     text, guard = content.decode(), "#pragma once\n"
     include = '#include "tests/mutants/mutant.hpp"\n'
@@ -128,7 +150,7 @@ def make_copy(faults):
 def targets(faults, which):
     """What ninja builds for the stages of these faults."""
     binaries = {stage[0] for fault in faults.values() for stage in stages(fault["file"], *which)} - {"page"}
-    return ["all"] if "ctest" in binaries else [f"test_{name}" for name in sorted(binaries)]
+    return ["all"] if "ctest" in binaries else [name if name == "wingspread" else f"test_{name}" for name in sorted(binaries)]
 
 
 def build(faults, jobs, which, tests_from):
@@ -191,7 +213,7 @@ def what_failed(text):
 
 
 def stages(name, quick, near=False):
-    """Commands that test a file of the product, the closest tests first; if `near`, those of its room, or of its wing."""
+    """Commands that test a file of the product, the closest tests first; if `near`, those of its room, or of its wing, and the recorded answers."""
     if name.endswith(".js"):
         return [["page"]]
     part, folder = name.split("/")[0], pathlib.PurePath(name).parent
@@ -203,7 +225,7 @@ def stages(name, quick, near=False):
     found += [[part, ",".join(f"[#{stem}]" for stem in some)] for some in (own, room, wing) if some]
     if near:
         closest = [some for some in (own, room) if some] or [some for some in (wing,) if some]
-        return [[part, ",".join(f"[#{stem}]" for stem in some)] for some in closest] or [[part]]
+        return [*([[part, ",".join(f"[#{stem}]" for stem in some)] for some in closest] or [[part]]), ["wingspread"]]
     others = ["cli", "ctest"] if part == "montecarlo" else ["montecarlo", "cli"]
     return [*found, [part], *[[other] for other in others if not quick or (part == "montecarlo" and other == "cli")]]
 
@@ -219,6 +241,8 @@ def meet_stage(stage, number, fault, seconds, scratch):
                 text = text[:begin] + new + text[end:]
             write(scratch / fault["file"], text.encode())
         return run(["/usr/bin/python3", scratch / "tests/browser/report_test.py", "-f", "Quick"], number, seconds, scratch)
+    if stage == ["wingspread"]:
+        return run(["/usr/bin/python3", SOURCE / "tests/answers/answers.py", BUILD / "wingspread", "--jobs", "1"], number, seconds, scratch)
     if stage == ["ctest"]:
         return run(["ctest", "--test-dir", BUILD, "-R", LAST, "--stop-on-failure"], number, seconds, scratch)
     return run([BUILD / f"tests/test_{stage[0]}", "-a", "-#", *stage[1:]], number, seconds, scratch,
@@ -291,10 +315,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=40)
+    parser.add_argument("--from", dest="source", metavar="FILE", type=os.path.abspath, help="the faults of this file (JSON); none is drawn")
     parser.add_argument("--part", nargs="+", help="sources: the beginnings of their names, as regular expressions, or page")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--quick", action="store_true", help="core meets core's tests alone, montecarlo not those of ctest")
-    parser.add_argument("--near", action="store_true", help="only the tests of the fault's room, or of its wing where the room has none")
+    parser.add_argument("--near", action="store_true", help="only the tests of the fault's room, or of its wing where the room has none, and the recorded answers")
     parser.add_argument("--tests-from", type=os.path.abspath, help="a finished build, e.g. build/release, whose tests are linked if no header has a fault")
     parser.add_argument("--list", action="store_true", help="draw only")
     parser.add_argument("--unseen", action="store_true", help="of the last call's faults those that no test saw")
@@ -302,8 +327,8 @@ def main():
     subprocess.run([SOURCE / "studies/install", "--mutants"], check=True)
     if arguments.unseen:
         last = json.loads(RESULTS.read_text())
-        arguments.seed, arguments.count, arguments.part = last["seed"], last["count"], last["part"]
-    faults = dict(enumerate(draw(arguments.seed, arguments.count, arguments.part), 1))
+        arguments.seed, arguments.count, arguments.part, arguments.source = (last[key] for key in ("seed", "count", "part", "from"))
+    faults = dict(enumerate(read_faults(arguments.source) if arguments.source else draw(arguments.seed, arguments.count, arguments.part), 1))
     if arguments.list:
         for number, fault in faults.items():
             print(f"{number:4} {fault['file']} {fault['function']}: {fault['old']}  ->  {fault['new']}")
@@ -320,9 +345,9 @@ def main():
             print(f"{number:4} {faults[number]['file']} {faults[number]['function']}: {results[number]['seen'] or 'UNSEEN'}", flush=True)
     seen = {number: found["seen"] for number, found in results.items()}
     COPY.mkdir(parents=True, exist_ok=True)
-    RESULTS.write_text(json.dumps({"seed": arguments.seed, "count": arguments.count, "part": arguments.part, "seen": seen}, indent=1))
+    RESULTS.write_text(json.dumps({"seed": arguments.seed, "count": arguments.count, "part": arguments.part, "from": arguments.source, "seen": seen}, indent=1))
     report(chosen, results)
-    print(f"seed {arguments.seed}; {len(faults) - len(compiled)} of {len(faults)} faults do not compile")
+    print(f"{arguments.source or f'seed {arguments.seed}'}; {len(faults) - len(compiled)} of {len(faults)} faults do not compile")
 
 
 if __name__ == "__main__":
