@@ -81,7 +81,7 @@ template <class T, class AnySystem>
   return moves;
 }
 
-/// Leaves only the hinges that have just come to rest, and the one that is due, if there are any of the former.
+/// If any of these hinges has just come to rest, keeps only such hinges and the one that is due.
 inline void keep_newly_at_rest(Contacts& moves, const std::vector<Rest>& rests, int due) {
   const auto is_new = [&](const auto& move) { return rests[move.first] == Rest::just_now; };
   if (std::ranges::any_of(moves, is_new))

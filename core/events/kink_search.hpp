@@ -72,7 +72,7 @@ private:
         });
   }
 
-  /// Of the moment of a stop, at the rate at which it lets go.
+  /// Jump of d(moment)/d(rate) of a stop at the rate at which it lets go, N·m·s/rad.
   [[nodiscard]] T turn_of(const HingeStop<T>& stop, int i) const {
     const int angle = system_.layout().angle(i);
     const T depth = larger(stop.depth(step_.x[angle]), stop.depth(step_.x1[angle]));

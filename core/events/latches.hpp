@@ -25,7 +25,7 @@ template <class T>
   return event;
 }
 
-/// What has happened to latches and holds, each in order of time.
+/// The events of latches and holds so far, each list in order of time.
 struct LatchRecord {
   std::vector<LatchEvent>& latches; ///< engagements
   std::vector<HingeEvent>&missed, &let_go, &releases;

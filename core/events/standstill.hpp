@@ -34,8 +34,9 @@ template <class AnySystem, class T>
 
 } // namespace detail
 
-/// Whether a wing whose hinges all stick is loaded by constants: no motor's command changes, and the base is fixed or
-/// free, driven without rotation, or rotates about a point at rest at a constant rate.
+/// Whether a wing whose hinges all stick is loaded by constants: no motor's command changes, no smoothed latch comes
+/// in, and the base is fixed, free and without plates, driven without rotation, or rotates about a point at rest at a
+/// constant rate. On a driven base, plates need a constant flow too.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] bool loads_are_constant(const System<T, Topology, M>& system, const State<T>& x) {
   const Wing<T>& wing = system.wing();

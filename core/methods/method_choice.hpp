@@ -93,7 +93,7 @@ inline constexpr int unjudged_steps = 2;
 inline constexpr double bearable_steps = 10;
 /// Explicit steps after a vain trial before the next, doubled from trial to trial between these limits. On
 /// chains of 20 panels a longest wait of 512 led to 2,629 implicit steps a run, of 4,096 to 229
-/// (studies/SPEED.md, "Twenty panels").
+/// (measured once; no driver repeats it).
 inline constexpr int first_retry = 64, longest_retry = 4096;
 /// Cost of an evaluation of the implicit method with its solves, in evaluations of an explicit one: 1.5 if
 /// both are made alone. In lanes an explicit evaluation costs a third (20 panels) to a sixth (3 panels) of

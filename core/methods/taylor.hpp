@@ -33,8 +33,8 @@
 namespace wingspread {
 
 /// Whether a wing's motion has power series: a chain of up to longest_static_chain bodies on a fixed base, with linear
-/// laws only: no air, friction, motors, loops or real hinges. Regularized friction is smooth, but there the last terms
-/// do not bound the rest of the series. Holds are excluded too.
+/// laws only: no air, Coulomb friction, motors, loops or real hinges. (Viscous friction is linear.) Regularized
+/// friction is smooth, but there the last terms do not bound the rest of the series. Holds are excluded too.
 template <class T> [[nodiscard]] bool has_series(const Wing<T>& wing) {
   return wing.base.motion == BaseMotion::fixed && wing.size() <= longest_static_chain &&
          is_chain(wing.tree) && !wing.is_nonlinear() && wing.plates.empty() && !wing.can_stick &&
@@ -337,8 +337,8 @@ private:
 
   static constexpr double margin = 2; ///< the terms left out may be as large as the last two
   /// Share of the tolerance to which steps are fitted. Heuristic: errors of 18,000 steps from random states of random
-  /// chains then were at most 0.12 tolerances (studies/ACCURACY.md). Larger: errors nearer to the tolerance, steps
-  /// longer by the 16th root.
+  /// chains then were at most 0.12 tolerances (measured once; no driver repeats it). Larger: errors nearer to the tolerance,
+  /// steps longer by the 16th root.
   static constexpr double share = 1.0 / 32;
 
   std::array<T, order + 3> number_, inverse_of_, minus_number_,

@@ -8,12 +8,13 @@
 
 namespace wingspread {
 
-/// Frequency of the fastest motion at the step's start, 1/s: of every hinge the acceleration over the rate or, if larger,
-/// the rate of a latched hinge or elastic joint over its distance from rest. In a swing one of the two is always at least
-/// its frequency. A hinge counts however slow it is beside others: an implicit step must resolve its swing to the
-/// tolerance. Hinges slower than 100 `still` do not count (heuristic: rounding and what is left of a mode that has died
-/// out would look like a high frequency).
-/// @param still rad/s: slower hinges count as at rest; what an explicit method leaves of a motion that has died out
+/// Frequency of the fastest motion at the step's start, 1/s: the largest ratio over all hinges. A hinge has the ratio
+/// of acceleration to rate or, if larger and its latch is engaged, that of rate to distance from rest. In a swing about
+/// an engaged latch one of the two is always at least the frequency; an elastic joint has only the first. A hinge
+/// counts however slow it is beside others: an implicit step must resolve its swing to the tolerance. Hinges slower
+/// than 100 `still` do not count (heuristic: rounding and the rest of a mode that has died out would look like a high
+/// frequency).
+/// @param still rad/s: the rate that an explicit method leaves of a motion that has died out
 /// @return 0 if no hinge counts
 template <class T, class AnySystem>
 [[nodiscard]] double quickness(const AnySystem& system, const Step<T>& step, const T& still) {

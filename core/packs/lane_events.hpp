@@ -197,7 +197,7 @@ private:
   std::array<std::vector<P>, edges_of_hinge> ways_; ///< 1: edge above the angle; −1: below
 };
 
-/// Stuck hinges of the runs in the lanes: what holds them at both ends of a step, and whether one may let go inside.
+/// Stuck hinges of the runs in the lanes: the moments on them at a step's ends, and whether one may slide inside.
 ///
 /// The first test is Holding::comes_near, by the same expressions: it excludes a release, and never finds one.
 template <int W> class LaneHolds {

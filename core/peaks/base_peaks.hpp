@@ -98,8 +98,8 @@ template <class T> struct BaseExcursion {
            doubt.s < T(1) && ++doubt.corrections < 4;
   }
 
-  /// Raises the maxima to the step's ends, for runs in packs.
-  /// @return the lanes in which the maximum may lie inside the step, so that over_step must search
+  /// Raises the maxima to the step's ends.
+  /// @return whether a maximum may lie inside the step, so that over_step must search; for a pack: in which lanes
   [[nodiscard]] auto raise_by_ends(const Layout& at, const Step<T>& step) {
     const auto [turn, turning] = changes(at, step);
     const auto doubtful = raise_by_ends(angle, turn);

@@ -67,9 +67,9 @@ public:
     const std::array<T, 5>& f = samples_[i];
     return crests(i, k) && may_rise(i, f[k], f[k], T(1) / T(16), peak);
   }
-  /// The same in air, of which the bound has no term: by the samples alone. Where they resolve a crest it exceeds them by
-  /// up to an eighth of their second difference. Heuristic: four times as much is allowed; with less a crest between
-  /// samples is lost where the peak lies between the samples and the crest.
+  /// The same in air, by the samples alone, because the bound has no term for air. A resolved crest exceeds the samples
+  /// by at most an eighth of their second difference. Heuristic: four times as much is allowed; with less, a crest is
+  /// lost if the peak so far lies between it and the samples.
   [[nodiscard]] auto wants_search_in_air(int i, int k, const PeakOf<T>& peak) const {
     using std::abs;
     const T excess = abs(bend(i, k)) / T(32);

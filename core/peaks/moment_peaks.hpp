@@ -303,7 +303,7 @@ template <class T, class AnySystem>
   return most + system.static_limit(step.x, i) > peak.value;
 }
 
-/// Difference below which two moments of stuck hinge i count as one, N·m: see Holding::close_to.
+/// Difference below which two moments of stuck hinge i count as one, N·m: as negligible_load (slipping.hpp).
 template <class T>
 [[nodiscard]] T negligible(const PeakOf<T>& peak, const HeldLoadBound<T>& bound, int i) {
   return T(1e-10) * larger(peak.value, bound.size(i));

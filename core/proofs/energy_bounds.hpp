@@ -61,7 +61,8 @@ public:
     }
   }
 
-  /// Finds (3) and (4) of every hinge. Cost O(n). @pre prepared
+  /// Finds (3) and (4) of every hinge, and (5) of held ones. Cost O(n), and for each held hinge O(n)
+  /// times the tree's depth. @pre prepared
   /// @param remaining prepared, and `left` is what it returned
   template <class AnySystem>
   void bound(const AnySystem& system, const RemainingEnergy<T>& remaining,

@@ -26,7 +26,7 @@ template <class T> struct SeenPeaks {
   const std::vector<PeakOf<T>>* holds;           ///< what holds have borne, N·m
 };
 
-/// Whether the moments, and the forces, that were seen lie above bounds on all later ones. True of those not asked for.
+/// Whether the peak moments and peak forces seen are at least the bounds on all later ones. True if not asked for.
 struct FinalLoads {
   bool moments = true, forces = true;
 };
@@ -76,7 +76,7 @@ template <class T>
                turn + way + larger(T(0), T(fast * time)), seen.angle);
 }
 
-/// By how much the loads that may still come exceed those seen: the largest ratio, 1 or less where none does.
+/// The largest ratio of a bound on later loads to the load seen; at most 1 if no load can rise.
 template <class T>
 [[nodiscard]] T excess_of_loads(const SeenPeaks<T>& seen, const HingeBounds& bounds) {
   T excess(0);
@@ -222,7 +222,7 @@ private:
       modes_ = ModalBounds::make(model_, remaining_.least_stiffness(), rest);
   }
 
-  /// Makes dampers linear for the rates that are left, where the model's have become others.
+  /// Linearizes the dampers anew if the rates have left the range for which the model's dampers were linearized.
   /// @param start of the modes @pre modes_
   void tune_dampers(AnySystem& system, const ModalBounds::ModeVector& start) {
     if (!model_.depends_on_rates()) return;
@@ -242,7 +242,7 @@ private:
     return true;
   }
 
-  /// By the modes, by the energy alone, and where that is due by both together: the cheapest first. @pre modes_
+  /// Tries the modes, then the energy alone, then (if due) both together: the cheapest first. @pre modes_
   [[nodiscard]] bool prove_by_modes(AnySystem& system, const State<T>& x, const T& t,
                                     const T& t_end, const ModalBounds::ModeVector& start,
                                     const std::optional<EnergyLeft<T>>& energy,

@@ -11,9 +11,9 @@ namespace wingspread {
 
 namespace {
 
-constexpr double wider = 1.02; ///< heuristic: by what a box is wider than its image; see bound()
+constexpr double wider = 1.02; ///< heuristic: ratio of a box to its image; see find_bounds()
 
-/// A·B, by sums written out: of the few bodies of a wing a library's blocks take longer to begin.
+/// A·B by plain sums: for the few bodies of a wing a blocked product costs more to set up.
 template <class A, class B> auto product(const A& a, const B& b) { return a.lazyProduct(b); }
 
 /// Row i of A·v.

@@ -55,10 +55,10 @@
 ///
 ///     |l z| ≤ min over s of ( Σ m_j B_j over the others + √(2E/(1 − μ)) √(l_s diag(κ, M_0)⁻¹ l_sᵀ) )    (10)
 ///
-/// E bounds ways and rates before there is any box, and so the changes of M: where μ < 1 for the furthest ways (7)
-/// gives a box that holds whatever the right sides of (5) are. Every image of such a box is one more
-/// (modal_energy.cpp). A free base that turns keeps H: of E the energy of the whole's turning, at least H²/2I for the
-/// largest I, never moves a hinge, and E' is the rest.
+/// E bounds ways and rates without any box, and with them the changes of M. Where μ < 1 for the largest ways, (7) gives
+/// a box that the motion never leaves, whatever the right sides of (5) are. Every image of such a box is another one
+/// (modal_energy.cpp). A free base that turns keeps H: the energy of the rigid turning, at least H²/2I for the largest
+/// I, never moves a hinge, and E' is the rest of E.
 ///
 /// The hinges then see, beside their moments at rest, moments and reactions of at most
 ///
@@ -138,12 +138,13 @@ public:
   /// Bounds from that start on by (5) and (6). Cost O(n²) a pass.
   /// @param energy that is never exceeded, J, where there is one: it caps modes by (7) once there is a box
   /// @param spin |H| of a free base about the common centre of mass, kg·m²/s, else 0
-  /// @return none where no box was found
+  /// @return none where no box was found, or a hinge may leave RestModel::room
   [[nodiscard]] std::optional<HingeBounds>
   bound(const ModeVector& start, const std::optional<double>& energy, double spin) const;
 
   /// Bounds inside the box that the energy alone gives, with (10): closer, and several times as costly.
-  /// The first call computes the matrices that only they need.
+  /// The first call computes the matrices that (10) needs. @param energy E, J @param spin as of `bound`
+  /// @return none without `least` in `make`, without such a box, or if a hinge may leave RestModel::room
   [[nodiscard]] std::optional<HingeBounds> bound_in_reach(const ModeVector& start, double energy,
                                                           double spin);
 

@@ -1,4 +1,4 @@
-/// What the energy that is left tells of the modes of a latched wing: (7) and (10) of modal_bounds.hpp.
+/// Bounds on the modes of a latched wing from the energy that is left: (7) and (10) of modal_bounds.hpp.
 #include "core/proofs/modal_bounds.hpp"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ auto ModalBounds::make_loads() const -> Matrix {
   return loads;
 }
 
-/// What only `bound_in_reach` needs.
+/// Computes the matrices that only `bound_in_reach` needs.
 void ModalBounds::keep_reach() {
   const int n = size();
   turns_ = {0, BodyVector::Zero(n + 1), BodyVector::Zero(n + 1)};
@@ -99,8 +99,8 @@ double ModalBounds::largest(int row, const Image& image, const Reach* reach) con
   return least;
 }
 
-/// By Collatz: of a matrix without negative elements no ratio of (A x)_k to x_k, x > 0, has a maximum below the spectral
-/// radius. @return none where that is 0.9 or more: heuristic, bounds would be useless
+/// By Collatz, for a matrix A without negative elements and any x > 0, max_k (A x)_k/x_k ≥ the spectral radius.
+/// @return none if the least maximum found is 0.9 or more: heuristic, bounds would be useless
 auto ModalBounds::contraction(const Reach& reach) const -> std::optional<Contraction> {
   constexpr int passes = 6; // heuristic: fewer, and μ is too large; more cost time
   constexpr double most = 0.9, least_share = 0.01;

@@ -11,8 +11,8 @@ namespace {
 
 using Complex = Modes::Complex;
 
-/// One by one costs 1.4 µs against QR's 2.8 for 3 bodies, 15.6 against 16.9 for 8, 248 against 131 for 20
-/// (SPEED.md): beyond 8, all at once are found as quickly.
+/// One by one costs 1.4 µs against QR's 2.8 for 3 bodies, 15.6 against 16.9 for 8, 248 against 131
+/// for 20 (measured once; no driver repeats it): beyond 8 bodies QR is as fast or faster.
 constexpr int few_bodies = 8;
 
 double size_of(const Complex& z) { return std::abs(z.real()) + std::abs(z.imag()); }

@@ -22,7 +22,7 @@
 
 namespace wingspread {
 
-/// Of the 2n columns of modes those of one: a real one has one, a conjugate pair two, of its real and imaginary part.
+/// The columns of one mode among 2n: one of a real mode, two (real and imaginary part) of a conjugate pair.
 struct ModeColumns {
   int column; ///< the first
   bool is_pair;
@@ -47,9 +47,9 @@ public:
 
   /// λ of every column; of a pair first the one with the positive imaginary part.
   [[nodiscard]] const std::vector<Complex>& values() const { return values_; }
-  /// V: v of a real mode, v and v' of a pair v ± iv'.
+  /// W: w of a real mode, w and w' of a pair w ± iw'.
   [[nodiscard]] const Matrix& columns() const { return columns_; }
-  /// Λ of L V = V Λ, real: a pair has a block of 2 × 2.
+  /// Λ of L W = W Λ, real: a pair has a block of 2 × 2.
   [[nodiscard]] Matrix blocks() const;
 
 private:

@@ -86,8 +86,9 @@ public:
   }
 
   /// Bounds the energy from the state x at t up to t_end, by (1), (2) or (3). Cost O(n).
-  /// @return none without a bound: on a base that turns faster and faster, and where a spring
-  ///         drives its hinge away from rest
+  /// @return none without a bound: where the base's motion is not steady, air meets a moving base, a spring
+  ///         drives its hinge away from rest, an open hinge has a motor or stands beside real hinges, a latch
+  ///         has backlash or is smoothed and not yet full, or a hinge may touch a stop or leave its window
   template <class AnySystem>
   [[nodiscard]] std::optional<EnergyLeft<T>> energy(AnySystem& system, const State<T>& x,
                                                     const T& t, const T& t_end) {

@@ -28,8 +28,9 @@
 /// The first sum of (3) is M(θ) − M(rest), the second bounds centripetal accelerations. On a base that
 /// turns, r is the base's rate and has no first sum; the push on the wing at rest, which comes and goes
 /// as the base turns, is kept apart. On a base with a constant angular acceleration ε, r is the largest rate up to the
-/// run's end, every ω̇ has ε beside S ü, and n has at most ε |Σ_l M_kl(rest)| + |push| |Y_k| more. f holds friction, curves that bend, dampers that are not viscous,
-/// motors that pass their limits, and loops that go slack.
+/// run's end, every ω̇ has ε beside S ü, and n has at most ε |Σ_l M_kl(rest)| + |push| |Y_k| more. f
+/// holds friction, curves that bend, dampers that are not viscous, motors that pass their limits, and
+/// loops that go slack.
 #pragma once
 
 #include "core/laws/motor.hpp"

@@ -1,4 +1,4 @@
-/// Proof that no hinge can reach its latch any more, by energy. The other one: core/events/standstill.hpp.
+/// Proof by energy that no hinge can reach its latch any more. Proof by standstill: core/events/standstill.hpp.
 ///
 /// For hinge i to reach its latch, the kinetic energy T and what all springs can still give must
 /// pay for the friction on its way:

@@ -30,7 +30,7 @@ public:
     initial_energy_ = run_.goal.end_state || run_.goal.audit ? energy() : 0;
   }
 
-  /// What has happened to latches and holds.
+  /// The events of latches and holds so far.
   [[nodiscard]] LatchRecord record() { return {latches_, missed_, let_go_, releases_}; }
   [[nodiscard]] bool any_latch() const { return !latches_.empty(); }
 

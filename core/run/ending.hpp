@@ -18,8 +18,9 @@
 ///
 /// The proofs are in the room proofs/ (standstill.hpp in events/); final_peaks.hpp calls modal_bounds.hpp and
 /// energy_bounds.hpp. They are functions of the state. `Ending` remembers the results, and proof_schedule.hpp says at
-/// which steps an attempt is worth its cost. Whether a run ends some steps earlier or later changes no output, except
-/// `peaks_final` where t_end comes before a due attempt (ThoroughAttempts in final_peaks.hpp).
+/// which steps an attempt is worth its cost. Whether a run ends some steps earlier or later changes no output but two:
+/// the reason of a stall (missing energy, and since when), and `peaks_final` where t_end comes before a due attempt
+/// (ThoroughAttempts in final_peaks.hpp).
 #pragma once
 
 #include "core/events/events.hpp"

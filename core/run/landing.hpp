@@ -65,8 +65,8 @@ public:
     return false;
   }
 
-  /// Carries the end of the accepted step over what the landing missed the event by.
-  /// @return whether there is any; the last evaluation is then at the new end, where loads ask for it
+  /// Moves the end of the accepted step to the event, over the time by which the landing missed it.
+  /// @return whether the end moved; the last evaluation is then at the new end, if loads need it
   bool carry_end_to_event() {
     const T way = std::exchange(rest_, T(0));
     if (way == T(0)) return false;
@@ -174,9 +174,9 @@ private:
   /// How far the end may miss the event, in steps, for the interpolant to carry the end there.
   ///
   /// Over s = dt/h steps the error of a rate is the third derivative's, h³ φ⁽⁶⁾/120 for a quintic, times
-  /// dt²/2. For a swing at ω that is (ωh)⁵ s²/240 of its rate: with s² = 0.01 rtol, 4.2e-5 (ωh)⁵ rtol
-  /// (computed for all phases, rtol 1e-4 and 1e-8; positions lose less). Explicit methods are stable up
-  /// to ωh = 5.96 (dop853), where 0.18 rtol is lost; only from ωh = 9 on the tolerance would be missed.
+  /// dt²/2. For a swing at ω that is at most (ωh)⁵ s²/240 of its rate: with s² = 0.01 rtol, 4.2e-5 (ωh)⁵ rtol.
+  /// Explicit methods are stable up to ωh = 5.96 (dop853). Computed for all phases, rtol 1e-4 and 1e-8, the loss
+  /// there is 0.18 rtol, and 0.6 rtol at ωh = 9; positions lose less.
   /// Implicit methods, which step over swings, pass rtol = 0.
   [[nodiscard]] static T nearest(double rtol) {
     return larger(T(0.1 * std::sqrt(rtol)), T(round_off));

@@ -29,7 +29,7 @@
 
 namespace wingspread {
 
-/// What a method's step control and `auto` remember of earlier steps. An engine keeps one in packs.
+/// The memory of step control and of `auto`. An engine keeps one in packs.
 template <class P> struct StepHistory {
   P steps;              ///< accepted in this phase
   StepMemory<P> memory; ///< of step control

@@ -273,10 +273,10 @@ private:
     return borne_at_;
   }
 
-  /// What of a free base's motion is searched next over the step.
+  /// The part of a free base's motion that is searched next over the step.
   enum class BaseSearch { none, turn, rate, done };
 
-  /// Searches it. @param next what comes after it
+  /// Searches the present part. @param next the part after it
   [[nodiscard]] std::optional<T> doubtful_base(BaseSearch next) {
     base_doubt_ = base_.doubtful(run_.at, run_.step, base_search_ == BaseSearch::rate);
     base_search_ = next;

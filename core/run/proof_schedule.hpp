@@ -10,7 +10,7 @@ enum class SoughtProof {
   stall,             ///< no open hinge can reach its latch
   peaks_after_stall, ///< no peak can rise; some hinges never latch
   peaks_by_modes,    ///< no peak can rise; all latches have engaged
-  peaks_by_energy    ///< the same, where the modes have failed to decay: the energy alone can tell
+  peaks_by_energy    ///< the same without modes (FinalPeaks::lacks_modes): by the energy alone
 };
 
 /// Counts the accepted steps of a search for one proof, and spaces the attempts.
@@ -43,9 +43,9 @@ public:
 
 private:
   /// Steps from one attempt to the next. Heuristic: attempts too rare lengthen runs, attempts too
-  /// frequent cost more than the steps they save; no output depends on the intervals. A latched wing
-  /// decays exponentially: with a quarter of the steps so far, a run overshoots its earliest end by
-  /// at most a quarter.
+  /// frequent cost more than the steps they save. Of the outputs, only the reason of a stall and `peaks_final`
+  /// depend on the intervals. A latched wing decays exponentially: with a quarter of the steps so far, a run
+  /// overshoots its earliest end by at most a quarter.
   [[nodiscard]] long interval(SoughtProof sought) const {
     switch (sought) {
     case SoughtProof::stall:

@@ -289,8 +289,8 @@ public:
 
   // ---- steps made elsewhere
 
-  /// The most trial steps that a lane may make before it returns control, if no event, peak or proof is due;
-  /// steps_to_radius: the most of them that it may accept.
+  /// tries_left: trial steps that a lane may make before it must return control, if no event, peak or proof is due.
+  /// steps_to_radius: how many of them it may accept.
   [[nodiscard]] long tries_left() const { return run_.how.max_steps - tried_ - 1; }
   [[nodiscard]] long steps_to_radius() const { return choice_.steps_to_radius(); }
   [[nodiscard]] StepHistory<double> history() {

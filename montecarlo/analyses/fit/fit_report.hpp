@@ -13,7 +13,7 @@ inline constexpr const char* traces_csv_file = "traces.csv";
 /// @param about the value of the key "wingspread"
 [[nodiscard]] Json fit_json(const FitResult& result, const FitSpec& spec, const Json& about);
 
-/// Rows of the posterior: the common parameters as their dispersions apply them.
+/// FitResult::posterior as CSV, a row a sample: parameters as their dispersions apply them. Empty without columns.
 [[nodiscard]] std::string posterior_csv(const FitResult& result);
 
 /// Traces beside the fit: test, column, t, measured, fitted, lower, upper; SI.

@@ -38,8 +38,8 @@ struct ChannelFit {
                                                const Prediction& prediction);
 
 /// The residuals of a channel that lie far from the others: beyond six times the larger of σ and 1.4826 median|r| (the
-/// second estimates σ of normal residuals; of a million of these 0.002 lie beyond). None if several lie beyond and are
-/// more than a twentieth: then the model is wrong, not the samples.
+/// second estimates σ of normal residuals; of a million of these 0.002 lie beyond). None of fewer than five residuals.
+/// None if several lie beyond and are more than a twentieth: then the model is wrong, not the samples.
 /// @param std σ; nothing: unknown
 /// @return indices, the furthest first
 [[nodiscard]] std::vector<std::size_t> outliers_of(std::span<const double> residuals,

@@ -52,9 +52,9 @@ inline constexpr double settled_sigmas = 1.5;
 [[nodiscard]] std::vector<FitPoint> first_points(std::size_t dimensions, int count,
                                                  std::uint64_t seed);
 
-/// A problem for each channel that no run at the points predicts, whose distance to every prediction overflows, that is
-/// a time beyond t_end, a parameter of the scene that is the same at all points, or an output in another unit or sense than
-/// all runs have it; with its pointer in the tests' file.
+/// A problem, with its pointer in the tests' file, for each channel that cannot be fitted: no run at the points
+/// predicts it, its distance to every prediction overflows, it is a time beyond t_end or a scene parameter that is the
+/// same at all points, or all runs have the output in another unit or sense.
 [[nodiscard]] std::vector<Problem> unpredictable(std::span<const FitTest> tests, TestRuns& runs,
                                                  std::span<const FitPoint> points);
 

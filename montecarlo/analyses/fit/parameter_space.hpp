@@ -4,10 +4,10 @@
 /// without further rules, and all unknowns have the scale 1. An offset of a clock or of a sensor is its standard
 /// deviation times u.
 ///
-/// The copula takes the dispersions that are common to all tests first, then those that only some tests have of their
-/// own, then those that every test has of its own. So what is common has one value in all tests, and the value of a
-/// test's own follows the law that it has beside the common ones. (The campaign's own order is by name. Of two correlated
-/// dispersions that only some tests have of their own, the first one's own value moves the second.)
+/// The copula takes the dispersions in this order: those common to all tests, those that some tests have of their own,
+/// those that every test has of its own. So a common dispersion has one value in all tests, and a test's own value
+/// follows its law given the common values. (The campaign's own order is by name. Of two correlated dispersions that
+/// only some tests have of their own, the first one's own value moves the second.)
 #pragma once
 
 #include "distributions/copula.hpp"

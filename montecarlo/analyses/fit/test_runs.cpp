@@ -42,7 +42,8 @@ SampledColumns samples_for(const FitTest& test) {
   return samples;
 }
 
-/// The step of which all times are multiples, not longer than `longest`; nothing if they are none of their least distance.
+/// The step, s, of which all times are multiples, not longer than `longest`. Nothing if the times are not multiples of
+/// their least distance.
 std::optional<double> common_step(const std::vector<double>& times, double longest) {
   double least = times.back();
   for (std::size_t i = 1; i < times.size(); ++i) least = std::min(least, times[i] - times[i - 1]);
@@ -68,7 +69,7 @@ double noise_of(const std::vector<double>& measured) {
                   least_of_range * (high - low));
 }
 
-/// What the differences of two predictions add to the χ² of a test: the median over the points that have both.
+/// The χ² of a test that the differences of two predictions add: the median over the points that have both.
 /// @param first of the test's numbers
 double added_chi_squared(const FitTest& test, std::size_t first,
                          const std::vector<Prediction>& coarse,

@@ -12,8 +12,8 @@
 /// that is narrower than a cell. A cell at both of whose ends all conditions hold is not halved: a condition that fails
 /// only inside is not seen. Loads have such peaks where the latches of two hinges meet: of the three-panel flight wing
 /// root.peak_force is 343 N and 409 N where the tip's springs are scaled by 1.291 and 1.409, and 1370 N at 1.385. The
-/// report states the widest cell in the window, and the recommended scale is run. If there is no window, every cell has a condition that rules it out. The edges of each
-/// single condition are then located too, as evidence.
+/// report states the widest cell in the window, and the recommended scale is run. If there is no window, every cell has
+/// a condition that rules it out. The edges of each single condition are then located too, as evidence.
 ///
 /// An end of the range is not an edge. If each condition that fails there fails at every scale,
 ///

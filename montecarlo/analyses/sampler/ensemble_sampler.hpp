@@ -30,7 +30,7 @@ namespace wingspread {
 /// log π of points, up to a constant; −∞ where π is 0.
 using LogDensity = std::function<std::vector<double>(std::span<const Eigen::VectorXd>)>;
 
-/// q: a mixture of multivariate Student laws with few degrees of freedom, each of ξ = G(z), x = center + L z.
+/// q: a mixture of multivariate Student laws with max(5, 2 d) degrees of freedom, each of ξ = G(z), x = center + L z.
 class StudentMixture {
 public:
   struct Part {

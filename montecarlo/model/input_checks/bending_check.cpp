@@ -26,7 +26,7 @@ double rod_inertia(const Body& body) {
   return body.mass * (body.plate->to - body.plate->from).squaredNorm() / 12;
 }
 
-/// The panel with its mass spread as a uniform one's, if it has less inertia than that: what its joints alone do.
+/// The panel with at least a uniform panel's inertia, to see the effect of its joints alone.
 Body with_even_mass(Body body) {
   body.inertia = std::max(body.inertia, rod_inertia(body));
   return body;

@@ -10,8 +10,9 @@ namespace wingspread {
 /// @pre the body is flexible, and physical
 [[nodiscard]] double clamped_frequency(const Body& body);
 
-/// Warns of hinges on a joint, of too few joints for the frequency that is stated or follows from the stiffness, and of more inertia than a
-/// uniform panel has: it turns with the segments, and lowers high frequencies.
+/// Warns of hinges on a joint, of a plate whose middle is not the centre of mass, of too few joints for the frequency
+/// that is stated or follows from the stiffness, of an inertia below a uniform panel's that raises this frequency, and
+/// of one above it: that turns with the segments, and lowers high frequencies.
 void check_bending(const Scene& scene, InputWarnings& warnings);
 
 } // namespace wingspread

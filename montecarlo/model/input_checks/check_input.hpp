@@ -16,7 +16,8 @@ namespace wingspread {
 /// @pre the file was read without a problem
 [[nodiscard]] ScenePlace scene_place(const std::filesystem::path& file);
 
-/// Checks a scene. Cost: one deployment up to the last latch; with dampers two, and more where these warn.
+/// Checks a scene. Cost: one deployment up to the last latch; with dampers one without them and, if that deploys,
+/// one for each damper.
 [[nodiscard]] std::vector<InputWarning>
 check_input(const Scene& scene, const Integration& integration, const std::filesystem::path& file);
 

@@ -9,9 +9,8 @@ namespace wingspread {
 /// Warns of each dispersion by the first rule that it breaks (an `each` at its first match):
 ///
 /// - scale: the mean is outside 0.5 to 2;
-/// - add: the mean exceeds a quarter of the nominal value, or the central 95 % of the draws exceed it (for a
-/// coordinate: the
-///   length of its vector). A factor meant for "scale" breaks this rule;
+/// - add: the mean exceeds a quarter of the nominal value, or the central 95 % of the draws exceed the nominal value
+///   (for a coordinate: the length of its vector). A factor meant for "scale" breaks this rule;
 /// - set: the median is more than 30 times the nominal value or less than 1/30 (inches for metres: 39); draws about 1
 ///   replace a nominal factor other than 1, or a nominal value that is far from them ("scale" is meant);
 /// - an angle's central 95 % are wider than ±0.1 rad, or an angle is set beyond a turn (degrees for radians);
@@ -24,8 +23,8 @@ void check_dispersions(const Campaign& campaign, InputWarnings& warnings);
 void check_spread(const Campaign& campaign, InputWarnings& warnings);
 
 /// Warns of correlations of 0.8 and more, and of three dispersions correlated pairwise by 0.5 and more: they probably
-/// have one cause, which `through` draws once. Not of those that come with a covariance: what is fitted together is
-/// correlated as the fit left it.
+/// have one cause, which `through` draws once. Also of correlations of which ties leave less than 90 %, or with a
+/// constant. Not of strong ones that come with a covariance: a fit left these dispersions so correlated.
 void check_correlations(const Campaign& campaign, InputWarnings& warnings);
 
 /// Warns of families of outputs that the wing does not have: their columns are missing in runs.csv.

@@ -1,4 +1,4 @@
-/// Checks that what a scene gives acts on its wing at all, and that rates and accelerations are of a wing.
+/// Checks that every part of a scene acts on the wing, and that rates and accelerations are plausible.
 #pragma once
 
 #include "core/outcome.hpp"

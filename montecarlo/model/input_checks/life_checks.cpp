@@ -53,7 +53,7 @@ void check_release(const Scene& scene, int h, double t_end, InputWarnings& warni
                  "how far that hinge has turned from its stowed angle, up to its latched angle");
 }
 
-/// What each hold would bear at the start if it were rigid, N·m by hinge; empty where the run fails.
+/// Load of each hold at the start if it were rigid, N·m by hinge; empty if the run fails.
 std::vector<Peak> loads_at_start(Scene scene, Integration integration) {
   for (Hinge& hinge : scene.hinges) hinge.hold.reset();
   integration.t_end = instant;

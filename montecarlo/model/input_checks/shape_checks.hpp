@@ -39,6 +39,7 @@ private:
 ///   points on an axis of their frame);
 /// - a body that turns through the body that carries it;
 /// - a synchronisation that is out of step where both of its hinges latch: the cable then holds one of them back;
+/// - two synchronisations of the same hinges that disagree on the travel;
 /// - at joints that latch at angle 0, where a wing should be straight: a child that folds back, and hinge points that
 ///   are mirror images except for the sign of an offset, which makes a step in the wing.
 void check_shape(const Scene& scene, InputWarnings& warnings);

@@ -22,7 +22,7 @@
     (listeners[key] || []).forEach((listener) => listener(value));
   };
   W.set = () => W.sets[W.chosen.set];
-  // Of a folder made with `run --no-rows`, where a part of the page needs the rows: the reason in words.
+  // Says that a part of the page needs the rows, which a folder made with `run --no-rows` lacks.
   W.withoutRows = (set, part, verb = "needs") => `${part} ${verb} the rows of the runs, and ${set.label} was run with --no-rows.`;
   W.outputsOf = (set) => (set && set.outputs) || [];
   W.output = function (set) {

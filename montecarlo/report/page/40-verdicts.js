@@ -244,7 +244,7 @@
     const levels = new Set(rows.map((row) => sure(row.requirement)));
     return levels.size === 1 ? `One-sided ${[...levels][0]} % bound` : "One-sided bound";
   }
-  // What the runs say of a requirement: a quantile of a limited output, else a share of the runs.
+  // Heading of the column that judges a requirement: a quantile for a limited output, else a share of the runs.
   function quantityOf(rows) {
     const limited = new Set(rows.map((row) => W.isNumber(row.requirement.limit)));
     return limited.size > 1 ? "Quantile or share" : limited.has(true) ? "Quantile" : "Share";
@@ -322,7 +322,7 @@
     );
   }
 
-  // What the requirements of each set show together, as the terminal's table says it; of sets that show the same, once.
+  // The joint verdicts of each set's requirements, as in the terminal's table; equal ones of several sets once.
   function together() {
     const found = new Map();
     for (const set of W.sets) {
@@ -377,7 +377,7 @@
     ];
   }
 
-  // The confidence of one requirement's bound and allowance, %: of a group's, more than the group's own.
+  // The confidence of one requirement's bound and allowance, %; within a group it exceeds the group's.
   const sure = (one) => F.given(Number((100 * (W.isNumber(one.sure) && one.sure > 0 ? one.sure : one.confidence)).toPrecision(4)));
 
   W.verdicts = { judged, sure, requirements, verdictOf, unitOf, guaranteed, observed, valueText, marginText, wordsOf, keyOf, shortOf, listed };

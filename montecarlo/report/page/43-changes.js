@@ -97,7 +97,7 @@
       names = hinges.length > 3 ? F.counted(hinges.length, "hinge") : W.verdicts.listed(hinges.map((one) => one.hinge));
     return `May be an artefact of the latch law: the jump of damping times rate as the latch engages makes ${low === high ? low : `${low} to ${high}`} of the nominal peak moment of ${names}. Measure the damping, or give “dissipation”.`;
   }
-  // What a change does to static margins and to the deployment. Static margins count dampers only at a stated rate.
+  // The effect of a change on static margins and on the deployment. Static margins count dampers only at a stated rate.
   function torqueCaution(set, lever) {
     const grows = lever.scaled ? lever.change > 1 : lever.change > 0,
       kinds = new Set(movedBy(set, lever).map(({ quantity }) => quantity.split(".")[0]));

@@ -172,7 +172,7 @@
     if (made.status !== "deployed" || value === null || (one.upper ? size > one.limit : size < one.limit)) return "failed";
     return made.final[output.family] === false ? "open" : "passed";
   }
-  // What the badges do not say.
+  // Notes on what the badges cannot judge.
   function judgement(set, made) {
     const all = set.requirements || [],
       notHere = all.filter((one) => one.static_margin || /^mode_\d|\.peak_bending_moment$/.test(one.output));

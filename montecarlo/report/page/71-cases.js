@@ -52,7 +52,7 @@
 
   const SIGN = { scale: "×\u00a0", add: "+\u00a0" };
   const LEAST = Math.log(1.02); // smaller factors move no mean visibly (heuristic)
-  // What differs between the cases: { words, by: the draw, at: ["× 2 in cold"] where it is not neutral, size: the largest ratio }.
+  // Inputs that differ between the cases: { words, by: the draw, at: ["× 2 in cold"] where it is not neutral, size: the largest ratio }.
   function differing(sets) {
     const found = [];
     const add = function (words, by, apply, values, nominal, unit = "") {
