@@ -158,7 +158,7 @@ TEST_CASE("margin says which requirements leave no window, and exits 1") {
   const auto [code, text, error] = program.margin(json);
   CHECK(code == 1);
   CHECK_THAT(error, HasFacts({"not met: joint: no scale", "meets all requirements\n"}));
-  CHECK_THAT(text, Catch::Contains("EMPTY: no scale meets all requirements.\n"));
+  CHECK_THAT(text, Catch::Contains("EMPTY: no scale that was run meets all requirements.\n"));
   const Json search = program.found()["searches"][0];
   CHECK(search["window"].is_null());
   CHECK(search["closed_by"][0]["requirement"] == "root.peak_moment ≤ 40 N·m, 97 % at 90 %");

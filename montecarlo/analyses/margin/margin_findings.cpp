@@ -226,16 +226,32 @@ std::vector<CutPeaks> cut_peaks(const MarginResult& result, const MarginSearch& 
   return all;
 }
 
+namespace {
+
+/// "; nothing was run between 1.36 and 1.45, where a window is not ruled out: …", or empty.
+std::string unseen_windows(const MarginSearch& search) {
+  std::vector<std::string> cells;
+  for (const auto& [lower, upper] : unresolved_cells(failing_by_scale(search)))
+    cells.push_back(fmt::format("between {} and {}", lower, upper));
+  if (cells.empty()) return "";
+  return fmt::format("; nothing was run {}, where a window is not ruled out: a smaller "
+                     "\"tolerance\" looks closer",
+                     fmt::join(cells, " and "));
+}
+
+} // namespace
+
 std::string why_withheld(const MarginSearch& search) {
   const std::string_view things = words_of(search).things;
   switch (search.withheld) {
   case Withheld::nothing:
     return "";
   case Withheld::no_window:
-    return fmt::format("no scale that was run meets all requirements{}",
+    return fmt::format("no scale that was run meets all requirements{}{}",
                        is_closed_by_cut_peaks(search)
                            ? "; at some only because t_end cut peaks: lengthen t_end"
-                           : "");
+                           : "",
+                       unseen_windows(search));
   case Withheld::no_lower_edge:
     return fmt::format(
         "nothing fails down to {}: no edge was found, and how far down the {} may go "

@@ -48,7 +48,7 @@ struct DeployedShare {
 /// Why no scale is recommended.
 enum class Withheld {
   nothing,         ///< a scale is recommended
-  no_window,       ///< no scale meets all requirements
+  no_window,       ///< no scale that was run meets all requirements
   no_lower_edge,   ///< nothing fails down to the lowest evaluated scale
   no_upper_edge,   ///< nothing fails up to the highest evaluated scale
   short_of_torque, ///< the window has only weaker springs, and their static margins are below 0

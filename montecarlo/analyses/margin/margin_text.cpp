@@ -191,7 +191,8 @@ private:
   }
 
   [[nodiscard]] std::string no_window() const {
-    std::string text = "  EMPTY: no scale meets all requirements.\n";
+    std::string text =
+        fmt::format("  {}\n", wrapped(fmt::format("EMPTY: {}.", why_withheld(search_)), 4));
     for (const std::size_t condition : closed_by(by_scale_))
       text += fmt::format("    {}\n", wrapped(name(condition) + ": " + holds(condition), 6));
     for (const CutPeaks& each : cut_peaks(report_.result, search_))
@@ -270,15 +271,27 @@ private:
   }
 
   [[nodiscard]] std::string scales() const {
-    std::string text = fmt::format("\n{:<10}{:>12}{:>26}   {}\n", "SCALE", "deployed",
+    const bool several = report_.result.cases.size() > 1;
+    const int width = several ? 22 : 12;
+    std::string text = fmt::format("\n{:<10}{:>{}}{:>26}   {}\n", "SCALE",
+                                   several ? "deployed, worst case" : "deployed", width,
                                    fmt::format("{:g} % bounds", 100 * confidence()), "not met");
     for (const auto& [scale, cases] : search_.seen) {
-      const DeployedShare deployed = deployed_share(cases.front(), confidence());
-      text += fmt::format("  {:<8}{:>12}{:>26}{}\n", scale, percent(deployed.share),
+      const DeployedShare deployed = least_deployed(cases);
+      text += fmt::format("  {:<8}{:>{}}{:>26}{}\n", scale, percent(deployed.share), width,
                           percent_range(deployed.bounds.lower, deployed.bounds.upper),
                           outputs_of(to_report(cases)));
     }
     return text;
+  }
+
+  /// Of the case in which the fewest runs deployed.
+  [[nodiscard]] DeployedShare least_deployed(const ScaleResult& cases) const {
+    DeployedShare least = deployed_share(cases.front(), confidence());
+    for (const CaseResult& one : cases)
+      if (const DeployedShare own = deployed_share(one, confidence()); own.share < least.share)
+        least = own;
+    return least;
   }
 
   [[nodiscard]] double confidence() const { return report_.campaign.statistics.confidence; }

@@ -214,6 +214,19 @@ double rounded_scale(double scale, double tolerance) {
   return parse_csv_number(fmt::format("{:.{}g}", scale, digits)).value_or(scale);
 }
 
+std::vector<std::pair<double, double>> unresolved_cells(const FailingByScale& by_scale) {
+  std::vector<std::pair<double, double>> cells;
+  const std::pair<const double, Failing>* before = nullptr;
+  for (const auto& here : by_scale) {
+    if (before && !before->second.empty() && !here.second.empty() &&
+        std::ranges::none_of(here.second,
+                             [&](std::size_t k) { return before->second.contains(k); }))
+      cells.emplace_back(before->first, here.first);
+    before = &here;
+  }
+  return cells;
+}
+
 std::vector<std::size_t> closed_by(const FailingByScale& by_scale) {
   if (!windows_of(by_scale).empty()) return {};
   const Failing all = ever_failing(by_scale);

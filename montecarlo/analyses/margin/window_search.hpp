@@ -27,6 +27,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace wingspread {
@@ -74,6 +75,11 @@ struct Window {
 
 /// The widest window by ratio, the lowest of equally wide ones; null if there is no window.
 [[nodiscard]] const Window* widest(const std::vector<Window>& windows);
+
+/// The cells in which a window may lie though both ends fail: cells of (1). Without a window, the search was too coarse
+/// for them.
+[[nodiscard]] std::vector<std::pair<double, double>>
+unresolved_cells(const FailingByScale& by_scale);
 
 /// The scale rounded to two digits more than the tolerance has.
 [[nodiscard]] double rounded_scale(double scale, double tolerance);

@@ -235,11 +235,10 @@ does, up to "widest". Without both edges there is no recommendation.
 break it over the share that does. Where a range of scales is equally good, the report says which:
 the present springs are kept if they are in it, else the geometric mean of its ends is recommended.
 The report says what this costs against the present springs. The recommendation is confirmed by runs
-with a seed of their own. Weaker springs are not recommended if
-static margins of the nominal wing would become negative; a warning names those that are negative
-at the recommended scale. If no scale works, the report names the
-requirements that rule it out. A peak that t_end cut breaks a requirement, as in `wingspread run`; a
-warning names the scale with most of them.
+with a seed of their own. Weaker springs are not recommended if static margins of the nominal wing
+would become negative; a warning names those that are negative at the recommended scale. If no
+scale works, the report names the requirements that rule it out. A peak that t_end cut breaks a
+requirement, as in `wingspread run`; a warning names the scale with most of them.
   All runs are made; "until" is ignored. A run stops once its requirements are decided: if none is
 about a peak, a run that fails numerically after its last latch counts as deployed here, and as
 failed in `wingspread run`. Each verdict holds with its requirement's confidence; the report gives

@@ -10,6 +10,7 @@
 #include "montecarlo/model/input_checks/extent_checks.hpp"
 #include "montecarlo/model/input_checks/life_checks.hpp"
 #include "montecarlo/model/input_checks/motor_checks.hpp"
+#include "montecarlo/model/input_checks/requirement_checks.hpp"
 #include "montecarlo/model/input_checks/shape_checks.hpp"
 #include "montecarlo/model/input_checks/size_checks.hpp"
 #include "montecarlo/model/input_checks/torque_checks.hpp"
@@ -35,7 +36,7 @@ Outcome check_motion(const Scene& scene, const Integration& integration, InputWa
   check_dampers(scene, integration, nominal, warnings);
   check_life(scene, integration, nominal, warnings);
   check_motors(scene, integration, nominal, warnings);
-  check_arrival(nominal, warnings);
+  check_arrival(scene, nominal, warnings);
   return nominal;
 }
 

@@ -4,7 +4,6 @@
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/reached_correlation.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
-#include "montecarlo/model/input_checks/finality_check.hpp"
 
 #include <fmt/format.h>
 
@@ -269,60 +268,6 @@ constexpr const char* usual_cause =
     "one draw for a common cause, with \"through\" (a temperature, a lot); correlations are for "
     "what is measured together";
 
-/// The output's value in the nominal deployment; nothing if it has none.
-std::optional<double> nominal_of(const Campaign& campaign, const std::string& output,
-                                 const Outcome& nominal) {
-  const std::vector<OutputColumn> columns = output_columns(campaign.scene, campaign.outputs);
-  const auto column = std::ranges::find(columns, output, &OutputColumn::name);
-  if (column == columns.end()) return std::nullopt;
-  const double value = output_of(*column, nominal);
-  return std::isnan(value) ? std::nullopt : std::optional(value);
-}
-
-/// Whether a limit on an angle or a rate differs from the nominal value by about 57.3, either way. A limit leaves a
-/// margin: up to a factor of 3 on either side. A limit of less than half a degree, or one meant in degrees, is none of
-/// these.
-bool looks_converted(double limit, double nominal, const std::string& unit) {
-  constexpr double margin = 3;
-  if (!unit.starts_with("rad") || nominal == 0) return false;
-  const double ratio = std::abs(limit / nominal);
-  const auto is_about = [](double factor, double of) {
-    return factor > of / margin && factor < of * margin;
-  };
-  return (is_about(ratio, degrees_per_radian) && std::abs(limit) >= 0.5) ||
-         is_about(1 / ratio, degrees_per_radian);
-}
-
-void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& nominal,
-                       InputWarnings& warnings) {
-  const Requirement& own = campaign.requirements[k];
-  const std::string at = fmt::format("/{}", k);
-  const std::string key = own.max ? "/max" : "/min";
-  const double limit = own.max ? *own.max : own.min.value_or(0);
-  const std::string unit = parse_output_name(own.output).unit;
-  const std::optional<double> value = nominal_of(campaign, own.output, nominal);
-  const bool is_peak = peak_kind(own.output) != PeakKind::none;
-  const std::string_view why_cut = is_peak ? why_never_final(campaign.scene) : "";
-  if (limit < 0 && (own.absolute || is_peak))
-    warnings.add(at + key, fmt::format("a limit of {} {} on a magnitude", limit, unit),
-                 "a limit ≥ 0");
-  else if (value && !own.absolute && limit * *value < 0)
-    warnings.add(at + key,
-                 fmt::format("a limit of {} {}; the nominal {} is {:.4g} {}", limit, unit,
-                             own.output, *value, unit),
-                 "a limit on the same side of zero; \"abs\": true limits the magnitude");
-  else if (value && looks_converted(limit, *value, unit))
-    warnings.add(at + key,
-                 fmt::format("a limit of {} {}; the nominal {} is {:.4g} {}", limit, unit,
-                             own.output, *value, unit),
-                 "a limit in SI, near the nominal value (write degrees as \"5 deg\" or \"5 "
-                 "deg/s\": a factor of 57.3)");
-  else if (!why_cut.empty())
-    warnings.add(at, fmt::format("a limit on {} {}", own.output, why_cut),
-                 "a wing without that: there no peak is proven final, and every run breaks the "
-                 "requirement, whatever t_end is");
-}
-
 } // namespace
 
 void check_dispersions(const Campaign& campaign, InputWarnings& warnings) {
@@ -386,11 +331,6 @@ void check_outputs(const Campaign& campaign, InputWarnings& warnings) {
       warnings.add("/outputs",
                    fmt::format("\"{}\", of which this wing has no column", about(family).name),
                    std::string(about(family).wings));
-}
-
-void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings) {
-  for (std::size_t k = 0; k < campaign.requirements.size(); ++k)
-    check_requirement(campaign, k, nominal, warnings);
 }
 
 } // namespace wingspread

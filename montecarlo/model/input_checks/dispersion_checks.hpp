@@ -30,12 +30,4 @@ void check_correlations(const Campaign& campaign, InputWarnings& warnings);
 /// Warns of families of outputs that the wing does not have: their columns are missing in runs.csv.
 void check_outputs(const Campaign& campaign, InputWarnings& warnings);
 
-/// Warns of requirements that no run or every run meets: a limit on the other side of zero than the nominal value, a
-/// negative limit of a magnitude, a limit on an angle or a rate that is in degrees or has been converted twice (by
-/// about 57.3 from the nominal value), and a limit on a peak while the base's rate grows (no peak is then proven
-/// final).
-/// @param nominal  the nominal deployment
-/// @param warnings with the list of requirements as its place
-void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings);
-
 } // namespace wingspread

@@ -163,6 +163,27 @@ MirrorNames read_mirror(const JsonCursor& at) {
   return of && as && object.is_object() ? names : MirrorNames{};
 }
 
+void explain_copies(const MirrorNames& names, const Scene& scene, std::size_t first,
+                    std::vector<Problem>& problems) {
+  if (names.as.empty()) return;
+  const MirrorNames back{names.as, names.of};
+  const auto is_in = [](const auto& all, const std::string& name) {
+    return std::ranges::any_of(all, [&](const auto& each) { return each.name == name; });
+  };
+  for (std::size_t k = first; k < problems.size(); ++k) {
+    const std::string& found = problems[k].found;
+    if (found.size() < 2 || found.front() != '"') continue;
+    const std::string name = found.substr(1, found.size() - 2);
+    if (!back.covers(name)) continue;
+    const std::string original = back.copy_of(name);
+    if (!is_in(scene.hinges, original) && !is_in(scene.bodies, original)) continue;
+    problems[k].expected =
+        fmt::format("a name that the scene gives: \"mirror\" makes \"{}\" of \"{}\", and no hinge, "
+                    "body or loop can name a copy. Write the second wing out to do so",
+                    name, original);
+  }
+}
+
 void add_mirrored(const JsonCursor& at, const MirrorNames& names, Scene& scene) {
   if (!names.of.empty()) Mirror(at, names, scene).add();
 }

@@ -4,8 +4,10 @@
 #include "core/scene/scene.hpp"
 #include "montecarlo/foundation/formats/json_reader.hpp"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace wingspread {
 
@@ -20,6 +22,11 @@ struct MirrorNames {
 
 /// Reads the key; empty patterns, with a problem, if it is not valid.
 [[nodiscard]] MirrorNames read_mirror(const JsonCursor& at);
+
+/// Says of each problem from this one on whose value is the name of a copy that copies cannot be named, in place of what was
+/// expected: they are made after all names have been looked up.
+void explain_copies(const MirrorNames& names, const Scene& scene, std::size_t first,
+                    std::vector<Problem>& problems);
 
 /// Appends a mirrored copy of each body, hinge and loop whose name is covered: points have x → −x, angles and rates the
 /// other sign; torques, which count along the travel, stay. Notes a problem where names, or the tree, allow no copy.

@@ -173,9 +173,11 @@ Scene read_scene(const JsonCursor& at) {
     loop_ends.push_back(read_synchronisation(loops[i], scene.synchronisations[i]));
   refuse_unphysical(at, scene);
   check_names(at, scene);
+  const std::size_t before_links = at.problems().size();
   link_hinges(at, ends, scene);
   link_releases(at, ends, scene);
   link_synchronisations(at, loop_ends, scene);
+  explain_copies(names, scene, before_links, at.problems());
   if (mirror && at.problems().size() == known_problems) add_mirrored(*mirror, names, scene);
   return scene;
 }

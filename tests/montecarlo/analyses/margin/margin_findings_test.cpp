@@ -205,6 +205,9 @@ TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {
   verdict.decision = Decision::undecided, verdict.not_listed = verdict.cut = verdict.open = 100;
   CHECK(why_withheld(search) == "no scale that was run meets all requirements; at some only "
                                 "because t_end cut peaks: lengthen t_end");
+  search.seen = {{1, scale_with(9, 0)}, {1.36, scale_with(9, 0)}, {1.45, scale_with(0, 9)}};
+  CHECK_THAT(why_withheld(search), Catch::Contains("between 1.36 and 1.45"));
+  search.seen = {{0.0625, scale_with(0, 0)}, {16, scale_with(0, 0)}};
   search.withheld = Withheld::no_lower_edge;
   CHECK(why_withheld(search) == "nothing fails down to 0.0625: no edge was found, and how far down "
                                 "the springs may go is not known");

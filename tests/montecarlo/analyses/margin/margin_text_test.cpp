@@ -126,6 +126,23 @@ TEST_CASE("the text of a margin has the numbers of its window", "[margin]") {
   CHECK(prints(text, "joint confidence of 2 requirements: at least 60 %")); // 1 − 2 edges · 2 · 0.1
 }
 
+TEST_CASE("the text of a margin shows the deployed share of the worst case", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(runs_of_window));
+  MarginResult result = made_up_window(campaign);
+  result.cases.push_back({"root spring out", {}});
+  for (auto& [scale, cases] : result.searches[0].seen) {
+    cases.push_back(cases[0]);
+    const std::size_t worst = scale < 1 ? 1 : 0; // not always the same one
+    cases[worst].statuses[static_cast<std::size_t>(Status::deployed)] -= 300;
+    cases[worst].statuses[static_cast<std::size_t>(Status::timed_out)] += 300;
+  }
+  const std::string text = margin_text({campaign, result, {}});
+  CAPTURE(text);
+  CHECK(prints(text, "worst case"));
+  CHECK(words_after(text, "  0.75 ").at(0).starts_with("65"));
+  CHECK(words_after(text, "  1.5 ").at(0).starts_with("70"));
+}
+
 TEST_CASE("the text of a margin says what is recommended, and what it costs", "[margin]") {
   const Campaign campaign = campaign_of(one_panel_margin(runs_of_window));
   MarginResult result = made_up_window(campaign);

@@ -85,6 +85,16 @@ TEST_CASE("an empty window is proven by those that never hold together", "[windo
   CHECK(closed_by(three) == std::vector<std::size_t>{0, 1, 2});
 }
 
+TEST_CASE("a window may lie between scales of which none has a failing condition in common",
+          "[window]") {
+  using Cells = std::vector<std::pair<double, double>>;
+  const Failing low{0}, high{1}, both{0, 1};
+  CHECK(unresolved_cells({{1, low}, {1.36, low}, {1.45, high}, {2, high}}) == Cells{{1.36, 1.45}});
+  CHECK(unresolved_cells({{1, low}, {1.4, both}, {2, high}}).empty());
+  CHECK(unresolved_cells({{1, low}, {1.4, {}}, {2, high}}).empty()); // a window
+  CHECK(unresolved_cells({{1, low}, {1.2, high}, {1.4, low}}) == Cells{{1, 1.2}, {1.2, 1.4}});
+}
+
 TEST_CASE("what holds up to an end of the range has no edge there", "[window]") {
   const auto windows = windows_of(search({{0.8, 10}}));
   REQUIRE(windows.size() == 1);

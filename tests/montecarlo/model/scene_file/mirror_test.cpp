@@ -124,6 +124,27 @@ TEST_CASE("A mirrored hold waits for the hinge of its own wing", "[mirror]") {
   CHECK(scene.hinges[3].release->after == 2);
 }
 
+TEST_CASE("A name of a copy is refused as such, and other unknown names are not", "[mirror]") {
+  const auto expected = [](const char* pointer, const Json& value) {
+    Json json = two_wings();
+    json["hinges"][1]["release"] = parse_json(R"({ "after": "R_root", "event": "latched" })");
+    json[Json::json_pointer(pointer)] = value;
+    try {
+      (void)read_scene(json);
+    } catch (const SpecError& error) {
+      return error.problems().front().expected;
+    }
+    return std::string();
+  };
+  for (const char* pointer : {"/hinges/1/release/after", "/hinges/1/parent"}) {
+    CAPTURE(pointer);
+    const bool hinge = std::string(pointer).ends_with("after");
+    CHECK_THAT(expected(pointer, hinge ? "L_root" : "L_inner"),
+               Catch::Contains("mirror") && Catch::Contains(hinge ? "R_root" : "R_inner"));
+    CHECK_THAT(expected(pointer, "L_rot"), !Catch::Contains("copy")); // no R_rot
+  }
+}
+
 TEST_CASE("A pattern covers the names that begin and end as it does, without an overlap",
           "[mirror]") {
   const std::vector<std::string> words = [] {

@@ -1,6 +1,6 @@
 // Where check says that no peak can be proven final, no run of any length has a proof; elsewhere runs have one.
 #include "core/deployment.hpp"
-#include "montecarlo/model/input_checks/finality_check.hpp"
+#include "montecarlo/model/input_checks/requirement_checks.hpp"
 
 #include <catch2/catch.hpp>
 

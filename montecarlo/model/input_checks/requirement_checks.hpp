@@ -1,0 +1,29 @@
+/// Checks a campaign's requirements: those that no run, or every run, meets.
+#pragma once
+
+#include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/model/input_checks/input_warning.hpp"
+
+#include <string_view>
+
+namespace wingspread {
+
+/// Where no peak of a deployed wing can be proven final, whatever t_end is.
+/// @return the reason, to follow "a limit on root.peak_moment"; empty where a proof may exist
+[[nodiscard]] std::string_view why_never_final(const Scene& scene);
+
+/// Warns of requirements that no run or every run meets, each by the first rule that it breaks:
+///
+/// - a negative limit of a magnitude, or one on the other side of zero than the nominal value
+/// - a limit on an angle or a rate that is in degrees or has been converted twice: about 57.3 from the nominal value
+/// - a limit on a peak of which no peak is ever proven final
+/// - a limit on a final angle or an overtravel of more than half the travel
+/// - a limit a hundred times the nominal value, or a hundredth of it, of times, rates and loads
+///
+/// and of a lower limit above an upper one of the same output.
+///
+/// @param nominal  the nominal deployment
+/// @param warnings with the list of requirements as its place
+void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings);
+
+} // namespace wingspread
