@@ -166,8 +166,8 @@
     );
   }
 
-  // Whether a run keeps a limit. A run that does not deploy breaks every requirement; a peak that t_end cut may still rise:
-  // above a max, or to a min, which it keeps once it has reached it.
+  // Whether a run keeps a limit. A run that does not deploy breaks every requirement. A peak that
+  // t_end cut may still rise: above a max, or to a min, which it keeps once it has reached it.
   function verdictOf(one, output, made, value) {
     const size = one.abs ? Math.abs(value) : value;
     if (made.status !== "deployed" || value === null) return "failed";

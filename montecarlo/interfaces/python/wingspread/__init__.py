@@ -184,8 +184,8 @@ def simulate(scene: Source, *, set: Changes | None = None, case: str = "", dt: f
 
     set: changes of the wing. case: the case; default: the campaign's wing without any of its cases. dt: interval
     between rows of the trajectory, s; default: every step. method, latch, step (s), rtol, atol (rad and rad/s), t_end
-    (s): as the options of `wingspread simulate`; default: the campaign's. check: repeat the run by another method at a tighter tolerance;
-    outcome["check"] has the digits that agree.
+    (s): as the options of `wingspread simulate`; default: the campaign's. check: repeat the run by another method at a
+    tighter tolerance; outcome["check"] has the digits that agree.
     """
     settings = _settings(set, case, method, latch, step, rtol, atol, t_end)
     interval = _number("dt", dt)
