@@ -24,6 +24,7 @@ try:
     from cause_checks import CauseChecks
     from change_checks import ChangeChecks
     from data_checks import DataChecks
+    from drawing_checks import DrawingChecks
     from finding_checks import FindingChecks
     from fit_checks import FitChecks, made_fit
     from fit_page_checks import FitPageChecks
@@ -95,7 +96,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(CauseChecks, StudyPageChecks, JudgementChecks, ShapeChecks, WordChecks, PartChecks, FitPageChecks, RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, NumberChecks, Page):
+class Quick(CauseChecks, StudyPageChecks, JudgementChecks, ShapeChecks, WordChecks, PartChecks, FitPageChecks, RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, DrawingChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")

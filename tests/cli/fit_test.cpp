@@ -85,7 +85,7 @@ TEST_CASE("fit: too few runs are no result, and --resume goes on with them") {
   const Fit fit(1500);
   const auto fewer = fit(5, "few", {"--runs", "50"}); // than the sampler makes before it can judge
   CHECK(fewer.code == 2);
-  CHECK_THAT(fewer.error, HasFacts({"--runs: found 50, expected at least 2080"}));
+  CHECK_THAT(fewer.error, HasFacts({"--runs: found 50, expected a whole number at least 2080"}));
   const auto few = fit(5, "few", {"--runs", "2080"});
   CHECK(few.code == 1);
   CHECK(few.out.starts_with("not finished: effective sample size"));

@@ -19,6 +19,9 @@ TEST_CASE("merge puts shards together, and says where the files are") {
   CHECK_THAT(refused.error, HasFacts({"runs 10 to 19", "20 runs", "1 command", "--preview",
                                       "\n  wingspread run " + a + "/campaign.json --out " +
                                           folder.path().string() + "/shard_2_of_2 --shard 2/2\n"}));
+  const auto onto_itself = run_program(folder, {"merge", a, b, "--out", a});
+  CHECK(onto_itself.code == 2);
+  CHECK_THAT(onto_itself.error, HasFacts({"--out", a, "which is read", "another folder"}));
   const auto [code, text, error] = run_program(folder, {"merge", b, a, "--out", out});
   CHECK(code == 0);
   CHECK(error.empty());
@@ -123,6 +126,22 @@ TEST_CASE("a campaign that stopped is complete, whatever it is judged by afterwa
   CHECK(after["until"] == before["until"]);
   CHECK_FALSE(after["wingspread"].contains("partial"));
   CHECK(after["requirements"][0]["name"] == "L-1");
+}
+
+TEST_CASE("a list with an entry that is empty is refused") {
+  const DoneCampaign done(quick_campaign(6));
+  for (const char* list : {"0.1,", ",0.1", "0.1,,0.9", ","}) {
+    const auto refused = done.program({"analyze", done.path, "--quantiles", list});
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.error, HasFacts({"--quantiles", list, "empty"}));
+    const auto named = run_program(done.folder, {"modes", three_panel_file(), "--latched", list});
+    CHECK(named.code == 2);
+    CHECK_THAT(named.error, HasFacts({"--latched", list, "empty"}));
+  }
+  const auto word = done.program({"analyze", done.path, "--quantiles", "0.1,half"});
+  CHECK(word.code == 2);
+  CHECK_THAT(word.error, HasFacts({"--quantiles", "\"half\"", "a number"}));
+  CHECK(done.program({"analyze", done.path, "--quantiles", "0.1", "0.2,0.3"}).code == 0);
 }
 
 TEST_CASE("analyze shows the histograms of every case") {

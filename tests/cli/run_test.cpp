@@ -208,8 +208,8 @@ TEST_CASE("runs that stall are counted with their reasons, and are no failures")
 TEST_CASE("an interrupted run keeps what is done, and resuming completes it", "[parallel]") {
   const RunSetting setting(quick_campaign(4000));
   const auto path = setting.folder.path() / "r";
-  const int signal = GENERATE(SIGINT, SIGTERM);
-  const bool urgent = signal == SIGTERM; // it ends at once: the statistics can be made later
+  const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
+  const bool urgent = signal != SIGINT; // it ends at once: the statistics can be made later
   const Program program(setting.folder,
                         {"run", setting.campaign, "--out", setting.out, "--threads", "2"});
   REQUIRE(wait_for_lines(path / runs_file, 50));

@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import types
@@ -91,6 +92,28 @@ class Manners(unittest.TestCase):
         np.testing.assert_equal(wingspread.simulate(types.MappingProxyType(scene)), expected)
         with self.assertRaisesRegex(TypeError, "/bodies/1: found set"):
             wingspread.simulate(scene | {"bodies": [scene["bodies"][0], {1}]})
+
+    def test_an_argument_of_another_type_is_refused_by_its_name(self):
+        for name, value in (("case", 1), ("case", None), ("method", 5), ("latch", 1e-3), ("check", "yes")):
+            with self.assertRaisesRegex(wingspread.SpecError, f"--{name}: found {value!r}, expected"):
+                wingspread.simulate(SCENE, **{name: value})
+        with self.assertRaisesRegex(wingspread.SpecError, "--case: found 1, expected a text"):
+            wingspread.run(CAMPAIGN, runs=1, case=1)
+        for paths in (None, 5, [5]):
+            with self.assertRaisesRegex(wingspread.SpecError, "--paths: found .*, expected a list of texts"):
+                wingspread.Model(SCENE, paths)
+
+    def test_without_a_case_the_wing_is_that_of_the_program(self):
+        campaign = json.loads(pathlib.Path(CAMPAIGN).read_text())
+        campaign["scene"] = json.loads(pathlib.Path(SCENE).read_text())
+        campaign["cases"] = [{"name": "weak", "scale": {"hinges.*.spring.scale": 0.9}}]
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "c.json")
+            file.write_text(json.dumps(campaign))
+            outcome = json.loads(program("simulate", file, "--json").stdout)
+        self.assertEqual(wingspread.simulate(campaign).outcome, outcome)
+        model = wingspread.Model(campaign, ["hinges.*.spring.scale"], ["deployment_time"])
+        self.assertEqual(model([[1]])[0, 0], outcome["latches"][-1]["time"])
 
     def test_the_stubs_say_what_the_module_has(self):
         tree = ast.parse((pathlib.Path(wingspread.__file__).parent / "_native.pyi").read_text(encoding="utf-8"))

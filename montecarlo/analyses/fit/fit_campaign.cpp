@@ -2,12 +2,15 @@
 
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/random_stream.hpp"
+#include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/distribution_json.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 namespace wingspread {
@@ -79,6 +82,26 @@ Campaign campaign_of_test(const Campaign& campaign, const CaseSpec* of_case) {
     base.resolved.erase(key);
   base.resolved["statistics"].erase("tolerance");
   return base;
+}
+
+void add_measured(const JsonCursor& at, const std::string& name, const Scene& scene,
+                  Outputs& outputs) {
+  std::vector<std::string> known;
+  for (const OutputColumn& column : output_columns(scene, all_outputs()))
+    known.push_back(column.name);
+  if (std::ranges::find(known, name) != known.end()) {
+    if (const auto family = family_of(name)) outputs.insert(*family);
+    return;
+  }
+  constexpr std::array<std::string_view, 5> words{deployed_output, "status", "reason",
+                                                  "latch_order", "peaks_final"};
+  if (std::ranges::find(words, name) != words.end())
+    at.refuse(fmt::format("\"{}\", which is no number", name),
+              fmt::format("a number that a test measures, such as \"{}\": a time, a rate, a "
+                          "moment, a force, an angle or a frequency of montecarlo/OUTPUTS.md",
+                          known.front()));
+  else
+    at.refuse(fmt::format("\"{}\"", name), "an output of the scene" + did_you_mean(name, known));
 }
 
 std::vector<std::size_t> with_other_law(const Campaign& test, const Campaign& campaign,

@@ -14,6 +14,10 @@ inline constexpr const char* posterior_file = "posterior.csv";
 /// The campaign of a test: its case, without cases, and without what only statistics need. @param of_case may be null
 [[nodiscard]] Campaign campaign_of_test(const Campaign& campaign, const CaseSpec* of_case);
 
+/// Adds the family that has a measured output; notes a problem for what is no number of a run.
+void add_measured(const JsonCursor& at, const std::string& name, const Scene& scene,
+                  Outputs& outputs);
+
 /// The dispersions among these whose law in the test's campaign is not the campaign's.
 [[nodiscard]] std::vector<std::size_t> with_other_law(const Campaign& test,
                                                       const Campaign& campaign,

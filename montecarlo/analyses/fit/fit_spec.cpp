@@ -311,7 +311,7 @@ private:
                 "one of them");
     } else if (output && output->read(value.name, "a string, the name of an output")) {
       value.unit = parse_output_name(value.name).unit;
-      add_family(*output, value.name, test.campaign.scene, outputs);
+      add_measured(*output, value.name, test.campaign.scene, outputs);
     } else if (parameter && parameter->read(value.name, "a string, a parameter's path")) {
       const ParameterMatches found = resolve(test.campaign.scene, value.name);
       if (found.matches.size() == 1) {
@@ -329,18 +329,6 @@ private:
       at.refuse(fmt::format("a second value of \"{}\"", value.name),
                 "one in a test: the mean of several, with its std, or a test for each");
     test.values.push_back(std::move(value));
-  }
-
-  /// Adds the family that has the output.
-  static void add_family(const JsonCursor& at, const std::string& name, const Scene& scene,
-                         Outputs& outputs) {
-    std::vector<std::string> known;
-    for (const OutputColumn& column : output_columns(scene, all_outputs()))
-      known.push_back(column.name);
-    if (std::ranges::find(known, name) == known.end())
-      at.refuse(fmt::format("\"{}\"", name), "an output of the scene" + did_you_mean(name, known));
-    else if (const auto family = family_of(name))
-      outputs.insert(*family);
   }
 
   void read_own(const JsonCursor& at, FitTest& test) const {

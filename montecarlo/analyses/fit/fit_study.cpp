@@ -354,6 +354,8 @@ long set_intervals(const Campaign& campaign, const FitOptions& options,
 
 } // namespace
 
+long least_most_runs() { return least_evaluations(walkers_for(1)); }
+
 FitResult fit_campaign(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,
                        const std::atomic<bool>& stop, BatchLog* log,
                        const std::function<void(const EnsembleState&)>& report_progress) {

@@ -22,6 +22,9 @@ struct FitOptions {
   double confidence = 0.95;
 };
 
+/// The least that most_runs may be with up to eight parameters; it grows in proportion with more.
+[[nodiscard]] long least_most_runs();
+
 /// A parameter as its dispersion applies it; an offset in SI.
 struct FittedParameter {
   std::string name, unit;

@@ -199,7 +199,12 @@ std::string_view rule_of(const MarginSearch& search) {
 std::string why_this_one(const MarginSearch& search) {
   const auto [lower, upper] = search.as_good;
   if (lower == upper) return "";
-  return fmt::format(". All scales seen from {} to {} are as good: {}", lower, upper,
+  const bool none_breaks = strain(search.seen.at(*search.recommended)) == 0;
+  const std::string others =
+      none_breaks ? fmt::format(", nor at any other scale seen from {} to {}", lower, upper)
+                  : fmt::format(". No scale seen has fewer, and those from {} to {} have as few",
+                                lower, upper);
+  return fmt::format("{}: {}", others,
                      *search.recommended == 1 ? fmt::format("the {} are among them and are kept",
                                                             words_of(search).present)
                                               : "their geometric mean is recommended");

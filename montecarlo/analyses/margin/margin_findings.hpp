@@ -70,8 +70,8 @@ concessions(const Campaign& campaign, const MarginResult& result, const MarginSe
 /// The condition with the largest strain at a scale (recommendation.hpp); the first of equals.
 [[nodiscard]] std::size_t most_strained(const ScaleResult& cases);
 
-/// Explains the choice among scales of equal strain: ", and as few from 1.2 to 1.6: their geometric mean is
-/// recommended". Empty if no other scale is as good. @pre a scale is recommended
+/// Explains the choice among scales of equal strain: ", nor at any other scale seen from 1.2 to 1.6: their
+/// geometric mean is recommended". Empty if no other scale is as good. @pre a scale is recommended
 [[nodiscard]] std::string why_this_one(const MarginSearch& search);
 
 /// How a search's text calls what it scales.

@@ -136,10 +136,12 @@ double LimitState::of_deployed(const Scene& scene, const Outcome& outcome) const
 
 double LimitState::of(const Scene& scene, const Outcome& outcome) const {
   if (column_) {
-    if (is_cut(peak(), peaks_final_of(outcome))) return std::numeric_limits<double>::quiet_NaN();
     const double signed_value = output_of(*column_, outcome);
     const double value = event_.absolute ? std::abs(signed_value) : signed_value;
-    return event_.above ? event_.limit - value : value - event_.limit;
+    const double g = event_.above ? event_.limit - value : value - event_.limit;
+    // A cut peak may still rise: into an event above the limit, out of one below it.
+    const bool open = is_cut(peak(), peaks_final_of(outcome)) && (event_.above || g < 0);
+    return open ? std::numeric_limits<double>::quiet_NaN() : g;
   }
   return outcome.status == Status::deployed ? of_deployed(scene, outcome)
                                             : -remaining_travel(scene, outcome);

@@ -8,7 +8,8 @@
 ///
 /// An output beyond a limit:  g = limit − value (event above) or value − limit (event below), in the output's unit. A
 /// run without the output (no deployment time, or a failed run without peaks) counts as the event, just as it breaks a
-/// requirement. So does a run whose peak t_end cut (finality.hpp): g is NaN.
+/// requirement. So does a run whose peak t_end cut (finality.hpp): g is NaN,
+/// unless the event is a peak below the limit, and the peak has reached the limit already.
 ///
 /// Not deployed:  for a deployed wing g is the smallest of its reserves, each as a share of the nominal wing's:
 ///
@@ -61,7 +62,8 @@ public:
   [[nodiscard]] PeakKind peak() const {
     return column_ ? peak_kind(column_->name) : PeakKind::none;
   }
-  /// g of a run; NaN for a run without the output, and for a cut peak (subset_simulation counts NaN as the event).
+  /// g of a run; NaN for a run without the output, and for a cut peak that may still rise into the event or out of it
+  /// (subset_simulation counts NaN as the event).
   [[nodiscard]] double of(const Scene& scene, const Outcome& outcome) const;
   /// g as a Measure of a RunPlan, with the event as its recipe. @pre the limit state outlives it
   [[nodiscard]] Measure measure() const;

@@ -177,7 +177,7 @@ private:
     for (const auto& [value, status, cut, open] : runs_.judge(moved, report_progress)) {
       values.push_back(value);
       ++result_.statuses[static_cast<std::size_t>(status)];
-      result_.cut += cut, result_.open_latches += open;
+      result_.cut += cut && std::isnan(value), result_.open_latches += open;
       if (options_.event.output.empty()) continue;
       result_.undeployed += status != Status::deployed && !std::isnan(value);
       result_.absent +=

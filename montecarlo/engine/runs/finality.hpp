@@ -6,9 +6,10 @@
 /// |--------------------------------------------|---------------------------|-----------------------------------------|
 /// | a peak moment or force, no larger one to   | final                     | as its value                            |
 /// |   come by proof                            |                           |                                         |
-/// | … without that proof                       | cut: it may still rise    | against every limit: worse than any     |
-/// |                                            |                           |   number for requirements, tolerance    |
-/// |                                            |                           |   limits, `margin` and `rare`           |
+/// | … without that proof                       | cut: it may still rise    | against a `max`: worse than any number  |
+/// |                                            |                           |   for requirements, upper tolerance     |
+/// |                                            |                           |   limits, `margin` and `rare`; for a    |
+/// |                                            |                           |   `min` as its value, its least         |
 /// |                                            |                           | as its value for statistics and         |
 /// |                                            |                           |   sensitivities, with a warning         |
 /// | a latch not engaged, no proof of a stall   | `timed_out`               | as not deployed                         |
@@ -17,7 +18,8 @@
 /// | any other output                           | that of the run up to its | as its value                            |
 /// |                                            |   end, by its definition  |                                         |
 ///
-/// A cut peak shows no requirement, and it disproves one only if its value is beyond the limit already (verdict.hpp).
+/// A cut peak shows no `max`, and it disproves one only if its value is beyond the limit already (verdict.hpp). It meets a
+/// `min` that it has reached; below it, it disproves none.
 #pragma once
 
 #include "core/outcome.hpp"

@@ -54,11 +54,13 @@ bool is_alive(const std::string& name) {
   return of_this_boot && process > 0 && (kill(process, 0) == 0 || errno == EPERM);
 }
 
+std::string without_boot(const std::string& holder) {
+  return holder.empty() ? "another process" : holder.substr(0, holder.find(", boot "));
+}
+
 [[noreturn]] void refuse_second(const std::filesystem::path& folder, const std::string& holder) {
-  const std::string who =
-      holder.empty() ? "another process" : holder.substr(0, holder.find(", boot "));
-  throw MachineError(
-      {folder.string(), "", who + " at work in it", "a folder that no other process writes to"});
+  throw MachineError({folder.string(), "", without_boot(holder) + " at work in it",
+                      "a folder that no other process writes to"});
 }
 
 int open_without_signals(const std::filesystem::path& path, int flags) {
@@ -116,15 +118,15 @@ std::optional<int> take(const std::filesystem::path& folder, const std::filesyst
   refuse_path(path, error, expected);
 }
 
-/// @throws if another process holds a folder that this process cannot write to
-void refuse_writer(const std::filesystem::path& folder, const std::filesystem::path& path) {
+/// The name in the lock's file if a process holds the lock; nothing if none does.
+std::optional<std::string> name_of_holder(const std::filesystem::path& path) {
   const int file = open_without_signals(path, O_RDONLY);
-  if (file < 0) return; // not locked
-  const std::string holder = name_in(file);
+  if (file < 0) return std::nullopt; // not locked
+  std::string holder = name_in(file);
   const bool held = flock(file, LOCK_SH | LOCK_NB) != 0 &&
                     (errno == EWOULDBLOCK || (errno != EINTR && is_alive(holder)));
   close(file);
-  if (held) refuse_second(folder, holder);
+  return held ? std::optional(std::move(holder)) : std::nullopt;
 }
 
 /// Writes this process's name into the file. @return 0, or the error
@@ -141,10 +143,16 @@ int write_name(int file) {
 
 } // namespace
 
+std::string holder_of(const std::filesystem::path& folder) {
+  const std::optional<std::string> holder = name_of_holder(folder / lock_file);
+  return holder ? without_boot(*holder) : "";
+}
+
 FolderLock::FolderLock(std::filesystem::path folder, For purpose, const char* expected)
     : folder_(std::move(folder)), path_(folder_ / lock_file) {
   if (purpose == For::reading && is_read_only(folder_, path_)) {
-    refuse_writer(folder_, path_);
+    // This process cannot write there.
+    if (const auto holder = name_of_holder(path_)) refuse_second(folder_, *holder);
     return;
   }
   std::error_code unknown;

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace wingspread {
 
 /// The lock file, which names its holder. It exists while the holder lives; a file left by a crash does not lock.
 inline constexpr const char* lock_file = ".lock";
+
+/// The process that holds the folder, "process 123 on HOST"; empty if none does.
+[[nodiscard]] std::string holder_of(const std::filesystem::path& folder);
 
 /// Holds a folder for this process. The lock is the system's (flock), which ends with the process. On a file system
 /// without flock, the folder is locked while the process named in the file is alive: on this machine, and since its

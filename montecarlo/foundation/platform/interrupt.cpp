@@ -9,7 +9,7 @@ namespace wingspread {
 namespace {
 
 // A signal handler can reach nothing but globals, and may touch only lock-free ones.
-std::atomic<bool> raised = false, by_scheduler = false;
+std::atomic<bool> raised = false, is_last = false;
 std::atomic<const char*> last_words = nullptr;
 static_assert(std::atomic<bool>::is_always_lock_free &&
               std::atomic<const char*>::is_always_lock_free);
@@ -29,7 +29,7 @@ static void wingspread_raise(int signal) {
   if (const char* words = last_words) end_now(words);
   if (raised.exchange(true))
     end_now("interrupted twice: what was under way is lost, what is in files is kept\n");
-  by_scheduler = signal == SIGTERM;
+  is_last = signal != SIGINT;
 }
 }
 
@@ -47,21 +47,24 @@ void arm(int signal, struct sigaction* before) {
 } // namespace
 
 Interrupt::Interrupt() {
-  raised = by_scheduler = false;
+  raised = is_last = false;
   last_words = nullptr;
   arm(SIGINT, &before_int_);
   arm(SIGTERM, &before_term_);
+  arm(SIGHUP, &before_hang_up_);
+  if (before_hang_up_.sa_handler == SIG_IGN) sigaction(SIGHUP, &before_hang_up_, nullptr); // nohup
 }
 
 Interrupt::~Interrupt() {
   last_words = nullptr;
   sigaction(SIGINT, &before_int_, nullptr);
   sigaction(SIGTERM, &before_term_, nullptr);
+  sigaction(SIGHUP, &before_hang_up_, nullptr);
 }
 
 const std::atomic<bool>& Interrupt::flag() const { return raised; }
 
-bool Interrupt::is_urgent() const { return by_scheduler; }
+bool Interrupt::is_urgent() const { return is_last; }
 
 void Interrupt::end_at_once(const char* words) { last_words = words; }
 

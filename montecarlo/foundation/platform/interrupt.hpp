@@ -1,4 +1,4 @@
-/// Ctrl-C and SIGTERM as a flag, so that finished work is kept.
+/// Ctrl-C, SIGTERM and the end of a terminal (SIGHUP) as a flag, so that finished work is kept.
 #pragma once
 
 #include "montecarlo/foundation/platform/stopped.hpp"
@@ -11,7 +11,8 @@ namespace wingspread {
 /// The exit status of a program ended by a signal.
 inline constexpr int interrupted_status = 130;
 
-/// While an Interrupt exists, the first SIGINT or SIGTERM sets a flag, and the second ends the program.
+/// While an Interrupt exists, the first SIGINT, SIGTERM or SIGHUP sets a flag, and the second ends the program.
+/// A SIGHUP that the program was started to ignore (nohup) stays ignored.
 /// @pre no other Interrupt exists
 class Interrupt {
 public:
@@ -23,7 +24,7 @@ public:
   /// True after the first signal.
   [[nodiscard]] const std::atomic<bool>& flag() const;
 
-  /// Whether the signal was SIGTERM: a batch scheduler sends it and kills the program some seconds later.
+  /// Whether the signal was SIGTERM, which a batch scheduler sends some seconds before it kills the program, or SIGHUP.
   [[nodiscard]] bool is_urgent() const;
 
   /// From now on a signal prints `words` to standard error and ends the program. For work that can simply be repeated.
@@ -32,7 +33,7 @@ public:
 
 private:
   struct sigaction before_int_ {
-  }, before_term_{};
+  }, before_term_{}, before_hang_up_{};
 };
 
 } // namespace wingspread

@@ -1,4 +1,5 @@
 #include "montecarlo/analyses/margin/margin_study.hpp"
+#include "montecarlo/engine/runs/campaign_check.hpp"
 #include "montecarlo/engine/runs/run_cost.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
@@ -85,7 +86,7 @@ void draw(const std::filesystem::path& picture, const Scene& scene) {
 std::vector<InputWarning> check_file(const std::variant<Scene, Campaign>& read,
                                      const std::filesystem::path& file) {
   if (const Scene* scene = std::get_if<Scene>(&read)) return check_input(*scene, {}, file);
-  return check_input(std::get<Campaign>(read), file);
+  return check_campaign(std::get<Campaign>(read), file);
 }
 
 int check(const CheckOptions& options) {
@@ -161,7 +162,7 @@ std::optional<std::vector<int>> latched_hinges(const Scene& scene,
 int modes(const ModesOptions& options) {
   const Scene scene = task_of(read_file(options.file), options.settings).scene;
   const std::optional<WingModes> found =
-      natural_modes(scene, latched_hinges(scene, options.latched));
+      natural_modes(scene, latched_hinges(scene, entries_of("--latched", options.latched)));
   if (!found)
     throw SpecError({{options.file.string(), "", "a wing without rest",
                       "latches, stops, springs or joints that end each hinge's turning, from the "
@@ -177,7 +178,6 @@ void add_modes_options(CLI::App& command, ModesOptions& options) {
       .add_option(
           "--latched", options.latched,
           "Hinges whose latches are engaged; others with a latch are held stowed. Default: all")
-      ->delimiter(',')
       ->type_name("HINGE,...");
   command.add_flag("--json", options.json, "Print the modes as JSON, with flexible bodies' joints");
   add_set_option(command, options.settings.set);

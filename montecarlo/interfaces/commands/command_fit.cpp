@@ -1,4 +1,5 @@
 #include "montecarlo/analyses/fit/fit_folder.hpp"
+#include "montecarlo/engine/runs/campaign_check.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
@@ -8,7 +9,6 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/model/input_checks/check_input.hpp"
 
 #include <fmt/format.h>
 
@@ -76,7 +76,7 @@ bool can_predict(const Campaign& campaign, const FitSpec& spec, const FitOptions
 
 int fit(const FitCommandOptions& given) {
   Campaign campaign = read_campaign_file(given.campaign);
-  print_warnings(check_input(campaign, given.campaign), false);
+  print_warnings(check_campaign(campaign, given.campaign), false);
   override_sampling(campaign, std::nullopt, given.seed);
   const FitSpec spec = read_fit_file(given.tests, campaign);
   FitOptions options{.pool = pool_of(given.machine)};
@@ -118,7 +118,7 @@ void add_fit_options(CLI::App& command, FitCommandOptions& options) {
                    "Continue an interrupted or unfinished fit in --out");
   within(command.add_option("--runs", options.runs,
                             "Most runs of the sampler a test; default: 400 a sample"),
-         1, std::numeric_limits<long>::max())
+         least_most_runs(), std::numeric_limits<long>::max())
       ->type_name("N");
   add_seed_option(command, options.seed);
   add_machine_options(command, options.machine);
@@ -140,7 +140,8 @@ campaign.json, which draws whole rows of posterior.csv: `wingspread run DIR/camp
 prediction. Prints first whether the model fits at all, then the parameters, what the tests do not
 see, and what further tests ("candidates") would tell. Dispersions that are not fitted are held at
 their medians. Exit code 1: the chains are not finished. A model that does not fit is told, with 0; so is
-a parameter at a limit of its prior ("at_limits" in fit.json).
+a parameter at a limit of its prior ("at_limits" in fit.json). With more than eight parameters the
+least --runs grows in proportion.
 
 Example:
   wingspread fit campaign.json tests.json --out fit

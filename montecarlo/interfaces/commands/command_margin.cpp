@@ -2,6 +2,7 @@
 #include "montecarlo/analyses/margin/margin_study.hpp"
 #include "montecarlo/analyses/margin/scaled_springs.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
+#include "montecarlo/engine/runs/campaign_check.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
@@ -148,9 +149,9 @@ int make_margin_shard(const Campaign& campaign, const MarginOptions& options, co
 /// Prints the input checks' warnings, of the requirements that the study judges.
 void warn_of_input(Campaign campaign, const MarginOptions& options) {
   const std::filesystem::path& other = options.requirements;
-  if (other.empty()) return print_warnings(check_input(campaign, options.campaign), false);
+  if (other.empty()) return print_warnings(check_campaign(campaign, options.campaign), false);
   campaign.requirements.clear();
-  print_warnings(check_input(campaign, options.campaign), false);
+  print_warnings(check_campaign(campaign, options.campaign), false);
   campaign.requirements = read_requirements_file(other, campaign);
   if (campaign.requirements.empty())
     throw SpecError(

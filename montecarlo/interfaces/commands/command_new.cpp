@@ -20,6 +20,8 @@
 namespace wingspread {
 namespace {
 
+constexpr int many_panels = 14; // heuristic: from there on the trial deployments take seconds
+
 struct NewOptions {
   WingDesign design;
   std::filesystem::path out;
@@ -74,6 +76,10 @@ int make_new(const NewOptions& options) {
   if (!options.example.empty()) return copy_example(options);
   const bool asks = !options.designed && isatty(STDIN_FILENO) == 1;
   const WingDesign design = asks ? ask_design(std::cin, std::cout) : options.design;
+  if (design.panels >= many_panels)
+    print_message("the wing is deployed several times to choose its damper and its limits: with "
+                  "{} panels this takes up to a minute\n",
+                  design.panels);
   const Starter starter = make_starter(design, command_of(design, options.out.string()));
   const std::filesystem::path folder =
       options.out.empty() ? std::filesystem::path(design.name) : options.out;

@@ -1,5 +1,6 @@
 #include "montecarlo/analyses/rare/rare_report.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
+#include "montecarlo/engine/runs/campaign_check.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
@@ -11,7 +12,6 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
@@ -69,10 +69,8 @@ RareEvent event_of(const RareCommandOptions& options) {
 
 /// @throws SpecError for a limit on a time after t_end: a hinge that has not latched by then has no time
 void refuse_late_limit(const RareCommandOptions& options, const Campaign& campaign) {
-  const std::string quantity = parse_output_name(options.output).quantity;
   const double t_end = campaign.integration.t_end;
-  if (quantity != "latch_time" && quantity != "deployment_time") return;
-  if (limit_of(options) <= t_end) return;
+  if (options.output.empty() || !is_late_limit(options.output, limit_of(options), t_end)) return;
   throw SpecError(
       {{"", options.above.empty() ? "--below" : "--above", fmt::format("{} s", limit_of(options)),
         fmt::format("at most t_end, {} s: later latches are not seen (raise t_end for a "
@@ -147,7 +145,7 @@ int rare(const RareCommandOptions& given) {
   RareOptions options = given.rare;
   options.event = event_of(given);
   const Campaign whole = read_campaign_file(given.campaign);
-  print_warnings(check_input(whole, given.campaign), false);
+  print_warnings(check_campaign(whole, given.campaign), false);
   Campaign campaign = chosen_case(whole, given.of_case);
   override_sampling(campaign, std::nullopt, given.seed);
   refuse_late_limit(given, campaign);
@@ -216,8 +214,9 @@ drawn (a release that fails, one in 100,000) is simulated by itself, with its ex
   If the simulation does not reach the event, it prints the estimated probability of the last level:
 an estimated upper bound, not guaranteed.
   A run without the output (it stalled before, or failed) counts as the event. So does a run whose
-peak t_end cut, as it breaks a requirement in `wingspread run`; their number is printed. A longer
-t_end ("integration" in the campaign) decides them. A run that did not deploy but has the output
+peak t_end cut, as it breaks a requirement in `wingspread run`, unless --below X is given and the
+peak has reached X; their number is printed. A longer t_end ("integration" in the campaign) decides
+them. A run that did not deploy but has the output
 counts by its value, although it breaks every requirement in `wingspread run`.
 
 With --out the folder has looks.log, a checkpoint of all runs, until the study is finished: after an

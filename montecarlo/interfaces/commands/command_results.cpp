@@ -33,7 +33,7 @@ struct MergeOptions {
 
 struct AnalyzeOptions {
   std::filesystem::path folder, out;
-  std::vector<double> quantiles;
+  std::vector<std::string> quantiles; ///< as they are written
   std::optional<double> confidence;
   std::string bins;
   std::filesystem::path requirements;
@@ -69,7 +69,7 @@ Summary merge_without_rows(const MergeOptions& options) {
 }
 
 int merge(const MergeOptions& options) {
-  refuse_repeated(options.folders);
+  refuse_repeated(options.folders, options.out);
   const MergeKind kind = options.preview ? MergeKind::preview : MergeKind::whole;
   if (is_shard_folder(options.folders.front()))
     throw SpecError({{options.folders.front().string(), "", "a shard of a margin study",
@@ -99,10 +99,17 @@ Json bins_json(const std::string& text) {
   return number ? Json(*number) : Json(text);
 }
 
+/// A quantile of --quantiles; read_statistics checks its limits. @throws SpecError if it is no number
+Json quantile_json(const std::string& text) {
+  if (const auto number = parse_number<double>(text)) return *number;
+  throw SpecError({{"", "--quantiles", fmt::format("\"{}\"", text), "a number, > 0 and < 1"}});
+}
+
 /// The campaign with the settings and requirements that the options give.
 StoredCampaign as_asked(StoredCampaign stored, const AnalyzeOptions& options) {
   Json given = Json::object();
-  if (!options.quantiles.empty()) given["quantiles"] = options.quantiles;
+  for (const std::string& text : entries_of("--quantiles", options.quantiles))
+    given["quantiles"].push_back(quantile_json(text));
   if (options.confidence) given["confidence"] = *options.confidence;
   if (!options.bins.empty()) given["bins"] = bins_json(options.bins);
   override_settings(given,
@@ -209,7 +216,7 @@ void add_analyze_options(CLI::App& command, AnalyzeOptions& options) {
   command
       .add_option("--quantiles", options.quantiles,
                   "Quantiles, each > 0 and < 1, e.g. 0.1,0.9; default: the campaign's")
-      ->delimiter(',');
+      ->type_name("P,...");
   add_confidence_option(command, options.confidence);
   command.add_option("--bins", options.bins, "Bins of the histograms: from 1 to 10000, or auto");
   add_requirements_option(command, options.requirements);

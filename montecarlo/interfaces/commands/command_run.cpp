@@ -1,11 +1,11 @@
 #include "montecarlo/analyses/run/campaign_run.hpp"
+#include "montecarlo/engine/runs/campaign_check.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/model/input_checks/check_input.hpp"
 
 #include <fmt/format.h>
 
@@ -55,7 +55,7 @@ RunRequest request_of(const RunOptions& options) {
   change_scene(request.campaign, options.set);
   override_sampling(request.campaign, options.sampling.runs, options.sampling.seed);
   override_until(request.campaign, options.until);
-  print_warnings(check_input(request.campaign, options.campaign), options.strict);
+  print_warnings(check_campaign(request.campaign, options.campaign), options.strict);
   return request;
 }
 
@@ -135,15 +135,16 @@ Exit code 1: a requirement of the campaign is not shown to be met.
 For a campaign with cases the folder gets one results folder per case and cases.json, which compares
 the cases. All cases use the same draws. The exit code is the worst of all cases.
 
---until names a confidence interval and its largest width, from lower to upper bound, at the
-campaign's confidence. Several goals must be reached together:
-  "root.peak_moment@0.99 5 N*m"  the 0.99 quantile; a plain number is in SI units: N·m
-  "root.peak_moment@0.99 2%"     the same, as a share of the quantile
-  "deployed 1%"                  the share of runs that deploy (or of any status, HINGE.held):
-                                 the interval is 0.01 wide, from 98.5 to 99.5 % for example
-  "requirement deployed"         the requirement, by name or output, has passed or failed
+--until stops the campaign as soon as a result is known well enough, and --runs is then the most
+runs. Each goal names a result and how wide its confidence interval may be, from bound to bound, at
+the campaign's confidence. If --until is given several times, all goals must be reached:
+  "root.peak_moment@0.99 5 N*m"  the 0.99 quantile to within 5 N·m; a number alone is in SI units
+  "root.peak_moment@0.99 2%"     the 0.99 quantile to within 2 % of itself
+  "deployed 1%"                  the share of runs that deploy, to within one run in a hundred: from
+                                 98.5 to 99.5 %, for example (also of another status, HINGE.held)
+  "requirement deployed"         the requirement of that name or output has passed or failed
 The goals are checked after 1000, 2000, 4000, … runs and nowhere else, so a campaign always stops
-at the same run; its number of runs is the maximum. Each of these interim analyses adds a chance of
+at the same run. Each of these interim analyses adds a chance of
 a wrong answer, so all bounds and verdicts share their risk among them and hold wherever the
 campaign stops. --until excludes shards, draws that depend on each other, and campaigns in which
 nothing is dispersed.

@@ -2,6 +2,7 @@
 #include "montecarlo/analyses/sensitivity/rank_report.hpp"
 #include "montecarlo/analyses/sensitivity/sobol_report.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
+#include "montecarlo/engine/runs/campaign_check.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
@@ -12,7 +13,6 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 
 #include <fmt/format.h>
@@ -171,7 +171,7 @@ SaltelliDesign read_given_design(const SensitivityOptions& options) {
 
 SaltelliDesign new_design(const SensitivityOptions& options) {
   const Campaign whole = read_campaign_file(options.from);
-  print_warnings(check_input(whole, options.from), false);
+  print_warnings(check_campaign(whole, options.from), false);
   SaltelliDesign design{chosen_case(whole, options.of_case), options.samples.value_or(1000),
                         std::nullopt};
   override_sampling(design.campaign, std::nullopt, options.seed);

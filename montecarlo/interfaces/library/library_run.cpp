@@ -1,10 +1,10 @@
 #include "montecarlo/analyses/run/campaign_run.hpp"
+#include "montecarlo/engine/runs/campaign_check.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/library/table.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/overrides.hpp"
-#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ void check_options(const RunOptions& options) {
 
 std::vector<std::string> warnings_of(const Campaign& campaign, const std::filesystem::path& file) {
   std::vector<std::string> warnings;
-  for (const InputWarning& warning : check_input(campaign, file))
+  for (const InputWarning& warning : check_campaign(campaign, file))
     warnings.push_back(to_string(warning));
   return warnings;
 }

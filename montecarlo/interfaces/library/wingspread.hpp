@@ -43,9 +43,9 @@ struct Input {
 
 /// Replacements for settings of the input: the options of `wingspread simulate`.
 struct Settings {
-  std::vector<std::string> set{};               ///< "PATH=VALUE": changes of the nominal scene
-  std::string of_case{};                        ///< the case, for a campaign with cases
-  std::optional<std::string> method{}, latch{}; ///< latch: "event" or "smoothed:EPS"
+  std::vector<std::string> set{}; ///< "PATH=VALUE": changes of the nominal scene
+  std::string of_case{};          ///< the case; empty: the campaign's wing without any of its cases
+  std::optional<std::string> method{}, latch{};          ///< latch: "event" or "smoothed:EPS"
   std::optional<double> step{}, rtol{}, atol{}, t_end{}; ///< s; 1; rad and rad/s; s
 };
 

@@ -75,6 +75,21 @@ CLI::Option* with_unit(CLI::Option* option, std::string_view unit) {
   return option->transform(CLI::Validator(convert, ""));
 }
 
+std::vector<std::string> entries_of(const char* option, std::span<const std::string> given) {
+  std::vector<std::string> entries;
+  for (const std::string& text : given)
+    for (std::size_t first = 0; first <= text.size();) {
+      const std::size_t behind = std::min(text.find(',', first), text.size());
+      if (behind == first)
+        throw SpecError({{"", option, fmt::format("\"{}\", with an entry that is empty", text),
+                          "a name or number between any two commas (a list with spaces after its "
+                          "commas is written in quotation marks)"}});
+      entries.push_back(text.substr(first, behind - first));
+      first = behind + 1;
+    }
+  return entries;
+}
+
 void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed) {
   limited(command.add_option("--seed", seed, "The seed; default: the campaign's"),
           "from 0 to 2^64 - 1")

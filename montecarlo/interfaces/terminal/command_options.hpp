@@ -27,6 +27,10 @@ CLI::Option* limited(CLI::Option* option, std::string_view limits);
 CLI::Option* one_of(CLI::Option* option, std::vector<std::string> words);
 /// Takes a number with a unit, too: "20 min" for an option in seconds.
 CLI::Option* with_unit(CLI::Option* option, std::string_view unit);
+/// Splits each value of an option at its commas.
+/// @throws SpecError for a comma without an entry before or behind it
+[[nodiscard]] std::vector<std::string> entries_of(const char* option,
+                                                  std::span<const std::string> given);
 /// Reads a number in the unit, or with a unit of its own; nothing for other text.
 [[nodiscard]] std::optional<double> parse_quantity(std::string_view text, std::string_view unit);
 

@@ -124,7 +124,7 @@ bool is_named_in(const fs::path& read, const fs::path& out) {
 
 } // namespace
 
-void refuse_repeated(const std::vector<fs::path>& folders) {
+void refuse_repeated(const std::vector<fs::path>& folders, const fs::path& out) {
   std::vector<Problem> problems;
   for (auto folder = folders.begin(); folder != folders.end(); ++folder) {
     const auto first = std::find_if(folders.begin(), folder, [&](const fs::path& other) {
@@ -136,6 +136,10 @@ void refuse_repeated(const std::vector<fs::path>& folders) {
          *first == *folder ? "the same folder twice" : "the same folder as " + first->string(),
          "each folder once"});
   }
+  for (const fs::path& folder : folders)
+    if (!out.empty() && is_same_file(folder, out))
+      problems.push_back({"", "--out", '"' + out.string() + "\", which is read",
+                          "another folder, new or empty: this one stays as it is"});
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 

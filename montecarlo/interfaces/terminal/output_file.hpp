@@ -16,8 +16,11 @@ void refuse_overwriting(const std::filesystem::path& out,
                         const std::vector<std::filesystem::path>& read,
                         const char* option = "--out");
 
-/// Refuses a folder that is given twice, under the same name or another (a link, "r" and "./r").
+/// Refuses a folder that is given twice, under the same name or another (a link, "r" and "./r"), and the folder to
+/// write among them.
+/// @param out may be empty
 /// @throws SpecError that names the folder, before any is locked
-void refuse_repeated(const std::vector<std::filesystem::path>& folders);
+void refuse_repeated(const std::vector<std::filesystem::path>& folders,
+                     const std::filesystem::path& out = {});
 
 } // namespace wingspread

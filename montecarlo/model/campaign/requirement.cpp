@@ -207,14 +207,17 @@ void read_requirements(const JsonCursor& at, const std::vector<std::string>* out
   if (at.problems().size() == before) refuse_repeated_requirements(at, requirements);
 }
 
+bool is_late_limit(const std::string& output, double limit, double t_end) {
+  const std::string quantity = parse_output_name(output).quantity;
+  return (quantity == "latch_time" || quantity == "deployment_time") && !(limit <= t_end);
+}
+
 void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requirements,
                         double t_end) {
   for (std::size_t i = 0; i < requirements.size(); ++i) {
     const Requirement& own = requirements[i];
     const std::optional<double> limit = own.max ? own.max : own.min;
-    const std::string quantity = parse_output_name(own.output).quantity;
-    const bool is_time = quantity == "latch_time" || quantity == "deployment_time";
-    if (!is_time || !limit || *limit <= t_end) continue;
+    if (!limit || !is_late_limit(own.output, *limit, t_end)) continue;
     at.element(i)
         .member(own.max ? "max" : "min")
         .refuse(fmt::format("at most t_end, {} s: a hinge that has not latched by then breaks the "

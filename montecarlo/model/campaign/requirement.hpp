@@ -58,6 +58,9 @@ void read_requirements(const JsonCursor& at, const std::vector<std::string>* out
                        std::vector<Requirement>& requirements, const Scene* scene = nullptr,
                        Judged judged = Judged::no);
 
+/// Whether a limit of the output is a time that no run reaches: what has not latched by t_end has no time.
+[[nodiscard]] bool is_late_limit(const std::string& output, double limit, double t_end);
+
 /// Notes each limit on a time beyond t_end.
 void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requirements,
                         double t_end);

@@ -94,19 +94,21 @@ std::vector<InputWarning> check_input(const Scene& scene, const Integration& int
   return warnings.list();
 }
 
-std::vector<InputWarning> check_input(const Campaign& campaign, const std::filesystem::path& file) {
-  InputWarnings scene(scene_place(file)), rest({file.string()}),
+std::vector<InputWarning> check_input(const Campaign& campaign, const std::filesystem::path& file,
+                                      const DrawScenes& draw) {
+  InputWarnings scene(scene_place(file)), rest({file.string()}), drawn({file.string()}),
       judged({file.string(), "/requirements"});
   check_numbers(written_scene(campaign), scene);
   const Outcome nominal = check_motion(nominal_scene(campaign), campaign.integration, scene);
   check_cases(campaign, scene, rest);
-  check_dispersions(campaign, rest);
+  check_dispersions(campaign, rest,
+                    draw ? check_draws(campaign, draw, drawn) : std::set<std::string>{});
   check_spread(campaign, rest);
   check_correlations(campaign, rest);
   check_outputs(campaign, rest);
   check_requirements(campaign, nominal, judged);
   std::vector<InputWarning> all = scene.list();
-  for (const InputWarnings* more : {&rest, &judged})
+  for (const InputWarnings* more : {&rest, &drawn, &judged})
     all.insert(all.end(), more->list().begin(), more->list().end());
   return all;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/model/input_checks/draw_check.hpp"
 #include "montecarlo/model/input_checks/input_warning.hpp"
 
 #include <filesystem>
@@ -22,8 +23,10 @@ namespace wingspread {
 check_input(const Scene& scene, const Integration& integration, const std::filesystem::path& file);
 
 /// Checks a campaign: its nominal scene, the torques of its cases, its dispersions, correlations and requirements.
+/// @param draw makes draws of each case, which are looked at too (check_campaign has the campaign's own); empty: none
 [[nodiscard]] std::vector<InputWarning> check_input(const Campaign& campaign,
-                                                    const std::filesystem::path& file);
+                                                    const std::filesystem::path& file,
+                                                    const DrawScenes& draw = {});
 
 /// Checks the campaign's requirements, which are those of this file (read_requirements_file).
 [[nodiscard]] std::vector<InputWarning> check_requirements_file(const Campaign& campaign,

@@ -4,6 +4,7 @@
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/reached_correlation.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/model/input_checks/draw_check.hpp"
 
 #include <fmt/format.h>
 
@@ -24,7 +25,6 @@ constexpr double far = 30; // of a value set and the nominal value; inches for m
 constexpr double least_probability = 1e-9;
 constexpr double most_beyond = 0.05;     // share of the draws beyond the ends of a table
 constexpr double most_mean_added = 0.25; // of the nominal value
-constexpr double degrees_per_radian = 180 / std::numbers::pi;
 constexpr double one_cause = 0.8, several_causes = 0.5; // Spearman's coefficients
 
 /// The numbers of a law that the rules compare.
@@ -78,9 +78,10 @@ double size_of(const Scene& scene, const SceneParameter& parameter, const Target
 class TargetCheck {
 public:
   TargetCheck(const Scene& scene, const SceneParameter& parameter, Apply apply,
-              const Spread& spread, std::string place, InputWarnings& warnings)
+              const Spread& spread, std::string place, const std::set<std::string>& found,
+              InputWarnings& warnings)
       : scene_(scene), parameter_(parameter), apply_(apply), spread_(spread),
-        place_(std::move(place)), target_(scene, parameter), warnings_(warnings) {}
+        place_(std::move(place)), target_(scene, parameter), found_(found), warnings_(warnings) {}
 
   [[nodiscard]] bool warns() const {
     return wide_angle() || far_scale() || large_add() || far_set() || wrong_side();
@@ -161,11 +162,11 @@ private:
   }
 
   [[nodiscard]] bool wrong_side() const {
-    if (target_.nominal == 0) return false;
     const double probability = probability_of_other_side();
     if (probability < least_probability) return false;
     const bool drives = target_.is_spring() || target_.is_command();
-    if (!drives && !is_physical_size()) return false;
+    if (drives ? target_.nominal == 0 : found_.contains(target_.path) || !is_physical_size())
+      return false;
     return warn(fmt::format("a draw that {1} {2} with a probability of {0:.3g}", probability,
                             drives ? "changes the sign of" : "makes negative", target_.path),
                 fmt::format("a probability below {} (a lognormal law, or \"truncate\")",
@@ -178,21 +179,9 @@ private:
   const Spread& spread_;
   std::string place_;
   Target target_;
+  const std::set<std::string>& found_; ///< paths of which drawing has found negative values
   InputWarnings& warnings_;
 };
-
-/// The pointer of a dispersion in the file. Copies of an `each` share one pointer; their names begin with its name.
-std::string place_of(const Json& resolved, const std::string& name) {
-  const Json& list = resolved.at("dispersions");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string own = list[i].at("name").get<std::string>();
-    if (own == name || (list[i].contains("each") && name.starts_with(own + ".")))
-      return fmt::format("/dispersions/{}", i);
-    if (list[i].contains("rows") && list[i]["rows"]["columns"].contains(name))
-      return fmt::format("/dispersions/{}/rows/columns{}", i, pointer_token(name));
-  }
-  return "/dispersions";
-}
 
 /// A `through` table with draws beyond its ends.
 struct ShortTable {
@@ -270,12 +259,14 @@ constexpr const char* usual_cause =
 
 } // namespace
 
-void check_dispersions(const Campaign& campaign, InputWarnings& warnings) {
+void check_dispersions(const Campaign& campaign, InputWarnings& warnings,
+                       const std::set<std::string>& found) {
   for (const Dispersion& dispersion : campaign.dispersions) {
     const Spread spread(dispersion.distribution);
-    const std::string place = place_of(campaign.resolved, dispersion.name);
+    const std::string place = place_of(campaign, dispersion);
     for (const SceneParameter& target : dispersion.targets)
-      if (TargetCheck(campaign.scene, target, dispersion.apply, spread, place, warnings).warns())
+      if (TargetCheck(campaign.scene, target, dispersion.apply, spread, place, found, warnings)
+              .warns())
         break;
     check_through(dispersion, spread, place, "", warnings);
   }
@@ -283,6 +274,11 @@ void check_dispersions(const Campaign& campaign, InputWarnings& warnings) {
 }
 
 void check_spread(const Campaign& campaign, InputWarnings& warnings) {
+  if (campaign.sampling.replicates > 1 && !has_replicates(campaign.sampling))
+    warnings.add("/sampling/replicates",
+                 fmt::format("{} with independent draws", campaign.sampling.replicates),
+                 "1: a random design has no replicates and needs none for its bounds; only "
+                 "\"sobol\" and \"latin_hypercube\" have them");
   if (campaign.sampling.runs < 2 || has_spread(campaign)) return;
   warnings.add("/dispersions",
                campaign.dispersions.empty() ? "none" : "laws with a single value only",

@@ -4,6 +4,9 @@
 #include "montecarlo/model/campaign/campaign.hpp"
 #include "montecarlo/model/input_checks/input_warning.hpp"
 
+#include <set>
+#include <string>
+
 namespace wingspread {
 
 /// Warns of each dispersion by the first rule that it breaks (an `each` at its first match):
@@ -17,9 +20,13 @@ namespace wingspread {
 /// - with a probability of 1e-9 or more, a draw (the others nominal) changes a spring's sign or makes a physical size
 ///   negative;
 /// - through: more than 5 % of the draws lie beyond the ends of the table, in the campaign or in a case.
-void check_dispersions(const Campaign& campaign, InputWarnings& warnings);
+///
+/// @param found paths of which check_draws has found unphysical values: no warning of a negative size repeats it
+void check_dispersions(const Campaign& campaign, InputWarnings& warnings,
+                       const std::set<std::string>& found = {});
 
-/// Warns where several runs are planned but nothing varies, in no case.
+/// Warns where several runs are planned but nothing varies, in no case; and of replicates of independent draws, which
+/// are ignored.
 void check_spread(const Campaign& campaign, InputWarnings& warnings);
 
 /// Warns of correlations of 0.8 and more, and of three dispersions correlated pairwise by 0.5 and more: they probably

@@ -1,7 +1,7 @@
 #include "montecarlo/report/data/set_json.hpp"
 
+#include "montecarlo/engine/runs/campaign_check.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
-#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/report/data/causes_json.hpp"
 #include "montecarlo/report/data/envelopes_json.hpp"
 #include "montecarlo/report/data/inputs_json.hpp"
@@ -240,7 +240,7 @@ std::vector<std::string> all_warnings(const PageSource& source, const PageDetail
     lines.insert(lines.begin(), *gaps);
   // as `run` prints them; another tool's campaign was not run
   if (!source.stored.foreign)
-    for (const InputWarning& warning : check_input(source.before_case, ""))
+    for (const InputWarning& warning : check_campaign(source.before_case, ""))
       lines.push_back("input: " + to_string(warning));
   if (source.stored.own_requirements)
     lines.push_back("the requirements are those that `wingspread analyze` was given, not the "

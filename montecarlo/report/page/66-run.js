@@ -166,11 +166,14 @@
     );
   }
 
-  // Whether a run keeps a limit. A run that does not deploy breaks every requirement; a peak that t_end cut may still rise.
+  // Whether a run keeps a limit. A run that does not deploy breaks every requirement. A peak that
+  // t_end cut may still rise: above a max, or to a min, which it keeps once it has reached it.
   function verdictOf(one, output, made, value) {
     const size = one.abs ? Math.abs(value) : value;
-    if (made.status !== "deployed" || value === null || (one.upper ? size > one.limit : size < one.limit)) return "failed";
-    return made.final[output.family] === false ? "open" : "passed";
+    if (made.status !== "deployed" || value === null) return "failed";
+    const beyond = one.upper ? size > one.limit : size < one.limit,
+      cut = made.final[output.family] === false;
+    return cut && beyond !== Boolean(one.upper) ? "open" : beyond ? "failed" : "passed";
   }
   // Notes on what the badges cannot judge.
   function judgement(set, made) {

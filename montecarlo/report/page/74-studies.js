@@ -10,7 +10,8 @@
       { scales, requirements } = margin;
     const ends = `${W.isNumber(low) ? `from ${F.number(low, 4)}` : "open below"} ${W.isNumber(high) ? `to ${F.number(high, 4)}` : "and open above"}`;
     const [from, to] = margin.as_good || [];
-    const others = to > from ? ` (all scales seen from ${F.number(from, 4)} to ${F.number(to, 4)} are as good)` : "";
+    const others =
+      to > from ? ` (no scale seen has fewer runs that break a requirement, and those from ${F.number(from, 4)} to ${F.number(to, 4)} have as few)` : "";
     const advice = W.isNumber(margin.recommended) ? `; recommended: ${F.number(margin.recommended, 4)}${others}` : "";
     const words =
       W.isNumber(low) || W.isNumber(high)

@@ -154,7 +154,9 @@ void FolderWriter::read_existing_rows(const RunPlan& plan) {
       before.seed == stored_.campaign.sampling.seed)
     note_extension(stored_.campaign, before.extended_from);
   refuse_other_campaign(there, stored_.campaign, stored_.stamp);
-  refuse_rowless(there.folder);
+  if (is_streaming_folder(there.folder))
+    throw SpecError({{there.folder.string(), "", "a folder that was begun with --no-rows",
+                      "--no-rows beside --resume, or a new folder for a run that keeps its rows"}});
   ResultsFile read = std::filesystem::exists(there.folder / runs_file)
                          ? read_stored_results(there)
                          : ResultsFile{Results(plan.names()), 0, false};

@@ -2,6 +2,7 @@
 
 #include "montecarlo/foundation/formats/json_parse.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
+#include "montecarlo/foundation/platform/folder_lock.hpp"
 #include "montecarlo/results/results_folder/differences.hpp"
 
 #include <fmt/format.h>
@@ -86,16 +87,30 @@ std::string command(const ShardMaker& maker, const std::filesystem::path& out,
   return text + maker.more + (resume ? " --resume" : "");
 }
 
+/// A new name beside a shard's folder.
+std::filesystem::path folder_beside(const Part& sibling, const Shard& shard) {
+  return sibling.out.parent_path() / fmt::format("shard_{}_of_{}", shard.index, shard.of);
+}
+
 /// The command for a shard without a folder. If a folder of that name exists, the command resumes it.
 std::string command_for(const ShardMaker& maker, const Part& sibling, const Shard& shard) {
-  const std::filesystem::path other =
-      sibling.out.parent_path() / fmt::format("shard_{}_of_{}", shard.index, shard.of);
-  const std::filesystem::path out = renumbered(sibling, shard.index).value_or(other);
+  const std::filesystem::path out =
+      renumbered(sibling, shard.index).value_or(folder_beside(sibling, shard));
   return command(maker, out, shard, std::filesystem::exists(out));
 }
 
+/// The largest shard that begins with the first of the missing runs and has no others; nothing if none does.
+std::optional<Shard> largest_shard_in(const RunRange& missing, long runs) {
+  for (long of = std::max(1L, runs / missing.size()); of <= std::min(runs, most_shards); ++of) {
+    const Shard shard{(missing.first * of + runs - 1) / runs + 1, of};
+    const RunRange own = shard_runs(runs, shard);
+    if (own.first == missing.first && own.size() > 0 && own.last <= missing.last) return shard;
+  }
+  return std::nullopt;
+}
+
 /// Adds a command for each shard that lies within the missing runs. Considers the numbers of shards that the existing
-/// folders use.
+/// folders use; for runs between shards of different numbers, others.
 void add_commands(const std::vector<Part>& parts, const std::vector<RunRange>& missing_ranges,
                   long runs, const ShardMaker& maker, PartFaults& faults) {
   std::map<long, const Part*, std::greater<>> siblings; // a folder for each number of shards in use
@@ -110,6 +125,13 @@ void add_commands(const std::vector<Part>& parts, const std::vector<RunRange>& m
         faults.add(command_for(maker, *sibling, shard));
         next = own.last;
       }
+    while (!siblings.empty() && next < missing.last) {
+      const std::optional<Shard> shard = largest_shard_in({next, missing.last}, runs);
+      if (!shard) break;
+      const auto out = folder_beside(*siblings.begin()->second, *shard);
+      faults.add(command(maker, out, shard, std::filesystem::exists(out)));
+      next = shard_runs(runs, *shard).last;
+    }
   }
 }
 
@@ -165,6 +187,12 @@ void tell_differences(const Part& part, const Part& first, const char* file,
                                                 : fmt::format("{} values differ", all.size()))});
 }
 
+/// The process that is at work in the part's folder, or in that of all cases; empty: none.
+std::string holder_of_part(const Part& part) {
+  const std::string holder = holder_of(part.folder);
+  return holder.empty() ? holder_of(part.out) : holder;
+}
+
 /// Advice before a part with a gap between its rows is resumed; empty if only the last rows are missing.
 std::string gap_advice(const Part& part, const RunRange& missing) {
   if (part.present.empty() || missing.first > part.present.back().first) return "";
@@ -206,7 +234,7 @@ void find_doubles(const std::vector<Part>& parts, PartFaults& faults) {
     if (!twice.empty())
       faults.add(Problem{parts[p].folder.string(), "",
                          fmt::format("runs {}, which {} has too", twice.text(), other),
-                         "each run in one folder"});
+                         "each run in one folder: shards of one division, as 1/N to N/N"});
   }
 }
 
@@ -217,6 +245,13 @@ void find_missing(const std::vector<Part>& parts, long runs, const ShardMaker& m
     present.push_back(part.own);
     const std::vector<RunRange> missing = missing_in(part.own, part.present);
     if (missing.empty()) continue;
+    if (const std::string holder = holder_of_part(part); !holder.empty()) {
+      faults.add(Problem{
+          part.folder.string(), "",
+          fmt::format("no runs {} yet: {} is at work in it", listed(missing).text(), holder),
+          describe(part.stamp.shard) + " complete (wait until that process ends)"});
+      continue;
+    }
     faults.add(Problem{part.folder.string(), "", fmt::format("no runs {}", listed(missing).text()),
                        fmt::format("{} complete ({}run it again with --resume)",
                                    describe(part.stamp.shard), gap_advice(part, missing.front()))});

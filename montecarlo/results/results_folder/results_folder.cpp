@@ -69,7 +69,8 @@ void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, Su
     const RankedOutput ranks(results, results.outputs[i]);
     for (const ToleranceLimitSpec& tolerance : spec.tolerance_limits)
       summary.outputs[i].tolerance_limits.push_back(
-          {tolerance, output_limits(ranks, tolerance, summary.interim), ranks.beyond()});
+          {tolerance, output_limits(ranks, tolerance, summary.interim),
+           ranks.beyond(tolerance.side)});
   }
 }
 

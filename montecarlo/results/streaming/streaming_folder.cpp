@@ -115,8 +115,9 @@ StreamingFolder::StreamingFolder(std::filesystem::path folder, const RunPlan& pl
                       fmt::format("{}: a campaign without rows cannot be extended",
                                   stored_.campaign.sampling.runs)}});
   if (std::filesystem::exists(stored_.folder / runs_file))
-    throw SpecError({{stored_.folder.string(), "", "a folder of a campaign that keeps its rows",
-                      "one that was begun with --no-rows"}});
+    throw SpecError(
+        {{stored_.folder.string(), "", "a folder of a campaign that keeps its rows",
+          "one that was begun with --no-rows (without it --resume continues this one)"}});
 }
 
 bool StreamingFolder::begin(Evaluator& evaluator) {

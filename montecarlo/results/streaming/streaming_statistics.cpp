@@ -47,21 +47,30 @@ std::vector<std::string> names_of(std::span<const Column> columns) {
 
 } // namespace
 
+bool is_of(const RequiredOutput& required, const Requirement& requirement) {
+  return required.output == requirement.output && required.absolute == requirement.absolute &&
+         required.from_below == takes_cut_peaks(requirement.output, requirement.min.has_value());
+}
+
+bool takes_cut_peaks(const std::string& output, bool lower) {
+  return lower && peak_kind(output) != PeakKind::none;
+}
+
 std::vector<RequiredOutput> required_outputs(const Campaign& campaign, const ResultNames& names,
                                              const std::vector<std::string>& margins) {
   std::vector<std::string> all = names.outputs;
   all.insert(all.end(), margins.begin(), margins.end());
   std::vector<RequiredOutput> found;
-  const auto want = [&](const std::string& output, bool absolute) {
+  const auto want = [&](const std::string& output, bool absolute, bool lower) {
     const auto column = static_cast<std::size_t>(std::ranges::find(all, output) - all.begin());
-    const RequiredOutput required{output, absolute, column};
+    const RequiredOutput required{output, absolute, column, takes_cut_peaks(output, lower)};
     if (column < all.size() && std::ranges::find(found, required) == found.end())
       found.push_back(required);
   };
   for (const Requirement& requirement : campaign.requirements)
-    want(requirement.output, requirement.absolute);
-  if (!campaign.statistics.tolerance_limits.empty())
-    for (const std::string& output : names.outputs) want(output, false);
+    want(requirement.output, requirement.absolute, requirement.min.has_value());
+  for (const ToleranceLimitSpec& limit : campaign.statistics.tolerance_limits)
+    for (const std::string& output : names.outputs) want(output, false, limit.side == Side::lower);
   return found;
 }
 
@@ -76,9 +85,8 @@ StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultN
     peak_.push_back(required.column < names.outputs.size() ? peak_kind(required.output)
                                                            : PeakKind::none);
   for (const Requirement& requirement : campaign.requirements) {
-    const auto found = std::ranges::find_if(required_, [&](const RequiredOutput& each) {
-      return each.output == requirement.output && each.absolute == requirement.absolute;
-    });
+    const auto found = std::ranges::find_if(
+        required_, [&](const RequiredOutput& each) { return is_of(each, requirement); });
     if (found == required_.end() && requirement.output != deployed_output)
       throw std::logic_error("a requirement on an output without a column: " + requirement.output);
     population_of_.push_back(static_cast<std::size_t>(found - required_.begin()));
@@ -144,7 +152,8 @@ bool StreamingStatistics::add_requirements(const ResultRow& row, std::span<const
   for (std::size_t q = 0; q < required_.size(); ++q) {
     const RequiredOutput& required = required_[q];
     const double value = value_of(required);
-    const bool counts = row.status == Status::deployed && !std::isnan(value) && !is_cut(q);
+    const bool counts =
+        row.status == Status::deployed && !std::isnan(value) && (required.from_below || !is_cut(q));
     seen_[q] = !counts ? infinity : required.absolute ? std::abs(value) : value;
     if (counts)
       populations_[q].values.add(seen_[q], row.run);
@@ -163,8 +172,9 @@ bool StreamingStatistics::add_requirements(const ResultRow& row, std::span<const
     breaks = true;
     ++requirement_counts_[r].failures;
     requirement_counts_[r].worst.add(badness, row.run);
-    if (badness != infinity || q >= required_.size()) continue;
+    if (q >= required_.size()) continue;
     const bool cut = row.status == Status::deployed && is_cut(q);
+    if (!cut && badness != infinity) continue;
     ++(cut ? requirement_counts_[r].cut : requirement_counts_[r].absent);
     if (cut && may_meet(requirement, value_of(required_[q]))) ++requirement_counts_[r].open;
   }

@@ -33,8 +33,16 @@ struct RequiredOutput {
   std::string output;
   bool absolute = false;
   std::size_t column = 0; ///< index into the outputs, followed by the static margins
+  bool from_below =
+      false; ///< of a peak that a `min` or a lower limit needs: one that t_end cut has its value
   bool operator==(const RequiredOutput&) const = default;
 };
+
+/// Whether a limit on that side takes a peak that t_end cut as its value (verdict.hpp).
+[[nodiscard]] bool takes_cut_peaks(const std::string& output, bool lower);
+
+/// Whether it is the output that the requirement judges.
+[[nodiscard]] bool is_of(const RequiredOutput& required, const Requirement& requirement);
 
 /// The required outputs of a campaign, each once. @param margins names of the static margins' columns
 [[nodiscard]] std::vector<RequiredOutput> required_outputs(const Campaign& campaign,

@@ -175,7 +175,7 @@ std::vector<Verdict> verdicts_of(const Campaign& campaign, const StreamingStatis
     verdict.cut = counted.cut, verdict.open = counted.open, verdict.absent = counted.absent;
     decide(confidence_alone(campaign.requirements, requirement), {}, verdict);
     const auto found = std::ranges::find_if(statistics.required(), [&](const RequiredOutput& each) {
-      return each.output == requirement.output && each.absolute == requirement.absolute;
+      return is_of(each, requirement);
     });
     if (found != statistics.required().end())
       add_values(ranked[static_cast<std::size_t>(found - statistics.required().begin())], verdict);
@@ -257,13 +257,15 @@ Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistic
   for (const RequiredPopulation& population : statistics.required_values())
     ranked.emplace_back(population);
   summary.requirements = verdicts_of(campaign, statistics, ranked);
-  for (std::size_t q = 0; q < ranked.size(); ++q) {
-    const RequiredOutput& required = statistics.required()[q];
-    if (required.absolute || required.column >= names.outputs.size()) continue;
-    for (const ToleranceLimitSpec& limit : spec.tolerance_limits)
+  for (const ToleranceLimitSpec& limit : spec.tolerance_limits)
+    for (std::size_t q = 0; q < ranked.size(); ++q) {
+      const RequiredOutput& required = statistics.required()[q];
+      if (required.absolute || required.column >= names.outputs.size() ||
+          required.from_below != takes_cut_peaks(required.output, limit.side == Side::lower))
+        continue;
       summary.outputs[required.column].tolerance_limits.push_back(
           {limit, limits_of(ranked[q], statistics.runs(), limit), ranked[q].beyond()});
-  }
+    }
   add_nominal(campaign, summary);
   add_overtravels(campaign.scene, names, statistics, summary);
   summary.stalled_at = stopped_hinges(statistics);

@@ -48,8 +48,8 @@ void add_deployed(const Requirement& requirement, const Results& results, const 
       continue;
     }
     if (!broken.worst || worse(each, *broken.worst)) broken.worst = each;
-    if (results.is_cut(row, peak)) {
-      ++broken.cut;
+    if (results.is_cut(row, peak)) { // at a `min` already it only rises further (verdict.hpp)
+      broken.cut += requirement.max || sign * value > limit ? 1 : 0;
     } else if (sign * value > limit) {
       ++broken.beyond;
       keep_first(broken.beyond_runs, each, most, worse);

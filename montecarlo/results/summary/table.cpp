@@ -230,10 +230,10 @@ std::string tolerance_notes(const Summary& summary) {
     text += "  " + wrapped(fmt::format("–: {} ({})", why, fmt::join(names, ", ")), 4) + '\n';
   if (beyond)
     text += "  " +
-            wrapped("Limits are over all runs, as requirements: a run that did not deploy, has no "
-                    "value, or whose peak t_end cut counts as worse than any value (above all for "
-                    "an upper limit, below all for a lower one), even where the quantiles above "
-                    "use its value.",
+            wrapped("Limits are over all runs, as requirements: a run that did not deploy or has "
+                    "no value counts as worse than any value (above all for an upper limit, below "
+                    "all for a lower one), even where the quantiles above use its value. So does a "
+                    "peak that t_end cut, but for a lower limit, which takes its value.",
                     4) +
             '\n';
   return text;

@@ -45,17 +45,19 @@ const Column* column_of(const Results& results, std::span<const Column> besides,
 /// How an output's values are compared with a limit.
 struct HowJudged {
   bool absolute = false;
-  PeakKind peak = PeakKind::none; ///< of which a value cut by t_end is read as infinite
+  PeakKind peak = PeakKind::none; ///< of which a value cut by t_end is read as infinite,
+  bool from_below = false;        ///< but not here: the peak is at least what it had come to
 };
 
-HowJudged how_judged(const Column* column, bool absolute) {
-  return {absolute, column ? peak_kind(column->name) : PeakKind::none};
+HowJudged how_judged(const Column* column, bool absolute, bool from_below) {
+  return {absolute, column ? peak_kind(column->name) : PeakKind::none, from_below};
 }
 
 /// The value if the run deployed and the value counts; else infinite.
 double value_or_infinite(const Results& results, std::size_t row, double value,
                          const HowJudged& how) {
-  if (results.status[row] != Status::deployed || std::isnan(value) || results.is_cut(row, how.peak))
+  if (results.status[row] != Status::deployed || std::isnan(value) ||
+      (!how.from_below && results.is_cut(row, how.peak)))
     return infinity;
   return how.absolute ? std::abs(value) : value;
 }
@@ -64,20 +66,21 @@ double value_or_infinite(const Results& results, std::size_t row, double value,
 void add_breaking(const Results& results, const Column* column, Verdict& verdict) {
   const Requirement& requirement = verdict.requirement;
   const double sign = sign_of(requirement), limit = limit_of(requirement);
-  const HowJudged how = how_judged(column, requirement.absolute);
+  const HowJudged how = how_judged(column, requirement.absolute, requirement.min.has_value());
   Spilled<long>& broken = verdict.broken; // begins with the runs that are worse than any number
   std::vector<BreakingRun> beyond;
   for (std::size_t row = 0; row < results.size(); ++row) {
     const double seen = column ? column->values[row] : 0;
     const double value = value_or_infinite(results, row, seen, how);
-    if (value == infinity) {
+    if (value == infinity)
       broken.push_back(results.runs[row]);
-      const bool cut = results.status[row] == Status::deployed && results.is_cut(row, how.peak);
-      if (column) ++(cut ? verdict.cut : verdict.absent);
-      if (cut && may_meet(requirement, seen)) ++verdict.open;
-    } else if (sign * value > limit) {
+    else if (sign * value > limit)
       beyond.push_back({results.runs[row], sign * value});
-    }
+    else
+      continue;
+    const bool cut = results.status[row] == Status::deployed && results.is_cut(row, how.peak);
+    if (column && (cut || value == infinity)) ++(cut ? verdict.cut : verdict.absent);
+    if (cut && may_meet(requirement, seen)) ++verdict.open;
   }
   results.release();
   std::ranges::sort(beyond, [](const BreakingRun& a, const BreakingRun& b) {
@@ -186,15 +189,28 @@ std::optional<std::array<double, 2>> beyond_zero(double least, double largest,
 
 RankedOutput::RankedOutput(const Results& results, const Column& output, bool absolute) {
   const std::size_t runs = results.size();
-  const HowJudged how = how_judged(&output, absolute);
+  const HowJudged from_above = how_judged(&output, absolute, false);
+  const HowJudged from_below = how_judged(&output, absolute, true);
+  std::vector<double> cut;
   values_.reserve(runs);
   for (std::size_t row = 0; row < runs; ++row) {
-    const double value = value_or_infinite(results, row, output.values[row], how);
-    if (value != infinity) values_.push_back(value);
+    const double value = value_or_infinite(results, row, output.values[row], from_above);
+    const double least = value_or_infinite(results, row, output.values[row], from_below);
+    if (value != infinity)
+      values_.push_back(value);
+    else if (least != infinity)
+      cut.push_back(least);
   }
   results.release();
   sort_values(values_);
   worse_ = runs - values_.size();
+  cut_ = cut.size();
+  if (!cut.empty()) {
+    below_.assign(worse_ - cut.size(), -infinity);
+    below_.insert(below_.end(), values_.begin(), values_.end());
+    below_.insert(below_.end(), cut.begin(), cut.end());
+    sort_values(below_);
+  }
   if (worse_ == 0) return;
   values_.insert(values_.begin(), worse_, -infinity);
   values_.insert(values_.end(), worse_, infinity);
@@ -276,8 +292,9 @@ std::string evidence(const Verdict& verdict) {
                   broken == 1 ? "breaks" : "break");
   std::vector<std::string> causes;
   if (verdict.cut > 0)
-    causes.push_back(fmt::format("{} of them because t_end cut {}", verdict.cut,
-                                 verdict.cut == 1 ? "its peak" : "their peaks"));
+    causes.push_back(fmt::format("{} of them because t_end cut {}{}", verdict.cut,
+                                 verdict.cut == 1 ? "its peak" : "their peaks",
+                                 verdict.requirement.min ? " below the limit" : ""));
   if (verdict.absent > 0)
     causes.push_back(fmt::format("{} of them because {}", verdict.absent,
                                  verdict.absent == 1 ? "it did not deploy or has no value"
@@ -288,7 +305,9 @@ std::string evidence(const Verdict& verdict) {
     const bool open = verdict.decision == Decision::fail && !verdict.disproved;
     return fmt::format("{}; at most {} may{}{}", found, *verdict.allowed,
                        rests_on_cut_peaks(verdict)
-                           ? ". A cut peak may still rise and shows nothing: lengthen t_end"
+                           ? verdict.requirement.min
+                                 ? ". A cut peak may still rise to the limit: lengthen t_end"
+                                 : ". A cut peak may still rise and shows nothing: lengthen t_end"
                        : open ? ": not shown, and not disproved either"
                               : "",
                        joint_risk(verdict));

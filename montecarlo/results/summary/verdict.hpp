@@ -4,9 +4,10 @@
 /// A run breaks a requirement if it did not deploy, if the output did not happen, or if its value is beyond the limit.
 /// A run that stalled, timed out, failed or was invalid is "worse than any number": for a `max` it ranks above every
 /// value, for a `min` below. Leaving such runs out would make the result look better than it is. A run whose peak was
-/// cut by t_end (finality.hpp) breaks a requirement on that peak too, because the peak might have risen. It disproves
+/// cut by t_end (finality.hpp) breaks a `max` on that peak too, because the peak might have risen. It disproves
 /// none, unless its value is beyond the limit already: where the cut peaks alone stand against a pass, the verdict is
-/// `undecided`, and a longer t_end decides it.
+/// `undecided`, and a longer t_end decides it. The peak is at least its value so far: from there on it meets a `min`,
+/// and below it breaks one, but may still rise and disproves nothing.
 ///
 /// Symbols as in wilks.hpp: n runs, k of them break the requirement P ≥ p at confidence c.
 #pragma once
@@ -49,8 +50,8 @@ struct Verdict {
   bool one_run = false;           ///< all runs are the same run and show no probability
   bool of_part = false; ///< of a shard, a preview or an unfinished folder, which are not judged
   long cut = 0;         ///< deployed runs that break it because t_end cut their peak
-  long open = 0;   ///< those among them whose cut peak is not beyond the limit: they may meet it
-  long absent = 0; ///< runs that break a limit because they did not deploy or lack the output
+  long open = 0;        ///< those among them that may meet it: whose cut peak is not above a `max`
+  long absent = 0;      ///< runs that break a limit because they did not deploy or lack the output
   /// Least and largest value, if the limit lies on the other side of zero from all values; not of static
   /// margins.
   std::optional<std::array<double, 2>> beyond_zero{};
@@ -89,7 +90,7 @@ void decide(double confidence, const InterimAnalyses& interim, Verdict& verdict)
 /// is worse than any number, at either end.
 class RankedOutput {
 public:
-  /// Cost O(n log n), and 8 bytes per run; 16 for a run worse than any number.
+  /// Cost O(n log n), and 8 bytes per run; 16 for a run worse than any number; 16 for each run if t_end cut a peak.
   /// @param absolute use magnitudes
   RankedOutput(const Results& results, const Column& output, bool absolute = false);
 
@@ -98,21 +99,26 @@ public:
     return std::span(values_).subspan(worse_, values_.size() - 2 * worse_);
   }
 
-  /// Number of runs worse than any number.
-  [[nodiscard]] long beyond() const { return static_cast<long>(worse_); }
+  /// Number of runs worse than any number for a limit on that side; cut peaks are for an upper or two-sided one.
+  [[nodiscard]] long beyond(Side side = Side::upper) const {
+    return static_cast<long>(side == Side::lower ? worse_ - cut_ : worse_);
+  }
 
   /// Smallest first, with +∞ at the end for runs worse than any number.
   [[nodiscard]] std::span<const double> worst_above() const {
     return std::span(values_).subspan(worse_);
   }
-  /// Smallest first, with −∞ at the beginning for runs worse than any number.
+  /// Smallest first, with −∞ at the beginning for runs worse than any number; a cut peak has its value, its least.
   [[nodiscard]] std::span<const double> worst_below() const {
+    if (!below_.empty()) return below_;
     return std::span(values_).first(values_.size() - worse_);
   }
 
 private:
   std::vector<double> values_; ///< −∞, the numbers, +∞
-  std::size_t worse_ = 0;      ///< runs worse than any number
+  std::vector<double> below_;  ///< with cut peaks at their values; empty without any
+  std::size_t worse_ = 0;      ///< runs worse than any number from above
+  std::size_t cut_ = 0;        ///< cut peaks among them
 };
 
 /// Judges one requirement.
@@ -154,8 +160,8 @@ struct GroupVerdict {
 /// "wingspread replay DIR --run 17", ready for a shell.
 [[nodiscard]] std::string replay_command(std::string_view folder, long run);
 
-/// Tolerance limits of an output over all runs. Runs that did not deploy, have no value or have a peak that t_end cut
-/// rank above every number for an upper and a two-sided limit, below for a lower one. So a requirement passes if and
+/// Tolerance limits of an output over all runs. Runs that did not deploy or have no value rank above every number for an
+/// upper and a two-sided limit, below for a lower one; those with a peak that t_end cut above for the first two. So a requirement passes if and
 /// only if the limit of its probability and confidence keeps within its own.
 /// @pre as for judge
 [[nodiscard]] Bounds output_limits(const RankedOutput& output, const ToleranceLimitSpec& spec,

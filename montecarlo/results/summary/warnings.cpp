@@ -15,7 +15,7 @@ namespace {
 /// @pre some runs have cut peaks
 std::string warn_of_cut_peaks(const PeaksCount& peaks, long runs) {
   return cut_peaks_text(peaks, runs) +
-         ": they may still rise, and break every requirement on a peak; statistics and "
+         ": they may still rise, and break every max on a peak; statistics and "
          "correlations are of the cut values. Lengthen t_end";
 }
 

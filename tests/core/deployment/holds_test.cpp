@@ -1,40 +1,10 @@
-// Hinges that are held and released: closed forms, momenta of a free base, stalls, and lanes.
-#include "tests/core/deployment/real_runs.hpp"
+// Hinges that are held and released: closed forms, momenta of a free base, and lanes.
+#include "tests/core/deployment/held_hinges.hpp"
 #include "tests/support/dense_wing.hpp"
 
 using namespace wingspread;
 using namespace wingspread::oracle;
 using std::numbers::pi;
-
-namespace {
-
-Release at_time(double time, double delay = 0) { return {.time = time, .delay = delay}; }
-
-Release after(int hinge, Release::Event event, double delay = 0, double angle = 0) {
-  return {.event = event, .after = hinge, .angle = angle, .delay = delay};
-}
-
-/// Two panels side by side on a fixed base, which do not feel each other.
-Scene two_panels() {
-  Scene scene = latching_panel();
-  scene.bodies.push_back({"other_panel", 10, 0.5});
-  Hinge other = scene.hinges[0];
-  other.name = "other", other.child = 1, other.parent_point = {3, 1};
-  scene.hinges.push_back(other);
-  return scene;
-}
-
-double way_of_panel() { return std::sqrt(2 * (pi / 2) * panel_inertia / 2); } // √(2ΘJ/τ), s
-
-Outcome run_stalled(const Scene& scene, double t_end) {
-  const Integration how = within(1e-10, t_end);
-  const Outcome out = Deployment().run(scene, how, {});
-  REQUIRE(out.status == Status::stalled);
-  require_equal_bits({scene, scene, scene}, how, every_peak);
-  return out;
-}
-
-} // namespace
 
 TEST_CASE(
     "a panel that is released at T latches √(2ΘJ/τ) later, and its hold has borne the spring") {
@@ -231,130 +201,6 @@ TEST_CASE("the energy of an elastic hold counts beside laws of real hinges too")
     CHECK(out.hold_moment[0].value == Approx(4)); // it swings about its load
     CHECK(out.energy.final == Approx(out.energy.initial).margin(1e-7));
     CHECK(out.energy.drift_before_first_latch < 1e-7);
-  }
-}
-
-TEST_CASE("a hold that fails stalls the run, which names its hinge") {
-  Scene scene = two_panels();
-  scene.hinges[1].release = at_time(1);
-  scene.hinges[1].release->fails = 1;
-  const Outcome out = run_stalled(scene, 60);
-  CHECK(out.reason == "other was never released");
-  CHECK(out.releases.empty());
-  CHECK(out.hold_moment[1].value == 2);
-  CHECK(out.final_angle[1] == pi / 2);
-  Goal latches = {.peak_moment = false, .peak_force = false, .hold_moment = false};
-  const Outcome early = Deployment().run(scene, within(1e-10, 60), latches);
-  CHECK(early.status == Status::stalled);
-  CHECK(early.t_end < 20); // no output can change any more
-}
-
-TEST_CASE("a hold that waits for what never comes stalls the run; the first cause is named") {
-  Scene scene = two_panels();
-  scene.hinges[0].release = at_time(1);
-  scene.hinges[0].release->fails = 1;
-  scene.hinges[1].release = after(0, Release::Event::latched);
-  CHECK(run_stalled(scene, 60).reason == "root was never released");
-  CHECK(Deployment().run(scene, within(1e-10, 60), {}).t_end < 60); // all are held
-  scene.hinges[0].release = after(1, Release::Event::released);     // each waits for the other
-  CHECK(run_stalled(scene, 60).reason == "root was never released; other was never released");
-  scene.hinges[0].release.reset();
-  rub(scene.hinges[0], 3); // sticks
-  CHECK(run_stalled(scene, 60).reason == "other was never released");
-}
-
-TEST_CASE("a hold that waits for a hinge without a latch, which sticks for good, never lets go") {
-  Scene scene = two_panels();
-  for (Hinge& hinge : scene.hinges) hinge.latch.reset();
-  scene.hinges[1].release = after(0, Release::Event::passed, 0, 0.5);
-  rub(scene.hinges[0], 3); // sticks
-  const Outcome out = run_stalled(scene, 60);
-  CHECK(out.may_release_later.empty());
-  CHECK(out.never_released == std::vector<int>{1});
-  scene.hinges[0].friction = {}; // it moves, but not as far before the end
-  CHECK(run_stalled(scene, 0.1).may_release_later == std::vector<int>{1});
-}
-
-TEST_CASE("a hold whose time is after t_end has stalled the run at t_end") {
-  Scene scene = latching_panel();
-  scene.hinges[0].release = at_time(20);
-  const Outcome out = run_stalled(scene, 10);
-  CHECK(out.reason == "root was never released up to t_end; its hold may let go later");
-  CHECK(out.may_release_later == std::vector<int>{0});
-  CHECK(out.t_end == 10);
-  CHECK_FALSE(out.peaks_final); // it has not begun
-  scene.hinges[0].release = at_time(5);
-  CHECK(Deployment().run(scene, within(1e-10, 10), {}).status == Status::deployed);
-}
-
-TEST_CASE("a stalled run says which of its holds would have let go after t_end") {
-  Scene scene = two_panels();
-  scene.hinges[1].release = after(0, Release::Event::latched);
-  scene.hinges[1].release->delay = 30; // the root latches before 20 s
-  const Outcome out = run_stalled(scene, 20);
-  CHECK(out.reason == "other was never released up to t_end; its hold may let go later");
-  CHECK_FALSE(out.peaks_final);
-  CHECK(Deployment().run(scene, within(1e-10, 90), {}).status == Status::deployed);
-  const double early = out.latches.front().time / 2; // the root still moves
-  CHECK(run_stalled(scene, early).may_release_later == std::vector<int>{1});
-  scene.hinges[0].release = at_time(1);
-  scene.hinges[0].release->fails = 1; // what waits for it waits for ever
-  CHECK(run_stalled(scene, 20).may_release_later.empty());
-  scene.hinges[0].release->fails = 0, scene.hinges[0].release->time = 50;
-  const Outcome both = run_stalled(scene, 20);
-  CHECK(both.may_release_later == std::vector<int>{0, 1});
-  CHECK(both.reason == "root was never released up to t_end; its hold may let go later");
-  scene.hinges[1].release->fails = 1; // one of each
-  CHECK(run_stalled(scene, 20).reason ==
-        "root was never released up to t_end; its hold may let go later; other was never released");
-}
-
-TEST_CASE("a hinge without a latch that is never released stalls the run too") {
-  Scene scene = two_panels();
-  scene.hinges[1].latch.reset();
-  scene.hinges[1].release = at_time(1);
-  scene.hinges[1].release->fails = 1;
-  CHECK(run_stalled(scene, 60).reason == "other was never released");
-  const Goal latches = {.peak_moment = false, .peak_force = false, .hold_moment = false};
-  CHECK(Deployment().run(scene, within(1e-10, 60), latches).status == Status::stalled);
-  require_equal_bits({scene, scene, scene}, within(1e-10, 60), latches);
-  Integration fine = within(1e-8, 60);
-  fine.method = "runge_kutta4";
-  fine.step = way_of_panel() / 1000; // more steps before the latch than between attempts at a proof
-  const Outcome out =
-      Deployment().run(scene, fine, latches); // the latch is too stiff for such steps
-  CHECK(out.latches.size() == 1);             // the held hinge counted for none with a latch
-  scene.hinges[1].release = at_time(80);      // after t_end
-  const std::string later = "other was never released up to t_end; its hold may let go later";
-  CHECK(run_stalled(scene, 60).reason == later);
-  scene.hinges[0].latch.reset();
-  CHECK(run_stalled(scene, 60).reason == later);
-}
-
-TEST_CASE("a hold that fails ends the run early where no energy bounds the motion too") {
-  Scene scene = two_panels();
-  scene.base.motion = BaseMotion::prescribed;
-  scene.base.angular_acceleration = 0.01;
-  scene.hinges[1].release = at_time(1), scene.hinges[1].release->fails = 1;
-  const Goal latches = {.peak_moment = false, .peak_force = false, .hold_moment = false};
-  const Outcome out = Deployment().run(scene, within(1e-10, 60), latches);
-  CHECK(out.status == Status::stalled);
-  CHECK(out.latches.size() == 1);
-  CHECK(out.t_end < 30);
-}
-
-TEST_CASE("without peaks too a run waits for the release of a hinge without a latch") {
-  Scene scene = two_panels();
-  scene.hinges[1].latch.reset();
-  const Goal latches = {.peak_moment = false, .peak_force = false, .hold_moment = false};
-  for (const double T : {10., 20.}) {
-    scene.hinges[1].release = at_time(T);
-    const Outcome out = Deployment().run(scene, within(1e-10, 60), latches);
-    CHECK(out.status == Status::deployed);
-    REQUIRE(out.releases.size() == 1);
-    CHECK(out.releases[0].time == T);
-    CHECK(out.t_end < 60);
-    require_equal_bits({scene, scene, scene}, within(1e-10, 60), latches);
   }
 }
 

@@ -148,7 +148,7 @@ def run(campaign: Source, *, runs: int | None = None, seed: int | None = None, t
     case: the case, required for a campaign with cases. set: changes of the nominal wing.
     """
     table = _native.run(_input_of(campaign), _whole("runs", runs, 1, _MOST_RUNS), _whole("seed", seed, 0, _MOST_SEED),
-                        _whole("threads", threads, 0, _MOST_THREADS), case, _changes_of(set))
+                        _whole("threads", threads, 0, _MOST_THREADS), _text("case", case), _changes_of(set))
     _warn(table.notices)
     return Table(table)
 
@@ -173,7 +173,7 @@ def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", se
 
 def read(folder: str | os.PathLike[str], *, case: str = "") -> Table:
     """Reads the rows of a results folder. case: the case, required for a campaign with cases."""
-    return Table(_native.read(os.fspath(folder), case))
+    return Table(_native.read(os.fspath(folder), _text("case", case)))
 
 
 def simulate(scene: Source, *, set: Changes | None = None, case: str = "", dt: float | None = None,
@@ -182,17 +182,19 @@ def simulate(scene: Source, *, set: Changes | None = None, case: str = "", dt: f
              check: bool = False) -> Simulation:
     """Simulates one deployment of a scene, or of a campaign's nominal scene, to its t_end.
 
-    set: changes of the wing. case: the case, required for a campaign with cases. dt: interval between rows of the
-    trajectory, s; default: every step. method, latch, step (s), rtol, atol (rad and rad/s), t_end (s): as the options
-    of `wingspread simulate`; default: the campaign's. check: repeat the run by another method at a tighter tolerance;
-    outcome["check"] has the digits that agree.
+    set: changes of the wing. case: the case; default: the campaign's wing without any of its cases. dt: interval
+    between rows of the trajectory, s; default: every step. method, latch, step (s), rtol, atol (rad and rad/s), t_end
+    (s): as the options of `wingspread simulate`; default: the campaign's. check: repeat the run by another method at a
+    tighter tolerance; outcome["check"] has the digits that agree.
     """
     settings = _settings(set, case, method, latch, step, rtol, atol, t_end)
     interval = _number("dt", dt)
     if interval is not None and not 0 < interval < float("inf"):
         raise _wrong("dt", dt, "a number, s, > 0")
+    if not isinstance(check, (bool, np.bool_)):
+        raise _wrong("check", check, "True or False")
     outcome, trajectory, notices = _native.simulate(_input_of(scene), settings, 0.0 if interval is None else interval,
-                                                    check)
+                                                    bool(check))
     _warn(notices)
     return Simulation(json.loads(outcome), trajectory)
 
@@ -259,8 +261,9 @@ def _input_of(source: Source) -> _native.Input:
 
 def _settings(set: Changes | None, case: str, method: str | None, latch: str | None, step: float | None,
               rtol: float | None, atol: float | None, t_end: float | None) -> _native.Settings:
-    return _native.Settings(_changes_of(set), case, method, latch, _number("step", step), _number("rtol", rtol),
-                            _number("atol", atol), _number("t_end", t_end))
+    return _native.Settings(_changes_of(set), _text("case", case), None if method is None else _text("method", method),
+                            None if latch is None else _text("latch", latch), _number("step", step),
+                            _number("rtol", rtol), _number("atol", atol), _number("t_end", t_end))
 
 
 _MOST_RUNS, _MOST_SEED, _MOST_THREADS = 2**31 - 1, 2**64 - 1, 1024
@@ -301,9 +304,16 @@ def _number(argument: str, value: float | None) -> float | None:
     raise _wrong(argument, value, "a number, in SI units")
 
 
+def _text(argument: str, value: str) -> str:
+    if not isinstance(value, str):
+        raise _wrong(argument, value, "a text")
+    return value
+
+
 def _names(argument: str, value: typing.Sequence[str]) -> list[str]:
     """Returns a list of texts; a single text would count as its letters."""
-    if isinstance(value, str) or not all(isinstance(each, str) for each in value):
+    if (isinstance(value, str) or not isinstance(value, collections.abc.Iterable)
+            or not all(isinstance(each, str) for each in value)):
         raise _wrong(argument, value, "a list of texts")
     return list(value)
 

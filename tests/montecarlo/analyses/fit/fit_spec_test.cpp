@@ -116,6 +116,10 @@ TEST_CASE("each fault of the tests has its place") {
         std::string::npos);
   CHECK(change("/tests/0/values/0/output", R"("root.latch_tim")")
             .find("did you mean \"root.latch_time\"?") != std::string::npos);
+  for (const char* word : {R"("deployed")", R"("latch_order")", R"("status")"})
+    CHECK(change("/tests/0/values/0/output", word)
+              .find("which is no number, expected a number that a test measures, such as "
+                    "\"root.latch_time\"") != std::string::npos);
   CHECK(change("/tests/0/values/0/std", R"("20 deg")")
             .starts_with("tests.json: /tests/0/values/0/std"));
   CHECK(change("/tests/0/values/1/parameter", R"("hinges.*.x")")

@@ -99,7 +99,7 @@ TEST_CASE("where the present springs are not as good, the middle of what is", "[
   CHECK(rule_of(search) == "geometric mean");
   CHECK(why_this_one(search) ==
         fmt::format(
-            ". All scales seen from {} to {} are as good: their geometric mean is recommended",
+            ", nor at any other scale seen from {} to {}: their geometric mean is recommended",
             search.as_good.lower, search.as_good.upper));
 }
 

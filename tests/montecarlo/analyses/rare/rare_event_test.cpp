@@ -155,6 +155,12 @@ TEST_CASE("peaks that t_end cut count as the event, as they break a requirement,
   CHECK_THAT(doubts_of(cut).at(0), Catch::StartsWith(said) && Catch::EndsWith("Lengthen t_end"));
   CHECK_THAT(rare_text(cut, options, campaign), Catch::Contains(said));
 
+  // A peak is at least what it has come to: none lies below 1 N·m, as the spring alone has 2.
+  RareOptions below = options;
+  below.event = {"root.peak_moment", 1, false}, below.smallest = 0.01;
+  const RareResult risen = estimate_rare_event(campaign, below, evaluator, untold);
+  CHECK((risen.cut == 0 && risen.estimate.hits == 0));
+
   const Campaign longer = campaign_of(ringing_panel(100, 15, 0));
   RareOptions small = options;
   small.smallest = 0.01;

@@ -15,7 +15,7 @@ void own_handler(int) { own_handler_called = 1; }
 
 TEST_CASE("a signal raises the flag while there is an Interrupt, and not after") {
   std::signal(SIGINT, own_handler);
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const Interrupt interrupt;
     CHECK_FALSE(interrupt.flag());
     std::raise(signal);
@@ -25,4 +25,14 @@ TEST_CASE("a signal raises the flag while there is an Interrupt, and not after")
   std::raise(SIGINT);
   CHECK(own_handler_called == 1);
   std::signal(SIGINT, SIG_DFL);
+}
+
+TEST_CASE("nohup keeps its promise") {
+  std::signal(SIGHUP, SIG_IGN);
+  {
+    const Interrupt interrupt;
+    std::raise(SIGHUP);
+    CHECK_FALSE(interrupt.flag());
+  }
+  std::signal(SIGHUP, SIG_DFL);
 }

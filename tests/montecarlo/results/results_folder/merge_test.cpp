@@ -101,7 +101,8 @@ TEST_CASE("a run that is missing between others is named") {
 TEST_CASE("runs that two folders have are named") {
   Shards shards;
   CHECK(shards.refusal({shards.parts[0], shards.parts[1], shards.parts[1], shards.parts[2]}) ==
-        "part2: found runs 3 to 5, which part2 has too, expected each run in one folder");
+        "part2: found runs 3 to 5, which part2 has too, expected each run in one folder: shards of "
+        "one division, as 1/N to N/N");
 }
 
 TEST_CASE("folders of another campaign or version are not merged") {
@@ -169,6 +170,13 @@ TEST_CASE("the commands that make what is missing are the ones to type") {
   shards.cut(1, 5);
   CHECK(shards.commands(parts) ==
         Commands{"wingspread run part1/campaign.json --out part2 --shard 2/3 --resume"});
+  // a folder at which a process is at work needs no command
+  {
+    const FolderLock lock(parts[1]);
+    CHECK_THAT(shards.refusal(parts), Catch::Contains("part2: found no runs 5 yet: process ") &&
+                                          Catch::Contains("wait until that process ends"));
+    CHECK_THROWS_AS(shards.commands(parts), SpecError); // which would be caught if it had commands
+  }
   std::filesystem::remove_all(parts[2]);
   CHECK(shards.commands({parts[0], parts[1]}) ==
         Commands{"wingspread run part1/campaign.json --out part2 --shard 2/3 --resume",
@@ -200,6 +208,8 @@ TEST_CASE("the commands that make what is missing are the ones to type") {
   }
   CHECK(shards.refusal({odd, parts[0]}) == "found no folder with runs 3 to 4, expected folders "
                                            "with all of the campaign's 10 runs");
+  CHECK(shards.commands({odd, parts[0]}) == // runs 3 and 4 are one of six parts
+        Commands{"wingspread run 'two halves/campaign.json' --out shard_3_of_6 --shard 3/6"});
   CHECK(shell_word("it's") == R"('it'\''s')");
   CHECK(shell_word("") == "''");
 }
@@ -253,7 +263,7 @@ TEST_CASE("a preview too refuses runs that two folders have, and wants one run")
   Shards shards;
   CHECK(message_of([&] {
           return merge_folders({shards.parts[0], shards.parts[0]}, shards.out, MergeKind::preview);
-        }).ends_with("expected each run in one folder"));
+        }).ends_with("expected each run in one folder: shards of one division, as 1/N to N/N"));
   shards.cut(0, 0);
   CHECK(shards.shortened(message_of([&] {
     return merge_folders({shards.parts[0]}, shards.out, MergeKind::preview);

@@ -28,11 +28,11 @@ Campaign required_campaign() {
     { "output": "root.peak_moment", "max": 2, "probability": 0.9973, "confidence": 0.9 },
     { "output": "mid.latch_rate", "max": 1.5, "abs": true, "probability": 0.5, "confidence": 0.9 },
     { "output": "tip.latch_time", "min": -2, "probability": 0.6, "confidence": 0.9 },
+    { "output": "root.peak_moment", "min": 0.5, "probability": 0.5, "confidence": 0.9 },
     { "motorization": "NASA", "hinge": "*", "min": 0.5, "probability": 0.7, "confidence": 0.9 } ])");
   json["statistics"] = parse_json(R"({ "quantiles": [0.001, 0.1, 0.5, 0.9, 0.999],
     "tolerance": [{ "probability": 0.9, "confidence": 0.9, "side": "both" },
-                  { "probability": 0.6, "confidence": 0.9, "side": "upper" },
-                  { "probability": 0.6, "confidence": 0.9, "side": "lower" }] })");
+      { "probability": 0.6, "confidence": 0.9 }, { "probability": 0.6, "confidence": 0.9, "side": "lower" }] })");
   return campaign_of(json);
 }
 

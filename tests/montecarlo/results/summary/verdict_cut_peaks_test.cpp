@@ -1,4 +1,5 @@
 // Verdicts on outputs without a value, and on peaks that t_end cut.
+#include "montecarlo/results/summary/broken_runs.hpp"
 #include "montecarlo/results/summary/verdict.hpp"
 #include "tests/montecarlo/sample_support.hpp"
 
@@ -45,7 +46,7 @@ TEST_CASE("evidence counts the runs that break an output's limit for they have n
   CHECK((judge(deployed, results).failures() == 2 && judge(deployed, results).absent == 0));
 }
 
-TEST_CASE("a peak that t_end cut breaks every requirement on it, whatever it had come to") {
+TEST_CASE("a peak that t_end cut breaks every max on it, whatever it had come to") {
   Results results(ResultNames{{}, {"root.peak_moment", "root.latch_time"}, true});
   for (long run = 0; run < 1000; ++run) {
     const auto value = static_cast<double>(run + 1);
@@ -65,8 +66,8 @@ TEST_CASE("a peak that t_end cut breaks every requirement on it, whatever it had
         "3 of 1000 runs break it (3 of them because t_end cut their peaks); at most "
         "5 may");
   peak.max.reset();
-  peak.min = 0;
-  CHECK(judge(peak, results).broken.size() == 3);
+  peak.min = 0; // it can only rise
+  CHECK((judge(peak, results).broken.empty() && judge(peak, results).cut == 0));
   peak.output = "root.latch_time"; // that one stands, wherever the run ends
   CHECK((judge(peak, results).broken.empty() && judge(peak, results).cut == 0));
   const RankedOutput ranks(results, results.outputs[0]);
@@ -96,5 +97,39 @@ TEST_CASE("cut peaks below the limit disprove nothing, and only what is known ma
     CHECK(verdict.failures() == cut + beyond);
     CHECK(verdict.disproved == other.disproved);
     CHECK((verdict.decision == Decision::fail) == (other.decision == Decision::fail));
+  }
+}
+
+// The same with the peak turned round: what t_end cut below a min may still rise to it, and shows nothing.
+TEST_CASE("a cut peak meets a min that it has reached, and disproves none that it has not") {
+  std::mt19937_64 random(6);
+  for (int k = 0; k < 300; ++k) {
+    Results results(ResultNames{{}, {"root.peak_moment"}, true});
+    const long n = 1 + static_cast<long>(uniform(random) * 200);
+    long broken = 0, cut = 0, known = 0;
+    for (long run = 0; run < n; ++run) {
+      const double value = uniform(random);
+      const bool is_cut = uniform(random) < 0.5;
+      ResultRow row{run, Status::deployed, {}, {value}, "", ""};
+      row.peaks_final = is_cut ? PeaksFinal::no : PeaksFinal::yes;
+      results.append(row);
+      if (value >= 0.05) continue;
+      ++broken, ++(is_cut ? cut : known);
+    }
+    const Requirement least{"", "root.peak_moment", {}, 0.05, 0.9, 0.9};
+    const Verdict verdict = judge(least, results);
+    CAPTURE(n, broken, cut);
+    CHECK((verdict.failures() == broken && verdict.cut == cut && verdict.open == cut));
+    CHECK(broken_runs(verdict, results, 9).cut == cut);
+    CHECK(broken_runs(verdict, results, 9).beyond == known);
+    if (!verdict.allowed) continue;
+    CHECK((verdict.decision == Decision::pass) == (broken <= *verdict.allowed));
+    CHECK((verdict.decision == Decision::fail) == (known > *verdict.allowed));
+    if (verdict.decision == Decision::undecided)
+      CHECK_THAT(evidence(verdict), Catch::Contains("may still rise to the limit"));
+    const RankedOutput ranks(results, results.outputs[0]);
+    const auto lower = output_limits(ranks, {0.9, 0.9, Side::lower}).lower;
+    CHECK((lower && *lower >= 0.05) == (verdict.decision == Decision::pass));
+    CHECK(ranks.beyond(Side::lower) == 0);
   }
 }
