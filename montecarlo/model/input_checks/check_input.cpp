@@ -1,6 +1,7 @@
 #include "montecarlo/model/input_checks/check_input.hpp"
 
 #include "montecarlo/foundation/formats/json_parse.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/guarantees.hpp"
 #include "montecarlo/model/input_checks/bending_check.hpp"
@@ -74,6 +75,17 @@ std::map<std::string, std::size_t> written_in(const Json& scene) {
   return written;
 }
 
+/// The nominal deployment with the peaks, if a requirement limits one; without, as it is, where that takes too long.
+Outcome with_peaks(const Campaign& campaign, Outcome nominal) {
+  const auto limits_peak = [](const Requirement& each) {
+    return peak_kind(each.output) != PeakKind::none;
+  };
+  if (std::ranges::none_of(campaign.requirements, limits_peak)) return nominal;
+  Outcome whole =
+      deployment_alone(nominal_scene(campaign), campaign.integration, {}, /*peaks=*/true);
+  return whole.status == Status::failed ? nominal : whole;
+}
+
 } // namespace
 
 ScenePlace scene_place(const std::filesystem::path& file) {
@@ -106,7 +118,7 @@ std::vector<InputWarning> check_input(const Campaign& campaign, const std::files
   check_spread(campaign, rest);
   check_correlations(campaign, rest);
   check_outputs(campaign, rest);
-  check_requirements(campaign, nominal, judged);
+  check_requirements(campaign, with_peaks(campaign, nominal), judged);
   std::vector<InputWarning> all = scene.list();
   for (const InputWarnings* more : {&rest, &drawn, &judged})
     all.insert(all.end(), more->list().begin(), more->list().end());
@@ -119,7 +131,7 @@ std::vector<InputWarning> check_requirements_file(const Campaign& campaign,
   for (const std::string& key : keys_of_requirements(parse_json_file(file))) place += "/" + key;
   InputWarnings warnings({file.string(), place});
   const Outcome nominal = deployment_alone(nominal_scene(campaign), campaign.integration);
-  check_requirements(campaign, nominal, warnings);
+  check_requirements(campaign, with_peaks(campaign, nominal), warnings);
   return warnings.list();
 }
 

@@ -77,12 +77,12 @@ private:
 } // namespace
 
 Outcome deployment_alone(const Scene& scene, const Integration& integration,
-                         const Observer& observer) {
+                         const Observer& observer, bool peaks) {
   Integration how = integration;
   const long bodies = std::max<long>(1, std::ssize(scene.bodies));
   how.max_steps = std::min({how.max_steps, most_steps, most_evaluations / bodies});
   Goal goal;
-  goal.peak_moment = goal.peak_force = goal.audit = false;
+  goal.peak_moment = goal.peak_force = peaks, goal.audit = false;
   return Deployment().run(scene, how, goal, observer);
 }
 

@@ -12,8 +12,8 @@ namespace wingspread {
 Outcome check_clearance(const Scene& scene, const Integration& integration,
                         InputWarnings& warnings);
 
-/// A deployment up to its last latch, without peaks and within the checks' limits of cost.
+/// A deployment up to its last latch or, with peaks, until these are final; within the checks' limits of cost.
 [[nodiscard]] Outcome deployment_alone(const Scene& scene, const Integration& integration,
-                                       const Observer& observer = {});
+                                       const Observer& observer = {}, bool peaks = false);
 
 } // namespace wingspread

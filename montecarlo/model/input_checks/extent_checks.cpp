@@ -54,7 +54,7 @@ void check_table(const std::string& at, const HingeTorque& torque, const Extent&
       "angles over the whole travel: beyond a table its end value holds");
 }
 
-void check_latch(const std::string& at, const Latch& latch, InputWarnings& warnings) {
+void check_latch_numbers(const std::string& at, const Latch& latch, InputWarnings& warnings) {
   if (latch.capture_rate && *latch.capture_rate > most_latch_rate)
     warnings.add(at + "/capture_rate", fmt::format("{:.4g} rad/s", *latch.capture_rate),
                  fmt::format("up to {} rad/s (write degrees as \"30 deg/s\")", most_latch_rate));
@@ -64,7 +64,7 @@ void check_latch(const std::string& at, const Latch& latch, InputWarnings& warni
                              most_dissipation));
 }
 
-void check_body(const std::string& at, const Body& body, InputWarnings& warnings) {
+void check_body_numbers(const std::string& at, const Body& body, InputWarnings& warnings) {
   if (body.plate && body.plate->drag_coefficient > most_drag)
     warnings.add(at + "/plate/drag_coefficient",
                  fmt::format("{:.4g}", body.plate->drag_coefficient), "1.2 to 2 for a flat plate");
@@ -74,7 +74,7 @@ void check_body(const std::string& at, const Body& body, InputWarnings& warnings
                  "0.002 to 0.02 for a panel (write 2 % as 0.02)");
 }
 
-void check_base(const Base& base, InputWarnings& warnings) {
+void check_base_numbers(const Base& base, InputWarnings& warnings) {
   double rate = std::abs(base.rate), push = base.acceleration.norm();
   if (base.table) {
     const double scale = std::abs(base.table_scale);
@@ -115,7 +115,7 @@ void check_hinge(const std::string& at, const Hinge& hinge, InputWarnings& warni
                       hinge.latch->stiffness, load, load / hinge.latch->stiffness),
           "a latch that holds its hinge at the latched angle (\"1000 N*m/deg\")");
   }
-  if (hinge.latch) check_latch(at + "/latch", *hinge.latch, warnings);
+  if (hinge.latch) check_latch_numbers(at + "/latch", *hinge.latch, warnings);
   if (hinge.damper && hinge.damper->law == DamperLaw::eddy_current &&
       hinge.damper->peak_rate > most_latch_rate)
     warnings.add(at + "/damper/peak_rate", fmt::format("{:.4g} rad/s", hinge.damper->peak_rate),
@@ -141,8 +141,8 @@ void check_extents(const Scene& scene, InputWarnings& warnings) {
     warnings.add("/environment/gravity", fmt::format("{:.4g} m/s²", gravity),
                  "9.81 m/s² on the ground, 0 in orbit");
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    check_body(fmt::format("/bodies/{}", b), scene.bodies[b], warnings);
-  check_base(scene.base, warnings);
+    check_body_numbers(fmt::format("/bodies/{}", b), scene.bodies[b], warnings);
+  check_base_numbers(scene.base, warnings);
   for (std::size_t k = 0; k < scene.synchronisations.size(); ++k)
     if (scene.synchronisations[k].stiffness == 0 && scene.synchronisations[k].damping == 0)
       warnings.add(fmt::format("/synchronisations/{}/stiffness", k), "0: the loop ties nothing",

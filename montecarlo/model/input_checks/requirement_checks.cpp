@@ -16,7 +16,7 @@ namespace wingspread {
 namespace {
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
-constexpr double far = 100; // heuristic: between a wide margin and N·mm for N·m
+constexpr double far_off = 100; // heuristic: between a wide margin and N·mm for N·m
 
 bool feels_air(const Scene& scene) {
   return scene.environment.air_density > 0 &&
@@ -82,7 +82,7 @@ std::string beyond_travel(const Campaign& campaign, const OutputName& output, do
   return fmt::format("{} travels {:.4g} rad", hinge->name, travel);
 }
 
-/// Warns of a limit that is far from the nominal value, and of one of an angle far beyond the travel.
+/// Warns of a limit that is far from the value of a nominal wing that deploys, and of one of an angle far beyond the travel.
 void check_size(const Campaign& campaign, const Requirement& own, const std::string& at,
                 double limit, const std::optional<double>& value, InputWarnings& warnings) {
   const OutputName output = parse_output_name(own.output);
@@ -92,7 +92,7 @@ void check_size(const Campaign& campaign, const Requirement& own, const std::str
   if (!value || *value == 0 || limit == 0 || !output.kind || !has_size(output.kind->quantity))
     return;
   const double ratio = std::abs(limit / *value);
-  if (ratio < far && ratio > 1 / far) return;
+  if (ratio < far_off && ratio > 1 / far_off) return;
   const bool every_run = (ratio > 1) == own.max.has_value();
   warnings.add(at,
                fmt::format("a limit of {} {}; the nominal {} is {:.4g} {}", limit, output.unit,
@@ -126,7 +126,8 @@ void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& n
                  "a limit in SI, near the nominal value (write degrees as \"5 deg\" or \"5 "
                  "deg/s\": a factor of 57.3)");
   else if (why_cut.empty())
-    check_size(campaign, own, at + key, limit, value, warnings);
+    check_size(campaign, own, at + key, limit,
+               nominal.status == Status::deployed ? value : std::nullopt, warnings);
   else
     warnings.add(at, fmt::format("a limit on {} {}", own.output, why_cut),
                  "a wing without that: there no peak is proven final, and every run breaks the "

@@ -172,8 +172,9 @@ void explain_copies(const MirrorNames& names, const Scene& scene, std::size_t fi
   };
   for (std::size_t k = first; k < problems.size(); ++k) {
     const std::string& found = problems[k].found;
-    if (found.size() < 2 || found.front() != '"') continue;
-    const std::string name = found.substr(1, found.size() - 2);
+    const std::size_t quote = found.find('"'); // of: string "L_root"
+    if (quote == std::string::npos || !found.ends_with('"')) continue;
+    const std::string name = found.substr(quote + 1, found.size() - quote - 2);
     if (!back.covers(name)) continue;
     const std::string original = back.copy_of(name);
     if (!is_in(scene.hinges, original) && !is_in(scene.bodies, original)) continue;

@@ -55,3 +55,25 @@ TEST_CASE("a hinge that leaves an edge from rest does not cross it until it retu
       }
   }
 }
+
+TEST_CASE("a hinge at rest at an edge is on the side to which it accelerates") {
+  Scene scene = free_panel(0.2);
+  Hinge& hinge = scene.hinges[0];
+  hinge.damper.emplace().window = {0.2, 0.9};
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+  const auto side_after = [&](double rate, double acceleration) {
+    system.note_crossing(1, Edge::window_low, false);
+    const bool changed = settle_edges<double>(system, {0.2, rate}, {rate, acceleration});
+    const bool above = way_over(system, 1, Edge::window_low) < 0;
+    CHECK(changed == above);
+    return above;
+  };
+  CHECK(side_after(0, 0.3));
+  CHECK_FALSE(side_after(0, -0.3));
+  CHECK(side_after(0.1, -5)); // its rate decides first
+  CHECK_FALSE(side_after(-0.1, 5));
+  CHECK_FALSE(side_after(0, 0));
+}

@@ -119,3 +119,23 @@ TEST_CASE(
     CHECK(dxdt[system.layout().rate(turning)] < 0);
   }
 }
+
+TEST_CASE("a rigid hold holds a hinge whose friction alone would let it slide") {
+  Scene scene = latching_panel();
+  Hinge& hinge = scene.hinges[0];
+  hinge.spring = {2, 2};
+  rub(hinge, 0.5);
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+  State<double> x, dxdt(system.layout().size());
+  system.start(x);
+  system.set_contact(1, Contact::held);
+  sort_contacts(system, x, dxdt, 0.0, 0);
+  CHECK(system.work().contact[1] == Contact::held);
+  CHECK(dxdt[system.layout().rate(1)] == 0);
+  system.set_contact(1, Contact::stuck); // it lets go
+  sort_contacts(system, x, dxdt, 0.0, 0);
+  CHECK_FALSE(system.is_locked(1));
+}

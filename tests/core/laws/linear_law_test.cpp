@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <optional>
+
 using namespace wingspread;
 
 namespace {
@@ -39,6 +41,16 @@ TEST_CASE("viscous friction and the engaged latch oppose") {
   CHECK(linear_moment(linear_law(h, true), -0.01, 0.5) -
             linear_moment(linear_law(h, false), -0.01, 0.5) ==
         Approx(1000 * 0.01 - 10 * 0.5));
+}
+
+TEST_CASE("an engaged latch exerts nothing inside its backlash, and bears from its end on") {
+  const HingeTerms<double> h = terms(1, 0);
+  const auto moment = [&](bool engaged, std::optional<double> side) {
+    return linear_moment(linear_law(h, engaged, 0.0, side), 0.002, 0.5);
+  };
+  CHECK(moment(true, std::nullopt) == moment(false, 0.0));
+  CHECK(moment(true, 0.001) - moment(false, 0.0) == Approx(-1000 * 0.001 - 10 * 0.5));
+  CHECK(moment(true, -0.001) - moment(false, 0.0) == Approx(-1000 * 0.003 - 10 * 0.5));
 }
 
 TEST_CASE("the potential is the moment's integral") {

@@ -223,3 +223,26 @@ TEST_CASE("the end of a step gets the conserved momenta, and the derivative ther
     CHECK(dxdt == anew);
   }
 }
+
+TEST_CASE("the common centre of mass of a free wing is put where it falls under gravity") {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Scene scene = random_scene(seed, of(1 + static_cast<int>(seed % 6), true));
+    if (scene.base.motion != BaseMotion::free) continue;
+    scene.environment = Environment{{0.3, -9.81}, 0};
+    Posed<BaseMotion::free> at(scene, random_state(seed + 500, scene));
+    at.work.keeps_momenta = true;
+    at.work.conserved = conserved(at.system, at.x, 0.0);
+    const State<double> before = at.x;
+    const Vec2<double> drift = at.work.conserved.velocity;
+    const int v = at.system.layout().freedoms();
+    const double t = 0.7;
+    State<double> dxdt(at.x.size());
+    at.x[0] -= 0.2, at.x[1] += 0.3, at.x[v] += 0.1; // off
+    at.system.end_step(at.x, dxdt, t);
+    CAPTURE(seed); // in the same pose: all has moved and sped up as its centre of mass
+    CHECK(at.x[0] == Approx(before[0] + drift.x * t + 0.5 * 0.3 * t * t).epsilon(1e-9));
+    CHECK(at.x[1] == Approx(before[1] + drift.y * t - 0.5 * 9.81 * t * t).epsilon(1e-9));
+    CHECK(at.x[v] == Approx(before[v] + 0.3 * t).epsilon(1e-9));
+    CHECK(at.x[v + 1] == Approx(before[v + 1] - 9.81 * t).epsilon(1e-9));
+  }
+}

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 using namespace wingspread;
 
@@ -64,6 +65,13 @@ TEST_CASE("unknown noise is integrated out with the prior 1/σ") {
     return std::log(sum);
   };
   CHECK(difference(data) == Approx(log_integral(first) - log_integral(second)).epsilon(1e-6));
+}
+
+TEST_CASE("correlated samples count as their effective number, of known noise and of unknown") {
+  for (const std::optional<double> std : {std::optional(0.4), std::optional<double>()}) {
+    const double whole = difference(data_with({.std = std, .effective = 4}));
+    CHECK(difference(data_with({.std = std, .effective = 1})) == Approx(whole / 4).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("a missing number rules a point out, and repels the search") {

@@ -195,6 +195,7 @@ TEST_CASE("a warning of open latches, or of a cut peak, names the scale with mos
 }
 
 TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {
+  const ScaleResult stalls{case_of(9, {verdict("deployed", 9), verdict("root.latch_rate", 2)})};
   MarginSearch search;
   search.seen = {{0.0625, scale_with(0, 0)}, {16, scale_with(0, 0)}};
   CHECK(why_withheld(search).empty());
@@ -205,7 +206,7 @@ TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {
   verdict.decision = Decision::undecided, verdict.not_listed = verdict.cut = verdict.open = 100;
   CHECK(why_withheld(search) == "no scale that was run meets all requirements; at some only "
                                 "because t_end cut peaks: lengthen t_end");
-  search.seen = {{1, scale_with(9, 0)}, {1.36, scale_with(9, 0)}, {1.45, scale_with(0, 9)}};
+  search.seen = {{1, stalls}, {1.36, stalls}, {1.45, scale_with(0, 9)}};
   CHECK_THAT(why_withheld(search), Catch::Contains("between 1.36 and 1.45"));
   search.seen = {{0.0625, scale_with(0, 0)}, {16, scale_with(0, 0)}};
   search.withheld = Withheld::no_lower_edge;

@@ -271,12 +271,14 @@ TEST_CASE("a run without a value ranks where it breaks the output's requirements
              *both = R"([{ "output": "root.latch_rate", "max": 1 },
                          { "output": "root.latch_rate", "min": -1 }])",
              *magnitude = R"([{ "output": "root.latch_rate", "max": 1, "abs": true }])",
+             *least_magnitude = R"([{ "output": "root.latch_rate", "min": 1, "abs": true }])",
              *no_sign = R"([{ "output": "root.peak_moment", "min": 1, "abs": true }])";
   CHECK(rank("[]") == MissingRank::above);
   CHECK(rank(least) == MissingRank::below);
   CHECK(rank(least, "root.peak_moment") == MissingRank::above); // another output's requirement
   CHECK(rank(most) == MissingRank::above);
   CHECK(rank(both) == MissingRank::either);
-  CHECK(rank(magnitude) == MissingRank::either); // a large rate of either sign breaks it
+  CHECK(rank(magnitude) == MissingRank::either);       // a large rate of either sign breaks it
+  CHECK(rank(least_magnitude) == MissingRank::either); // a small rate of either sign does
   CHECK(rank(no_sign, "root.peak_moment") == MissingRank::below);
 }

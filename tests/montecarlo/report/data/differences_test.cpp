@@ -50,6 +50,14 @@ TEST_CASE("a paired difference is that of the runs' differences, by hand", "[pag
       paired_difference(a, b, rows_from_0(6), {2, {0, 0, 0, 1, 1, 1}}, 0.95);
   // replicates' sums of deviations: 0 + 1 and -1 + 0; s² = 2 · (1 + 1)/16
   CHECK(*replicated.bounds.upper - 1 == Approx(12.706204736174698 * 0.5).epsilon(1e-10)); // t of 1
+  // Where the tables share some rows only, the replicates are those of the first table's rows.
+  const SameRuns shared{{1, 2, 4, 5}, {0, 1, 2, 3}};
+  const Column c = column_of("x", {4, 1, 5, 5}); // less 2, nothing, 4, 7: 2, 1, -2
+  const Difference of_some = paired_difference(a, c, shared, {2, {0, 0, 0, 0, 1, 1}}, 0.95);
+  const Difference of_all = paired_difference(column_of("x", {2, 4, 7}), column_of("x", {4, 5, 5}),
+                                              rows_from_0(3), {2, {0, 1, 1}}, 0.95);
+  CHECK((of_some.runs == 3 && of_some.value == Approx(of_all.value)));
+  CHECK(*of_some.bounds.upper == Approx(*of_all.bounds.upper).epsilon(1e-12));
   CHECK(!paired_difference(a, b, rows_from_0(1), {}, 0.95).bounds.lower);
   CHECK(std::isnan(paired_difference(a, b, {}, {}, 0.95).value));
 }

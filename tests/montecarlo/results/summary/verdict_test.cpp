@@ -290,6 +290,10 @@ TEST_CASE("a limit on the magnitude does not ask for the sense of rotation") {
   const std::vector<Verdict> together =
       judge_all(std::vector{at_most(995, .99, .9), both}, results);
   CHECK((together[0].broken.size() == 3 && together[1].broken.size() == 5));
+  const Verdict alone = judge(at_most(995, .99, .9), results);
+  CHECK((together[0].observed == alone.observed && together[0].guaranteed == alone.guaranteed));
+  CHECK((together[1].observed == 990 && together[1].guaranteed == 995));
+  CHECK(alone.observed != verdict.observed); // so the two can be told apart
 }
 
 // scipy 1.10.1, stats.binom.cdf: of 1000, 40 may break .95/.95 and 38 may break .95/.975.

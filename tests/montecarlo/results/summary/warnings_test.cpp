@@ -38,8 +38,8 @@ TEST_CASE("what is to be warned of stands in the table and in summary.json") {
   CHECK((summary.peaks->proven == 2 && summary.peaks->cut == 1 && summary.peaks->unknown == 1));
   summary.requirements = {judge({"", "root.latch_rate", 1.5, {}, .5, .5}, results)};
   const std::vector<std::string> expected{
-      "in 1 of 4 runs t_end cut the peaks: they may still rise, and break every requirement on a "
-      "peak; statistics and correlations are of the cut values. Lengthen t_end",
+      "in 1 of 4 runs t_end cut the peaks: they may still rise, and break every max on a peak; "
+      "statistics and correlations are of the cut values. Lengthen t_end",
       "root.latch_rate ≤ 1.5 rad/s, 50 % at 50 %: every value of the runs that deployed (least -2 "
       "rad/s, largest -1.25 rad/s) is on the other side of zero from the limit; \"abs\": true "
       "limits the magnitude"};
