@@ -125,6 +125,7 @@ TEST_CASE("a rigid hold holds a hinge whose friction alone would let it slide") 
   Hinge& hinge = scene.hinges[0];
   hinge.spring = {2, 2};
   rub(hinge, 0.5);
+  hinge.release.emplace().time = 5;
   Wing<double> wing = make_wing<double>(scene, outward_order(scene));
   set_parameters(wing, scene);
   Workspace<double> work;
