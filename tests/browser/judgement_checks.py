@@ -18,6 +18,30 @@ def stated(text, verdict="passed", **more):
 class JudgementChecks:
     """For a Page with MarkChecks and FitPageChecks."""
 
+    def test_first_screen_holds_every_verdict_and_count(self):
+        self.open(pages.made_up("cases"))
+        data = self.run_script("return W.data")
+        text = self.one("#verdicts").text
+        for data_set in data["sets"]:
+            self.assertIn(data_set["label"], text)
+            for status in data_set["statuses"]:
+                if status["count"]:
+                    self.assertIn(f"{status['count']:,}", text)
+        self.assertIn(data["command"], text)
+        self.assertIn(data["sets"][0]["made_by"], text)
+        self.assertIn(data["sets"][0]["hash"], text)
+        for warning in data["sets"][0]["warnings"]:
+            self.assertIn(warning, text)
+        verdicts = sum(len(one["requirements"]) for one in data["sets"])
+        self.assertEqual(len(self.all("#verdicts details .requirements tbody tr")), verdicts)
+
+    def test_requirements_stand_worst_first(self):
+        self.open(pages.made_up("cases"))
+        order = self.run_script("return W.verdicts.judged().map(row => row.requirement.verdict)")
+        rank = {"failed": 0, "open": 1, "passed": 2}
+        self.assertEqual(order, sorted(order, key=rank.get))
+        self.assertEqual(order[0], "failed")
+
     def told(self, selector, *requirements):
         """A part of the first screen with these requirements of each set."""
         return self.run_script("W.sets.forEach((set, at) => { set.requirements = arguments[1][at]; set.outputs.forEach(one => one.limits = []); }); W.outcomes(); return [...document.querySelectorAll(arguments[0])].map(one => one.textContent)", selector, requirements)
@@ -258,13 +282,16 @@ class JudgementChecks:
 
     def test_a_curve_over_the_runs_with_a_value_says_so(self):
         self.open(pages.made_up("plain"))
-        words = lambda: self.run_script("return document.querySelector('figure.distribution').outerHTML")
-        show = "W.choose('output', W.chosen.output)"
-        self.run_script("W.output().missing = 0; " + show)
-        self.assertNotIn("with a value", words())
-        self.run_script("Object.assign(W.output(), { missing: 100, count: 1900 }); " + show)
+
+        def words_with(change):
+            self.run_script(change + "; W.choose('output', W.chosen.output)")
+            self.wait(lambda: self.run_script("return !!document.querySelector('figure.distribution .picture svg')"))  # once its size is seen
+            return self.run_script("return document.querySelector('figure.distribution').outerHTML")
+
+        self.assertNotIn("with a value", words_with("W.output().missing = 0"))
+        words = words_with("Object.assign(W.output(), { missing: 100, count: 1900 })")
         for fact in ("share of the runs with a value at or below", "1,900 of 2,000 runs", "their quantiles with bounds"):
-            self.assertIn(fact, words())
+            self.assertIn(fact, words)
 
     def test_what_breaks_a_requirement_is_counted_whole(self):
         """Values beyond the limit are one cause of several; a change of the draws is proposed where they alone are too many."""

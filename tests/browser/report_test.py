@@ -97,30 +97,6 @@ class Page(unittest.TestCase):
 
 
 class Quick(CauseChecks, StudyPageChecks, JudgementChecks, ShapeChecks, WordChecks, PartChecks, FitPageChecks, RunChecks, SequencePageChecks, PoseChecks, MarkChecks, ChangeChecks, FindingChecks, DrawingChecks, NumberChecks, Page):
-    def test_first_screen_holds_every_verdict_and_count(self):
-        self.open(pages.made_up("cases"))
-        data = self.run_script("return W.data")
-        text = self.one("#verdicts").text
-        for data_set in data["sets"]:
-            self.assertIn(data_set["label"], text)
-            for status in data_set["statuses"]:
-                if status["count"]:
-                    self.assertIn(f"{status['count']:,}", text)
-        self.assertIn(data["command"], text)
-        self.assertIn(data["sets"][0]["made_by"], text)
-        self.assertIn(data["sets"][0]["hash"], text)
-        for warning in data["sets"][0]["warnings"]:
-            self.assertIn(warning, text)
-        verdicts = sum(len(one["requirements"]) for one in data["sets"])
-        self.assertEqual(len(self.all("#verdicts details .requirements tbody tr")), verdicts)
-
-    def test_requirements_stand_worst_first(self):
-        self.open(pages.made_up("cases"))
-        order = self.run_script("return W.verdicts.judged().map(row => row.requirement.verdict)")
-        rank = {"failed": 0, "open": 1, "passed": 2}
-        self.assertEqual(order, sorted(order, key=rank.get))
-        self.assertEqual(order[0], "failed")
-
     def test_histogram_has_a_mark_for_every_filled_bin_of_every_order(self):
         self.open(pages.made_up("plain"))
         for name in ("root.peak_moment", "tip.latch_time"):
