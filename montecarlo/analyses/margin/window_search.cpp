@@ -219,8 +219,7 @@ std::vector<std::pair<double, double>> unresolved_cells(const FailingByScale& by
   const std::pair<const double, Failing>* before = nullptr;
   for (const auto& here : by_scale) {
     if (before && !before->second.empty() && !here.second.empty() &&
-        std::ranges::none_of(here.second,
-                             [&](std::size_t k) { return before->second.contains(k); }))
+        !share_any(before->second, here.second))
       cells.emplace_back(before->first, here.first);
     before = &here;
   }
