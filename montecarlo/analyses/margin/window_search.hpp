@@ -76,8 +76,8 @@ struct Window {
 /// The widest window by ratio, the lowest of equally wide ones; null if there is no window.
 [[nodiscard]] const Window* widest(const std::vector<Window>& windows);
 
-/// The cells in which a window may lie though both ends fail: cells of (1). Without a window, the search was too coarse
-/// for them.
+/// The cells of (1) of which both ends fail. A window may lie inside: if the search has found none, its tolerance was too
+/// coarse for them.
 [[nodiscard]] std::vector<std::pair<double, double>>
 unresolved_cells(const FailingByScale& by_scale);
 

@@ -175,10 +175,10 @@ void check_arrival(const Scene& scene, const Outcome& nominal, InputWarnings& wa
     if (rubs && friction.model == FrictionModel::regularized &&
         friction.regularization_rate > most_slip * rate)
       warnings.add(at + "/friction/regularization_rate",
-                   fmt::format("{:.4g} rad/s; the nominal wing latches at {:.4g} rad/s, and slower "
-                               "than the former friction is not full",
+                   fmt::format("{0:.4g} rad/s; the nominal wing latches at {1:.4g} rad/s, and "
+                               "below {0:.4g} rad/s friction is less than 0.7 of its level",
                                friction.regularization_rate, rate),
-                   "a hundredth of the rate, or the exact model");
+                   "a hundredth of the latching rate, or the exact model");
   }
 }
 

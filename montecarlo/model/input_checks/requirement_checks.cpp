@@ -59,8 +59,8 @@ bool looks_converted(double limit, double nominal, const std::string& unit) {
          is_about(1 / ratio, degrees_per_radian);
 }
 
-/// Whether an output of a wing that deploys is far from 0, so that a limit is near its nominal value. What a symmetric wing
-/// balances, and turns beyond an end of the travel, may be 0 or nearly.
+/// Whether an output is far from 0 in every wing that deploys, so that a sensible limit is near the nominal value. A
+/// symmetric wing hardly turns its base, and a damped one hardly overtravels: such outputs are left out.
 bool has_size(OutputQuantity quantity) {
   using enum OutputQuantity;
   constexpr std::array sizes{latch_time, latch_rate,          peak_moment,    peak_force,
@@ -68,8 +68,8 @@ bool has_size(OutputQuantity quantity) {
   return std::ranges::find(sizes, quantity) != sizes.end();
 }
 
-/// What an angle's limit is far beyond, in words; empty if it is not. The angles are small beside the travel, and a limit
-/// beyond half of it (2 for 2 deg) forbids nothing.
+/// "root travels 1.57 rad", if a final angle or an overtravel is limited to more than half of its hinge's travel; else
+/// empty. A wing that deploys has small ones, so such a limit (2 for 2 deg) forbids nothing.
 std::string beyond_travel(const Campaign& campaign, const OutputName& output, double limit) {
   using enum OutputQuantity;
   constexpr double most = 0.5; // heuristic: of the travel

@@ -23,8 +23,8 @@ struct MirrorNames {
 /// Reads the key; empty patterns, with a problem, if it is not valid.
 [[nodiscard]] MirrorNames read_mirror(const JsonCursor& at);
 
-/// Says of each problem from this one on whose value is the name of a copy that copies cannot be named, in place of what was
-/// expected: they are made after all names have been looked up.
+/// Rewords each problem from index `first` on whose value is the name of a copy: nothing can name a copy, because copies
+/// are made after all names have been looked up.
 void explain_copies(const MirrorNames& names, const Scene& scene, std::size_t first,
                     std::vector<Problem>& problems);
 
