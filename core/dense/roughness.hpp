@@ -13,8 +13,9 @@ namespace wingspread {
 ///     d0 + d1 = h² (φ̈0 + φ̈1) + 2h (φ̇0 − φ̇1)                  its even part has 1/64 at s = ½        (1)
 ///     d1 − d0 = h² (φ̈1 − φ̈0) + 12 (φ1 − φ0) − 6h (φ̇0 + φ̇1)  its odd part at most 1/(100 √5)        (2)
 ///
-/// (the largest u(1 − u²)²/64 over u = 2s − 1 lies at u = 1/√5). Both grow, against the move, as h³ and h⁴. The
-/// code has (2)/12, so the factor 12/(100 √5).
+/// (the largest u(1 − u²)²/64 over u = 2s − 1 lies at u = 1/√5). Relative to the move they grow as h³ and h⁴. The
+/// code has (2)/12, so the factor 12/(100 √5). The code adds 1000 atol to the move (heuristic), so
+/// that coordinates next to rest do not count.
 ///
 /// The hundredth is a heuristic: roughness 1 is reached by a sine of 1.39 rad a step, whose quintic is off by 1.7e-4
 /// of the move. A sine at its most favourable phase spans 2.6 rad at roughness 1, off by 2e-3. Too large a
@@ -39,9 +40,9 @@ template <class T> [[nodiscard]] T roughness(const Layout& at, const Step<T>& st
   return worst;
 }
 
-/// The same for the moments of motors on open hinges, c (w − φ̇), and so for their work. The gain c may be so stiff that the
-/// moment hangs on digits of the rate that no tolerance of the rate asks for; an implicit method then still steps far. In
-/// (1) and (2) rates of both interpolants differ by at most
+/// The same for the moments of motors on open hinges, c (w − φ̇), and so for their work. With a large gain c the moment
+/// depends on digits of the rate below the rate's tolerance, but an implicit method still takes long steps. By (1) and
+/// (2) the rates of both interpolants differ by at most
 ///
 ///     (0.19245 max(|d0|, |d1|)/2 + |d1 − d0|/32)/h        0.19245 = 1/(3 √3) is the largest slope of s²(1 − s)²   (3)
 ///
@@ -76,7 +77,9 @@ template <class T, class AnySystem>
   return worst;
 }
 
-/// Largest factor from a step to the next one, or to its next trial step, by the step's roughness.
+/// Largest factor from a step to the next one, or to its next trial step, by the step's roughness. Roughness grows at
+/// least as h³, hence the inverse cube root. Heuristic: 0.8 after a refusal and 0.9 after an accepted step keep a
+/// distance to roughness 1; below 0.1 nothing is limited. Larger: more refused steps. Smaller: more steps.
 template <class P> [[nodiscard]] P factor_by_roughness(const P& rough) {
   const P root = exp2_roughly(P(P(-1.0 / 3) * log2_roughly(larger(rough, P(0.1)))));
   return select(rough > P(1), larger(P(P(0.8) * root), P(0.2)),

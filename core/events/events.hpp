@@ -145,7 +145,7 @@ public:
     case Event::graze:
       break;
     }
-    return {Holding<T>::excess(system_, step.x1, i), due.slope};
+    return {SlipSearch<T>::excess(system_, step.x1, i), due.slope};
   }
 
   /// Applies, at the start of a step, the event `due` and all simultaneous ones: engages latches and lets them go, sets
@@ -192,7 +192,7 @@ private:
   AnySystem& system_;
   Latches<T, AnySystem> latches_;
   Releases<T, AnySystem> releases_;
-  Holding<T> holding_;
+  SlipSearch<T> holding_;
 };
 
 } // namespace wingspread

@@ -75,7 +75,7 @@ template <class T>
 }
 
 /// Finds releases of stuck hinges over a step.
-template <class T> class Holding {
+template <class T> class SlipSearch {
 public:
   /// Stores the excess of every stuck hinge. @pre the last evaluation was at x, the start of the next step
   template <class AnySystem> void begin_step(const AnySystem& system, const State<T>& x) {

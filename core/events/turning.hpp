@@ -15,8 +15,8 @@ namespace wingspread {
 /// angle if its latch is open. Near: within one step's travel, on either side.
 /// @param waits whether the latch of hinge i is open; for a pack: in which lanes
 template <class T, class Mask>
-[[nodiscard]] auto turns_where_it_counts(const Wing<T>& wing, const Layout& at, const Step<T>& step,
-                                         int i, const Mask& waits) {
+[[nodiscard]] auto turns_near_an_end(const Wing<T>& wing, const Layout& at, const Step<T>& step,
+                                     int i, const Mask& waits) {
   const HingeTerms<T>& hinge = wing.hinges[i];
   const T before = hinge.sense * step.x[at.rate(i)], after = hinge.sense * step.x1[at.rate(i)];
   const auto turns = before * after < T(0);

@@ -1,8 +1,8 @@
 /// Air at rest on a plate that moves: pressure ½ ρ C |v| v on the normal velocity v.
 ///
 /// Along the plate, s = 0 … 1, the normal velocity of a rigid body is linear, v = v_0 + (v_1 − v_0) s.
-/// With B = ½ ρ C b L the force along the normal and its moment about s = 0, over the plate's
-/// length, are −B times
+/// ρ is the air's density, C the drag coefficient, b and L the plate's width and length, and B = ½ ρ C b L. The force
+/// along the normal is −B times (1). Its moment about the edge s = 0 is −B L times (2).
 ///
 ///     ∫ |v| v ds   = (|v_1|³ − |v_0|³)/(3 Δ)                                                    (1)
 ///     ∫ |v| v s ds = ((|v_1| v_1³ − |v_0| v_0³)/4 − v_0 (|v_1|³ − |v_0|³)/3)/Δ²    Δ = v_1 − v_0   (2)
@@ -25,10 +25,11 @@ template <class T> struct PlateTerms {
   T strength;          ///< B, kg/m; 0: no plate
 };
 
-template <class T> struct PlateLoad { T force, moment; };
+/// The integrals (1) and (2), m²/s²: −B times `first` is the force, −B L times `second` the moment.
+template <class T> struct PlateIntegrals { T first, second; };
 
 /// (1) and (2) from the normal velocities at both edges, m/s. Divided by Δ only where v changes its sign.
-template <class T> [[nodiscard]] PlateLoad<T> plate_load(const T& v0, const T& v1) {
+template <class T> [[nodiscard]] PlateIntegrals<T> plate_integrals(const T& v0, const T& v1) {
   using std::abs;
   const T a0 = abs(v0), a1 = abs(v1), product = v0 * v1;
   const auto one_sign = product >= T(0);
@@ -42,6 +43,9 @@ template <class T> [[nodiscard]] PlateLoad<T> plate_load(const T& v0, const T& v
           select(one_sign, smooth_moment, T((fourths - v0 * cubes) / (change * change)))};
 }
 
+/// The plate of a body; its strength is 0 without a plate or without air.
+/// @param center      from the hinge's point to the centre of mass, in the body's frame, m
+/// @param air_density kg/m³
 template <class T>
 [[nodiscard]] PlateTerms<T> plate_terms(const Body& body, const Vec2<T>& center,
                                         double air_density) {

@@ -19,7 +19,8 @@ template <class T> struct HingeTerms {
   T slip_rate;            ///< ω_s of the regularized friction, rad/s
   T kinetic_friction;     ///< τ_c of the exact friction, N·m
   T static_friction;      ///< τ_s of the exact friction, the largest moment it holds, N·m
-  /// The largest level that a measured spring (torque test both ways) adds to either model, N·m; 0 without one.
+  /// The largest level that a measured spring (torque test both ways) adds to the regularized or the exact model, N·m;
+  /// 0 without one.
   T measured_regularized, measured_exact;
   bool has_latch;
   T stiffness;   ///< k of the engaged latch, N·m/rad
@@ -38,7 +39,8 @@ template <class T> struct HingeTerms {
 
 namespace detail {
 
-/// The linear part of a torque whose line has the value `line`; of a table, only the offset.
+/// The linear part of a torque: scale · line + offset, N·m; only the offset if a table replaces the line.
+/// @param line value of the line at one end of the travel, N·m
 template <class T> [[nodiscard]] T linear_part(const HingeTorque& torque, double line) {
   return torque.table ? T(torque.offset) : T(torque.scale) * T(line) + T(torque.offset);
 }

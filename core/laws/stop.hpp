@@ -3,7 +3,7 @@
 ///
 /// | symbol | meaning                                       | unit    |
 /// |--------|-----------------------------------------------|---------|
-/// | δ      | penetration, s (φ_contact − φ); δ̇ = −s φ̇      | rad     |
+/// | δ, δ̇   | penetration s (φ_contact − φ); its rate −s φ̇  | rad, rad/s |
 /// | k, c   | stiffness; dissipation                        | N·m/rad, s/rad |
 ///
 ///     M = s k δ max(0, 1 + c δ̇)                                                                 (1)

@@ -37,11 +37,11 @@ template <class T, class Topology>
     const Vec2<T> normal = rotated(own.rotation, plate.normal);
     const T v0 = dot(normal, fused(own.rate, turned(from), work.velocities[i]));
     const T v1 = v0 + own.rate * dot(normal, turned(along));
-    const PlateLoad<T> load = plate_load(v0, v1);
-    work.air_forces[i] = scaled(T(-plate.strength * load.force), normal);
+    const PlateIntegrals<T> integrals = plate_integrals(v0, v1);
+    work.air_forces[i] = scaled(T(-plate.strength * integrals.first), normal);
     // about the hinge: the force at the first edge, plus its moment along the plate
     work.air_moments[i] = dot(turned(from), work.air_forces[i]) -
-                          plate.strength * load.moment * dot(turned(along), normal);
+                          plate.strength * integrals.second * dot(turned(along), normal);
   });
   tree.inward([&](int i) {
     const int p = tree.parent_of(i);

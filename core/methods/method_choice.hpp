@@ -62,16 +62,16 @@ inline constexpr int steps_between_radii = 128;
 inline constexpr int steps_before_leaving_series = 100;
 
 /// Where steps are surely held back, the implicit method is promising if the stable step is a smaller share
-/// than this of the time in which the motion changes (`quickness`). Implicit steps cannot reach beyond that
+/// than this of the time in which the motion changes (`highest_frequency`). Implicit steps cannot reach beyond that
 /// time. An implicit step takes about 30 evaluations, which cost as much as 30·implicit_cost/12 = 6.5 steps
-/// of order 8, so it breaks even at a share of 0.15; half of that, for `quickness` is known to a factor of
+/// of order 8, so it breaks even at a share of 0.15; half of that, for `highest_frequency` is known to a factor of
 /// two. Larger: more vain trials. Smaller: wings at the border stay with many short explicit steps.
 inline constexpr double promising_share = 0.08;
 /// Steps until `auto` checks the promise again, doubled from check to check between these limits.
 inline constexpr int first_recheck = 10, longest_recheck = 80;
 /// Factor on these limits after a step that was not surely held back: in a pack each check stops all lanes.
 inline constexpr int longer_recheck = 4;
-/// Held-back steps in a row after which a surely held-back one is left without a promise, for `quickness` may be
+/// Held-back steps in a row after which a surely held-back one is left without a promise, for `highest_frequency` may be
 /// wrong: of a wing that creeps it is. 200 steps of order 8 are 2,400 evaluations, a vain trial costs about a
 /// third of that, and waits double. With 1,600 steps in place of 200 a wing that seulex alone integrates
 /// in 1,300 evaluations took 29,000.
@@ -183,7 +183,7 @@ private:
   }
 
 public:
-  /// Whether `after_step` may change the method after a step of h, and needs the quickness for that.
+  /// Whether `after_step` may change the method after a step of h, and needs the highest frequency for that.
   [[nodiscard]] bool may_leave(double h) const {
     return automatic_ &&
            (active_ != explicit_ || held_back_.may_leave(h, static_cast<double>(steps_ + 1)));
@@ -191,13 +191,13 @@ public:
 
   /// Counts an accepted step of h that ends at `time`, and chooses the next step's method.
   /// @param evaluations of the run
-  /// @param quickness of time_scales.hpp, 1/s; unused unless may_leave(h)
+  /// @param highest_frequency of time_scales.hpp, 1/s; unused unless may_leave(h)
   /// @return whether the method changes
-  [[nodiscard]] bool after_step(double h, double time, long evaluations, double quickness) {
+  [[nodiscard]] bool after_step(double h, double time, long evaluations, double highest_frequency) {
     if (!automatic_) return false;
     ++steps_;
     const Mark now = mark(time, evaluations);
-    return active_ == explicit_ ? leave_explicit(h, now, quickness) : leave_implicit(now);
+    return active_ == explicit_ ? leave_explicit(h, now, highest_frequency) : leave_implicit(now);
   }
 
   /// The first trial step of the active method, s. @param h the step planned by the method before
@@ -236,14 +236,14 @@ private:
     return (now.time - from.time) / std::max(now.evaluations - from.evaluations, 1.0);
   }
 
-  [[nodiscard]] bool leave_explicit(double h, const Mark& now, double quickness) {
+  [[nodiscard]] bool leave_explicit(double h, const Mark& now, double highest_frequency) {
     held_back_.accepted(true, h, now);
     if (!held_back_.may_leave(h, now.steps)) return false;
     wants_first_ = !measured_;
     if (wants_first_) return false;
     const bool surely = h > choice::surely_held_back_share * stable_step_;
-    const bool promising = surely ? stable_step_ * quickness < choice::promising_share
-                                  : h * quickness < choice::clearly_promising_share;
+    const bool promising = surely ? stable_step_ * highest_frequency < choice::promising_share
+                                  : h * highest_frequency < choice::clearly_promising_share;
     const bool anyway =
         surely && now.steps >= held_back_.last_free.steps + choice::steps_to_try_anyway;
     if (!promising && !anyway) {
@@ -252,7 +252,7 @@ private:
       return false;
     }
     explicit_speed_ = speed(held_back_.last_free, now);
-    is_still_ = quickness == 0;
+    is_still_ = highest_frequency == 0;
     active_ = Method::seulex;
     before_ = now;
     tried_ = 0, loss_ = gain_ = 0;

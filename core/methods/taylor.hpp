@@ -47,6 +47,7 @@ public:
   static constexpr bool ends_with_stage = false;
   static constexpr int evaluations = order + 1; ///< each order counts as one evaluation
   static constexpr double longest_growth = 4;   ///< from step to step
+  /// As in runge_kutta.hpp; steppers_stability_test.cpp measures them.
   static constexpr double stable_real = 6.080, stable_imaginary = 3.325;
 
   TaylorSeries() {
@@ -57,8 +58,8 @@ public:
   }
 
   /// @param h the step to try; made shorter where the last terms would exceed the tolerance
-  /// @param error of the rates, and of the angles: the larger of the last two terms, as those of odd or of even
-  ///              order may vanish
+  /// @param error of the rates and of the angles: twice the larger of the last two terms (`margin`). One of the two
+  ///              may vanish, as those of odd or of even order do in some motions
   /// @pre has_series(system.wing()), and latches are not smoothed
   template <class AnySystem>
   void estimate(AnySystem& system, const Start<T>& from, T& h, State<T>& x1, State<T>& dxdt1,
@@ -83,7 +84,7 @@ public:
   }
 
 private:
-  /// Of one body; coefficients of t^0, t^1, …
+  /// Coefficients of t^0, t^1, … of one body.
   struct Series {
     std::array<T, order + 2> cosine, sine;
     std::array<T, order + 1> rate;       ///< ω
@@ -178,7 +179,7 @@ private:
     invert(m);
   }
 
-  /// Gauss and Jordan, in place.
+  /// Inverts in place by Gauss–Jordan elimination, without pivoting: the matrix is positive definite.
   template <std::size_t N> static void invert(std::array<std::array<T, N>, N>& m) {
     for (std::size_t p = 0; p < N; ++p) {
       const T scale = T(1) / m[p][p];
@@ -201,8 +202,9 @@ private:
   [[gnu::always_inline]] void add_order(const AnySystem& system, const Constants<N>& constant,
                                         const Start<T>& from, int k) {
     Series* const body = bodies_.data();
-    std::array<T, N> x, y, up, down, load, resistance, alpha; // x, y: of ω times z, without ω_(k+1)
-    std::array<Vec2<T>, N> bent, pull;                        // z̈ of order k, without α_k
+    // x, y: order k + 1 of ω sin θ, ω cos θ, without ω_(k+1); up, down: order k of S_x sin θ, S_y cos θ, without S_k
+    std::array<T, N> x, y, up, down, load, resistance, alpha;
+    std::array<Vec2<T>, N> bent, pull; // z̈ of order k, without α_k
 #pragma GCC unroll 4
     for (int j = 0; j < N; ++j) x[j] = y[j] = up[j] = down[j] = T(0);
     for (int l = 1; l < k; ++l)
@@ -283,7 +285,7 @@ private:
     return {fused(a.x, b.x, fused(a.y, b.y, c.x)), fused(a.x, b.y, fused(T(-a.y), b.x, c.y))};
   }
 
-  /// The state after h.
+  /// Sums the series: the state after a step h, and its error as `estimate` states it.
   template <class AnySystem>
   [[gnu::always_inline]] void sum(const AnySystem& system, const State<T>& x, const T& h,
                                   State<T>& x1, State<T>& error) const {
@@ -311,7 +313,8 @@ private:
   /// in motion from rest by constant moments.
   [[nodiscard]] T longest(const Layout& at, const State<T>& x, const T& rtol, const T& atol) const {
     using std::abs;
-    // Heuristic, in tolerances: in other motions the two terms before are then smaller anyway. Smaller: short steps.
+    // Heuristic, in tolerances. In motions without vanishing terms the last two terms set the step, and the two before
+    // stay below this value. Smaller: they set it, and steps get shorter.
     constexpr double small = 4;
     std::array<T, 4> terms;
     for (T& term : terms) term = T(1e-300);

@@ -12,12 +12,13 @@ namespace wingspread {
 /// of acceleration to rate or, if larger and its latch is engaged, that of rate to distance from rest. In a swing about
 /// an engaged latch one of the two is always at least the frequency; an elastic joint has only the first. A hinge
 /// counts however slow it is beside others: an implicit step must resolve its swing to the tolerance. Hinges slower
-/// than 100 `still` do not count (heuristic: rounding and the rest of a mode that has died out would look like a high
+/// than 100 times `still` do not count (heuristic: rounding and the rest of a mode that has died out would look like a high
 /// frequency).
 /// @param still rad/s: the rate that an explicit method leaves of a motion that has died out
 /// @return 0 if no hinge counts
 template <class T, class AnySystem>
-[[nodiscard]] double quickness(const AnySystem& system, const Step<T>& step, const T& still) {
+[[nodiscard]] double highest_frequency(const AnySystem& system, const Step<T>& step,
+                                       const T& still) {
   using std::abs;
   const Layout& at = system.layout();
   T swing(0);
@@ -34,7 +35,7 @@ template <class T, class AnySystem>
 }
 
 /// Time from the step's start in which no hinge turns by much more than a radian, s, at most `longest`.
-/// Limits the first step: a motion that begins as a parabola has no error by which to choose one.
+/// Limits the first step: while accelerations are constant, error estimates vanish and would allow any step.
 template <class T>
 [[nodiscard]] T time_to_a_radian(const Layout& at, const Step<T>& step, T longest) {
   using std::abs, std::sqrt;
@@ -67,7 +68,7 @@ template <class T>
 /// Largest angle whose sine is known well enough, rad: a double near 1e8 rounds by up to 7e-9 rad.
 inline constexpr double largest_known_angle = 1e8;
 
-/// Whether no angle exceeds largest_known_angle, or is NaN.
+/// Whether all angles are below largest_known_angle in magnitude; false with a NaN.
 template <class T> [[nodiscard]] bool angles_are_known(const Layout& at, const State<T>& x) {
   using std::abs;
   for (int i = 1; i <= at.bodies; ++i)

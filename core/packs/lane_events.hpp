@@ -1,7 +1,7 @@
 /// Events of the runs in the lanes: latches that engage or let go, edges, hinges that come to rest, angles for which
 /// holds wait.
 ///
-/// The tests are the first tests of the run alone: they may exclude an event, and never find one.
+/// The tests inside a step are the first tests of a run alone. They exclude an event, or leave the search to the run.
 #pragma once
 
 #include "core/events/contact.hpp"
@@ -23,7 +23,7 @@ public:
   /// @param real size of Wing::real
   void resize(const Layout& at, std::size_t real) {
     const P none(0.0);
-    for (std::vector<P>* v : {&waits_, &slides_, &watches_}) v->assign(at.bodies + 1, none);
+    for (std::vector<P>* v : {&waits_, &slides_, &awaits_angle_}) v->assign(at.bodies + 1, none);
     for (std::vector<P>& ways : ways_) ways.assign(real, none);
     may_happen_.assign(at.bodies + 1, Mask{});
   }
@@ -33,7 +33,7 @@ public:
     for (std::size_t i = 1; i < waits_.size(); ++i) {
       slides_[i].v[lane] = sense_of(work.contact[i]);
       waits_[i].v[lane] = work.engaged[i] ? 0 : 1;
-      watches_[i].v[lane] = work.watches[i] ? 1 : 0;
+      awaits_angle_[i].v[lane] = work.watches[i] ? 1 : 0;
     }
     for (int e = 0; e < edges_of_hinge; ++e)
       for (std::size_t i = 1; i < ways_[e].size(); ++i)
@@ -57,7 +57,8 @@ public:
       if (!wing.real.empty())
         found = found || (!system.is_locked(i) && may_pass_edge(system, step, i));
       if (wing.can_stick) found = found || (slides(i) && may_come_to_rest(system, step, i));
-      if (waits_for_hinge(wing, i)) found = found || (watches(i) && may_be_seen(system, step, i));
+      if (waits_for_hinge(wing, i))
+        found = found || (watches(i) && may_pass_awaited_angle(system, step, i));
       may_happen_[i] = found;
       any = any || found;
     }
@@ -143,7 +144,8 @@ private:
 
   /// The first test of Releases::first_passage.
   template <class AnySystem>
-  [[nodiscard]] static Mask may_be_seen(const AnySystem& system, const Step<P>& step, int i) {
+  [[nodiscard]] static Mask may_pass_awaited_angle(const AnySystem& system, const Step<P>& step,
+                                                   int i) {
     const ReleaseTerms<P>& hold = system.wing().releases[i];
     return may_reach(system, step, hold.after, hold.angle, system.wing().hinges[hold.after].sense);
   }
@@ -158,7 +160,7 @@ private:
   }
 
   [[nodiscard]] Mask slides(int i) const { return !(slides_[i] == P(0.0)); }
-  [[nodiscard]] Mask watches(int i) const { return watches_[i] > P(0.0); }
+  [[nodiscard]] Mask watches(int i) const { return awaits_angle_[i] > P(0.0); }
 
   /// Whether a hinge that slides may turn back: the first test of first_rest.
   template <class AnySystem>
@@ -191,16 +193,17 @@ private:
 
   std::vector<Mask>
       may_happen_; ///< 1 … n: lanes in which an event of the hinge may lie inside the last step
-  std::vector<P> waits_;   ///< 1: the latch is not engaged, else 0
-  std::vector<P> slides_;  ///< sense in which a hinge slides against exact friction; 0: it does not
-  std::vector<P> watches_; ///< 1: the hinge's hold waits for another hinge's angle, else 0
+  std::vector<P> waits_;  ///< 1: the latch is not engaged, else 0
+  std::vector<P> slides_; ///< sense in which a hinge slides against exact friction; 0: it does not
+  std::vector<P> awaits_angle_; ///< 1: the hinge's hold waits for another hinge's angle, else 0
   std::array<std::vector<P>, edges_of_hinge> ways_; ///< 1: edge above the angle; −1: below
 };
 
-/// Stuck hinges of the runs in the lanes: the moments on them at a step's ends, and whether one may slide inside.
+/// Locked hinges of the runs in the lanes: the moments on them at a step's ends, and whether friction may release a
+/// stuck one inside the step.
 ///
-/// The first test is Holding::comes_near, by the same expressions: it excludes a release, and never finds one.
-template <int W> class LaneHolds {
+/// The first test is SlipSearch::comes_near, by the same expressions: it excludes a release, and never finds one.
+template <int W> class LaneLocks {
   using P = Pack<W>;
   using Mask = typename P::Mask;
 
@@ -212,7 +215,7 @@ public:
     holds_ = none;
   }
 
-  /// Sets the hinges that stick in a lane. @param task null: the lane has no run
+  /// Sets the locked hinges of a lane. @param task null: the lane has no run
   void load(int lane, const LaneTask* task, Workspace<P>& work) {
     for (std::size_t i = 1; i < before_.size(); ++i) {
       const bool sticks = task && is_locked(task->work.contact[i]);
@@ -234,7 +237,7 @@ public:
     get_lane(lane, excess_before_, result.excess_before);
   }
 
-  /// The lanes in which any hinge sticks.
+  /// The lanes in which any hinge is locked.
   [[nodiscard]] Mask lanes() const { return holds_ > P(0.0); }
   /// Moments on stuck hinges at the step's start, 1 … n, N·m.
   [[nodiscard]] const std::vector<P>& before() const { return before_; }
@@ -243,7 +246,7 @@ public:
   template <class AnySystem> void keep_at_end(const AnySystem& system, const Step<P>& step) {
     at_end_ = system.work().holding;
     for (int i = 1; i < static_cast<int>(before_.size()); ++i)
-      if (any(system.is_locked(i))) excess_at_end_[i] = Holding<P>::excess(system, step.x1, i);
+      if (any(system.is_locked(i))) excess_at_end_[i] = SlipSearch<P>::excess(system, step.x1, i);
   }
 
   /// @return lanes in which the friction of a stuck hinge may pass its limit. @pre as keep_at_end
@@ -251,7 +254,7 @@ public:
   [[nodiscard]] Mask may_release(const AnySystem& system, const Step<P>& step) {
     keep_at_end(system, step);
     Mask found{};
-    if (!system.wing().can_stick) return found; // holds alone
+    if (!system.wing().can_stick) return found; // only holds lock hinges
     bound_.over_step(system, step);
     for (int i = 1; i < static_cast<int>(before_.size()); ++i) {
       const Mask locked = system.is_locked(i);
@@ -281,7 +284,7 @@ private:
   std::vector<P> at_end_, excess_at_end_;
   HeldLoadBound<P> bound_;
   std::array<int, W> locked_{}; ///< number of locked hinges in each lane
-  P holds_;                     ///< 1 where any does, else 0
+  P holds_;                     ///< 1 in lanes with a locked hinge, else 0
 };
 
 } // namespace wingspread

@@ -34,7 +34,8 @@ public:
     sampled_ = evaluations_ = none;
   }
 
-  /// To be set for each new run, if forces are asked for.
+  /// Constants of the bodies for bounds of the forces (reaction_bound.hpp). The caller sets them for each new run, if
+  /// forces are asked for.
   [[nodiscard]] std::vector<Lever<P>>& levers() { return levers_; }
 
   void load(int lane, const LaneTask& task) {
@@ -73,7 +74,7 @@ public:
       samples_.of(static_cast<int>(i))[0] = before_[i];
   }
 
-  /// Raises the peaks of the accepted lanes to the step's ends, for `accept` to keep.
+  /// Raises the peaks of the accepted lanes to the loads at the step's ends; `accept` keeps the raised peaks.
   /// @return lanes in which a peak may lie inside the step
   /// @param asks lanes that need their runs in any case: their loads and forces are not sampled
   /// @param held_before moments on stuck hinges at the step's start; those at its end are the system's last
@@ -295,7 +296,8 @@ private:
     return in_doubt;
   }
 
-  /// Evaluates the forces at k quarters of the step. @param open lanes whose runs would do so
+  /// Evaluates the forces at k quarters of the step. @param open lanes whose runs alone would evaluate them: only these
+  /// count the evaluation
   void sample(AnySystem& system, const Step<P>& step, int k, const Mask& open) {
     if (!samples_made_) sampled_ = P(0.0);
     samples_made_ = true;

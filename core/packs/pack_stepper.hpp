@@ -302,7 +302,7 @@ private:
     for (int i = 1; i <= at_.bodies; ++i) {
       found = found || !(abs(step_.x1[at_.angle(i)]) < P(largest_known_angle));
       if constexpr (Formula::order > 8)
-        found = found || turns_where_it_counts(wing_, at_, step_, i, events_.waits(i));
+        found = found || turns_near_an_end(wing_, at_, step_, i, events_.waits(i));
       if (shape_.overtravel) found = found || may_turn_back(wing_, at_, step_, i, overtravel_[i]);
       found = found || events_.lie_at_end(system_, step_, i);
     }
@@ -322,7 +322,7 @@ private:
   std::vector<P> overtravel_;
   std::vector<P> motor_energy_, motor_work_; ///< up to the step's start; over the step, J
   LaneEvents<W> events_;
-  LaneHolds<W> holds_;
+  LaneLocks<W> holds_;
   Mask accepted_{};           ///< lanes whose last trial step is accepted
   Mask kinks_{}, releases_{}; ///< lanes in whose last trial step there may be one
   /// Lanes that ask, after the tests of limits, events, releases, turns and peaks.

@@ -178,7 +178,7 @@ public:
     if (!verdict.accepted() || method() != Method::taylor) return verdict;
     T first(1);
     for (int i = 1; i <= run_.at.bodies; ++i)
-      if (turns_where_it_counts(run_.system.wing(), run_.at, run_.step, i, events.may_latch(i)))
+      if (turns_near_an_end(run_.system.wing(), run_.at, run_.step, i, events.may_latch(i)))
         if (const std::optional<T> s = turning_point(run_.at, run_.step, i))
           first = smaller(first, *s);
     return first < T(1) ? StepVerdict{2, static_cast<double>(first)} : verdict;
@@ -274,7 +274,7 @@ public:
   [[nodiscard]] bool choose_method() {
     const double h = static_cast<double>(run_.step.h);
     const double quick =
-        choice_.may_leave(h) ? quickness(run_.system, run_.step, T(tolerance().atol)) : 0;
+        choice_.may_leave(h) ? highest_frequency(run_.system, run_.step, T(tolerance().atol)) : 0;
     const bool changes =
         choice_.after_step(h, static_cast<double>(run_.step.t), evaluations(), quick);
     if (changes) {

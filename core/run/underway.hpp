@@ -32,7 +32,8 @@ template <class T, class AnySystem> struct Underway {
   T next_release = T(never);  ///< when the next hold lets go, s; `never`: none, or not known
   std::vector<T> held_before; ///< 1 … n: moments on stuck hinges at the step's start, N·m
   State<T> x, dxdt;           ///< scratch: a state inside the step
-  long searched = 0; ///< evaluations of peak searches: what is recorded must not change the motion
+  /// Evaluations of peak searches. `auto` leaves them out, so that asking for peaks does not change the motion.
+  long searched = 0;
 };
 
 } // namespace wingspread

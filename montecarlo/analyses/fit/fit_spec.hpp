@@ -30,6 +30,7 @@ struct FitColumn {
   std::string_view unit{};   ///< SI
   std::optional<double> std; ///< of the noise; nothing: unknown, with the prior 1/σ
   double offset_std = 0;     ///< of a constant offset of this column; 0: none
+  /// SI, one for each of FitTest::times; zeros in a candidate.
   std::vector<double> measured;
 };
 
@@ -44,10 +45,11 @@ struct FitValue {
 struct FitTest {
   std::string name;
   Campaign campaign; ///< with the test's case, changes and outputs; without cases
+  /// Of the trace, on its own clock, s.
   std::vector<double> times;
-  double interval = 0;      ///< between the samples of a run, s; 0: grid_interval of the times
-  double interpolation = 0; ///< what their interpolation adds to χ², see choose_intervals
-  double time_offset_std = 0;
+  double interval = 0;        ///< between the samples of a run, s; 0: grid_interval of the times
+  double interpolation = 0;   ///< what interpolation adds to χ²: choose_intervals, test_runs.hpp
+  double time_offset_std = 0; ///< of the clock, s; 0: no offset
   bool correlated =
       true; ///< temper the likelihood of a trace by the autocorrelation of its residuals
   std::vector<FitColumn> columns;

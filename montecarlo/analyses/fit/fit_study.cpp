@@ -17,24 +17,27 @@ namespace wingspread {
 namespace {
 
 constexpr std::size_t least_walkers = 32; // each half fills two threads of eight lanes
-constexpr double independent_moves = 0.8; // heuristic: the others reach what the proposal misses
+// Heuristic: share of moves drawn from the proposal; the other moves reach regions that the proposal misses.
+constexpr double independent_moves = 0.8;
 // Heuristic: the limit of the evaluations, unless the user gives one. With 100, 16 of 43 fits of four parameters, each
 // with offsets of a clock and of two sensors, ended unfinished.
 constexpr long runs_of_a_sample = 400;
 constexpr std::size_t predicted_rows = 400; // for bands and p-values: 10 rows in each 2.5 % tail
-// Heuristic: from so many starts the search goes on where those asked for lead nowhere near a trace. A moment that jumps at
-// its latch has many local modes; fewer starts miss the true one more often, more cost runs where a trace is foreign.
+// Heuristic: number of starts of a second search, made if the first one ends far from a trace. A trace of a moment that
+// jumps at latching has many local modes. Fewer starts miss the true mode more often; more starts cost runs where the
+// trace is of another wing.
 constexpr int most_starts_of_search = 32;
-constexpr int temperings = 2;   // the mode moves little when the likelihood is tempered
-constexpr int least_tried = 16; // points of the prior that show whether a number can be predicted
+constexpr int temperings = 2;   // rounds of tempering and a new search; each moves the mode little
+constexpr int least_tried = 16; // points of the prior; if no run there has a number, it is refused
 
 std::size_t walkers_for(std::size_t dimensions) {
   const std::size_t walkers = std::max(least_walkers, 4 * dimensions);
   return walkers + walkers % 2;
 }
 
-/// The 1 % of a prior next to a limit where it is cut off lies within this share of the way to its median; of a uniform law
-/// 0.02, of a normal one cut at its mean 0.019. Heuristic: laws that fade out towards 0 have far more.
+/// A prior with one limit is cut off there, and does not fade out, if its 1 % quantile next to the limit is nearer to
+/// the limit than this share of the median's distance. A uniform law has 0.02, a normal law cut at its mean 0.019.
+/// Heuristic: laws that fade out towards the limit have far more.
 constexpr double most_of_cut = 0.05;
 
 /// The campaign whose laws the parameter has.
@@ -51,7 +54,8 @@ LawMoments prior_moments(const FitParameter& parameter, const Campaign& campaign
   return moments_of(campaign.dispersions[parameter.dispersion].distribution);
 }
 
-/// The limit of the prior at which the posterior's values lie, if any; none where a prior of one limit fades out.
+/// The limit of the prior at which the posterior lies (at_limit); nothing if it lies at none, or if a prior with one
+/// limit fades out towards it (most_of_cut).
 /// @param campaign see laws_of
 std::optional<double> limit_at(std::span<const double> sorted, const FitParameter& parameter,
                                const Campaign& campaign) {
@@ -354,7 +358,7 @@ long set_intervals(const Campaign& campaign, const FitOptions& options,
 
 } // namespace
 
-long least_most_runs() { return least_evaluations(walkers_for(1)); }
+long smallest_run_limit() { return least_evaluations(walkers_for(1)); }
 
 FitResult fit_campaign(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,
                        const std::atomic<bool>& stop, BatchLog* log,

@@ -22,8 +22,9 @@ struct FitOptions {
   double confidence = 0.95;
 };
 
-/// The least that most_runs may be with up to eight parameters; it grows in proportion with more.
-[[nodiscard]] long least_most_runs();
+/// The smallest FitOptions::most_runs that a fit of up to eight parameters accepts. Beyond eight it grows in proportion
+/// to their number.
+[[nodiscard]] long smallest_run_limit();
 
 /// A parameter as its dispersion applies it; an offset in SI.
 struct FittedParameter {

@@ -57,7 +57,7 @@ Stretch best_stretch(const Candidates& candidates) {
 /// Chooses a scale. Evaluates further scales first if the choice depends on them.
 class Recommendation {
 public:
-  Recommendation(const RecommendationMeans& means, MarginSearch& search)
+  Recommendation(const RecommendationCallbacks& means, MarginSearch& search)
       : means_(means), search_(search) {}
 
   void choose() {
@@ -128,7 +128,7 @@ private:
     if (better) search_.passed_over = means_.shortfall(best->scale);
   }
 
-  const RecommendationMeans& means_;
+  const RecommendationCallbacks& means_;
   MarginSearch& search_;
   bool ran_ = false;
 };
@@ -147,7 +147,7 @@ double strain(const ScaleResult& cases) {
   return worst;
 }
 
-void recommend(const RecommendationMeans& means, MarginSearch& search) {
+void recommend(const RecommendationCallbacks& means, MarginSearch& search) {
   Recommendation(means, search).choose();
 }
 

@@ -29,7 +29,7 @@ namespace wingspread {
 [[nodiscard]] double strain(const ScaleResult& cases);
 
 /// The functions that a recommendation calls.
-struct RecommendationMeans {
+struct RecommendationCallbacks {
   double tolerance; ///< relative tolerance of scales, the same as for the window's edges
   /// Makes the runs at a new scale and stores them in MarginSearch::seen.
   std::function<void(double)> run_at;
@@ -38,6 +38,6 @@ struct RecommendationMeans {
 };
 
 /// Sets MarginSearch::recommended and `as_good`, or `withheld`, and `passed_over`.
-void recommend(const RecommendationMeans& means, MarginSearch& search);
+void recommend(const RecommendationCallbacks& means, MarginSearch& search);
 
 } // namespace wingspread

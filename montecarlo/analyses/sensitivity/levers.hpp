@@ -28,8 +28,8 @@ struct LeverChange {
 
 struct LeverChanges {
   NeededFor what = NeededFor::limit;
-  long runs = 0;
-  double explained = 0;
+  long runs = 0;        ///< runs of the estimate
+  double explained = 0; ///< adjusted R² of the linear fit
   /// The known ones first, then by the size of the change; one for each quantity.
   /// None where a linear fit of the limited output explains less than half of its variance.
   std::vector<LeverChange> levers;
@@ -37,7 +37,7 @@ struct LeverChanges {
 
 /// The most effective changes for a requirement. One input replaces its group if its change is at most a quarter
 /// larger.
-/// @param most of them
+/// @param most largest number of levers to return
 /// @return nothing if needed_changes() returns nothing
 [[nodiscard]] std::optional<LeverChanges> lever_changes(NeededFor what, const Campaign& campaign,
                                                         const Verdict& verdict,

@@ -67,7 +67,7 @@ struct MovedDraws {
 /// shift t.
 struct NeededChange {
   double now = 0;  ///< mean of the draws
-  double edge = 0; ///< at which as many runs break it as may
+  double edge = 0; ///< change at which the allowed number of runs break it
   double change =
       0; ///< at which a new campaign passes at the confidence; the edge if that is not known
   bool known = false;         ///< whether the draws show that the change is enough

@@ -1,5 +1,5 @@
 /// The integration error of a campaign: runs drawn at random are repeated at a tighter tolerance by another method and
-/// compared. The runs of a random sample represent all runs, so their errors bound those of the campaign.
+/// compared. Since the sample is random, its errors bound the share of all runs with a larger error (share_at_most).
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -54,9 +54,9 @@ inline constexpr double moved_share = 0.01;
 [[nodiscard]] double share_at_most(const Accuracy& accuracy, std::size_t found, double confidence);
 
 /// The reference integrations, the preferred one first. Their rtol is 100 times tighter, kept between 1e-13 (1e-12
-/// for an implicit method) and 1e-8. First comes dopri5, whose coefficients differ from those of dop853, which `auto`
-/// uses; then seulex, for latches too stiff for dopri5. A campaign that itself uses dopri5 or seulex is compared with
-/// dop853 or `auto` in its place.
+/// for an implicit method) and 1e-8, and never above the campaign's. First comes dopri5, which `auto` takes
+/// at loose tolerances only; then seulex, for latches too stiff for dopri5. A campaign that itself uses dopri5 or
+/// seulex is compared with dop853 or `auto` in its place.
 [[nodiscard]] std::vector<Integration> references_of(const Integration& integration);
 
 /// The step limit of a reference for a run that took so many steps.
@@ -87,8 +87,8 @@ inline constexpr double moved_share = 0.01;
                                               std::span<const ResultRow> rows,
                                               const ThreadPool& pool);
 
-/// The number of runs to repeat: the campaign's accuracy_runs, if given. Else 1 % of the runs, at least 10 and at most
-/// 100; of fewer than 100 runs a tenth. Its cost: README.md. If none of 100 repeated runs has an error beyond x, at
+/// The number of runs to repeat: the campaign's accuracy_runs, if given. Else a tenth of up to 100 runs; of more runs
+/// 1 %, but at least 10 and at most 100. The cost is in README.md. If none of 100 repeated runs has an error beyond x, at
 /// most 3 % of all runs have one (95 % confidence); with 10 repeated runs at most 26 %.
 [[nodiscard]] std::size_t count_repeated(const Campaign& campaign, std::size_t runs);
 

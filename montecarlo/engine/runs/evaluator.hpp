@@ -26,7 +26,7 @@ struct Batch {
 /// Receives batches, one at a time and in the order of their runs, on any thread.
 struct BatchSink {
   std::function<void(const Batch&)> take;
-  bool wants_csv = false; ///< let the threads that make the runs format the lines
+  bool wants_csv = false; ///< Batch::csv is filled, by the threads that make the runs
 };
 
 /// Makes runs. The rows and their order do not depend on the number of threads or processes.

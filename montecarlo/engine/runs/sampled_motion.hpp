@@ -22,7 +22,7 @@ struct SampledColumns {
 /// The goal of a run for these columns: its motion to t_end, without peaks.
 [[nodiscard]] Goal goal_of(const Scene& scene, const SampledColumns& columns);
 
-/// What a column is, which decides how it is interpolated.
+/// The kind of a column. It decides how the column is interpolated.
 enum class ColumnKind { angle, rate, other };
 
 /// Collects a run's samples in a list of numbers. A sample adds two numbers for each column: its value, and for an

@@ -49,7 +49,7 @@ public:
   [[nodiscard]] bool next();
 
   /// The cells of the current record. The reference holds until the next call of next().
-  /// Throws SpecError for a quote inside an unquoted cell, text after a closing quote, a quote that
+  /// @throws SpecError for a quote inside an unquoted cell, text after a closing quote, a quote that
   /// is never closed, or a carriage return that no line feed follows.
   [[nodiscard]] const std::vector<std::string>& cells();
 

@@ -5,7 +5,7 @@
 
 namespace wingspread {
 
-/// Thrown when a computation is stopped before its result is complete.
+/// Thrown by a study or by a function of the library whose caller's stop flag was set before the result was complete.
 struct Stopped : std::exception {
   [[nodiscard]] const char* what() const noexcept override {
     return "stopped before the result was complete";

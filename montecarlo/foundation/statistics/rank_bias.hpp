@@ -31,8 +31,8 @@
 
 namespace wingspread {
 
-/// τ and w use the first rows, so many. The error of τ is then 1/√500, which changes (1) by 0.13/n; (1) itself has a
-/// standard error of about 1/√n.
+/// The largest number of rows from which τ and w are computed, always the first ones. The error of τ is then 1/√500,
+/// which changes (1) by 0.13/n; (1) itself has a standard error of about 1/√n.
 inline constexpr std::size_t rank_bias_rows = 500;
 
 class RankBias {
@@ -41,7 +41,7 @@ public:
   /// @param columns values or ranks, equally long, finite, in an order that does not depend on them
   explicit RankBias(const std::vector<std::span<const double>>& columns);
 
-  /// (1) for the columns x and y. @param correlation ρ; the result is NaN if it is
+  /// (1) for the columns x and y. @param correlation ρ; for NaN the result is NaN
   [[nodiscard]] double in_sample(std::size_t x, std::size_t y, double correlation) const;
 
 private:

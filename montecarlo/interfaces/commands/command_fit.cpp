@@ -118,7 +118,7 @@ void add_fit_options(CLI::App& command, FitCommandOptions& options) {
                    "Continue an interrupted or unfinished fit in --out");
   within(command.add_option("--runs", options.runs,
                             "Most runs of the sampler a test; default: 400 a sample"),
-         least_most_runs(), std::numeric_limits<long>::max())
+         smallest_run_limit(), std::numeric_limits<long>::max())
       ->type_name("N");
   add_seed_option(command, options.seed);
   add_machine_options(command, options.machine);

@@ -41,7 +41,7 @@ void refuse_run_options(const SensitivityOptions& options) {
   const auto refuse = [&](bool given, const char* option) {
     if (given)
       problems.push_back({"", option, "this option with a results folder",
-                          "it only with a campaign's file: the runs of a folder are made"});
+                          "it only with a campaign's file: a folder already has its runs"});
   };
   refuse(options.samples.has_value(), "--samples");
   refuse(options.seed.has_value(), "--seed");

@@ -22,7 +22,7 @@ namespace wingspread {
 struct CaseChange {
   Apply apply = Apply::set;
   SceneParameter target;
-  double value = 0; ///< SI
+  double value = 0; ///< SI; a factor if the change scales
 };
 
 /// A case's law for a dispersion of the campaign; it uses the same random numbers.
@@ -59,6 +59,7 @@ struct CaseSpec {
 /// @param value a number, or a string with a unit
 void read_change(const JsonCursor& value, std::string_view path, Apply apply, const Scene& scene,
                  std::vector<CaseChange>& changes);
+/// Applies the changes in their order.
 void make_changes(std::span<const CaseChange> changes, Scene& scene);
 
 } // namespace wingspread

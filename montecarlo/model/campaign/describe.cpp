@@ -174,7 +174,7 @@ std::string describe_statistics(const StatisticsSpec& statistics) {
                      statistics.confidence, bins ? std::to_string(*bins) : "auto", accuracy);
 }
 
-/// What the campaign's static margins have in place of the defaults, "ecss/friction 1.5, points 11"; or empty.
+/// The settings of static margins that differ from the defaults, "ecss/friction 1.5, points 11"; empty if none does.
 std::string describe_static_margins(const StaticMarginSpec& spec, const Scene& scene) {
   const StaticMarginSpec usual = default_static_margins(scene);
   std::string text;

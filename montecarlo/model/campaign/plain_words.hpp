@@ -14,7 +14,7 @@ namespace wingspread {
 [[nodiscard]] std::string plain_words(const Scene& scene,
                                       std::span<const SceneParameter> parameters);
 
-/// What a dispersion varies: the words of its targets; of one that acts through tables its name.
+/// The varied quantity of a dispersion: the words of its targets, or its name if it acts through tables.
 [[nodiscard]] std::string plain_words(const Scene& scene, const Dispersion& dispersion);
 
 /// The paths of parameters, one with `*` where it names exactly these of a quantity: "hinges.*.spring.scale".

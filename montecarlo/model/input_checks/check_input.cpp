@@ -48,7 +48,7 @@ Scene written_scene(Campaign campaign) {
   return nominal_scene(campaign);
 }
 
-/// Warns of the first torque problem of each case that the nominal wing does not have.
+/// Warns of the first number of each case that no wing has and that the nominal wing does not have either.
 void check_cases(const Campaign& campaign, const InputWarnings& nominal, InputWarnings& warnings) {
   const auto is_nominal = [&](const InputWarning& warning) {
     return std::ranges::find(nominal.list(), warning.pointer, &InputWarning::pointer) !=
@@ -56,7 +56,7 @@ void check_cases(const Campaign& campaign, const InputWarnings& nominal, InputWa
   };
   for (std::size_t k = 0; k < campaign.cases.size(); ++k) {
     InputWarnings own(nominal.place());
-    check_torques(nominal_scene(campaign_of_case(campaign, campaign.cases[k])), own);
+    check_numbers(nominal_scene(campaign_of_case(campaign, campaign.cases[k])), own);
     for (const InputWarning& warning : own.list())
       if (!is_nominal(warning))
         warnings.add(fmt::format("/cases/{}", k),

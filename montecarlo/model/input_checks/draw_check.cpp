@@ -56,7 +56,7 @@ std::string place_of_law(const Campaign& whole, const std::string& of_case,
   return place_of(whole, dispersion);
 }
 
-/// What is unphysical in the draws of one case, by the law's place: the fault that most draws have.
+/// Unphysical parameters in the draws of one case, by the law's place: for each law the fault that most draws have.
 class CaseFaults {
 public:
   CaseFaults(const Campaign& whole, const Campaign& of_case) : whole_(whole), case_(of_case) {}

@@ -126,6 +126,13 @@ void check_hinge(const std::string& at, const Hinge& hinge, InputWarnings& warni
         fmt::format("a gap of {:.4g} rad at the latched side, inside the backlash of ±{:.4g} rad",
                     hinge.far_stop->gap, 0.5 * hinge.latch->backlash),
         "a gap beyond the backlash: the stop bears before the latch does");
+  if (hinge.friction.model == FrictionModel::exact &&
+      hinge.friction.regularization_rate != Friction{}.regularization_rate)
+    warnings.add(at + "/friction/regularization_rate",
+                 fmt::format("{:.4g} rad/s, which the exact model does not use",
+                             hinge.friction.regularization_rate),
+                 "no regularization_rate with the exact model; the regularized one is \"model\": "
+                 "\"regularized\"");
   if (std::abs(hinge.initial_rate) > most_start_rate)
     warnings.add(at + "/initial_rate", fmt::format("{:.4g} rad/s", hinge.initial_rate),
                  fmt::format("up to {} rad/s (write degrees as \"30 deg/s\")", most_start_rate));
@@ -144,8 +151,11 @@ void check_extents(const Scene& scene, InputWarnings& warnings) {
     check_body_numbers(fmt::format("/bodies/{}", b), scene.bodies[b], warnings);
   check_base_numbers(scene.base, warnings);
   for (std::size_t k = 0; k < scene.synchronisations.size(); ++k)
-    if (scene.synchronisations[k].stiffness == 0 && scene.synchronisations[k].damping == 0)
-      warnings.add(fmt::format("/synchronisations/{}/stiffness", k), "0: the loop ties nothing",
+    if (scene.synchronisations[k].stiffness == 0)
+      warnings.add(fmt::format("/synchronisations/{}/stiffness", k),
+                   scene.synchronisations[k].damping == 0
+                       ? "0: the loop ties nothing"
+                       : "0: the loop slows what its hinges do apart, and brings none back",
                    "the stiffness of the strands");
   if (scene.environment.air_density > most_air)
     warnings.add("/environment/air_density",

@@ -1,4 +1,4 @@
-/// What `wingspread new` writes: a scene, a campaign, and a page that explains each line.
+/// The files of `wingspread new`: a scene, a campaign, and a page that explains each line.
 #pragma once
 
 #include "montecarlo/model/starter/wing_design.hpp"

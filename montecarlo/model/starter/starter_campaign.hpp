@@ -8,7 +8,7 @@
 
 namespace wingspread {
 
-/// What the campaign requires, found from the nominal wings of all cases.
+/// Limits of the campaign's requirements, found from the nominal wings of all cases.
 struct StarterLimits {
   double t_end = 0;           ///< s
   double deployment_time = 0; ///< s

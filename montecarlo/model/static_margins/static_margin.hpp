@@ -51,7 +51,7 @@ using Margins = std::array<double, margin_kind_names.size()>;
 /// The formula of a margin with its factors, "T / (1.35 ΣT_fixed + 2.5 ΣT_variable) − 1".
 [[nodiscard]] std::string formula_of(MarginKind kind, const StaticMarginSpec& spec);
 
-/// What is available, and what a standard asks for, N·m: the margin is their quotient, less 1.
+/// The available torque and the torque that a standard asks for, N·m: the margin is their quotient, less 1.
 struct TorqueQuotient {
   double available = 0, required = 0; ///< both linear in the terms
 };

@@ -7,7 +7,7 @@ namespace wingspread {
 namespace {
 
 // Largest count of numbers per part of a page: 425,000 in all, some 3.4 MB at 8 to 9 bytes a number. The split between
-// the parts is heuristic. Larger values break the page's limit of 4 MB.
+// the parts is heuristic. Larger values break the limit of 3.5 MB for the page's data (page/DATA.md).
 constexpr double most_output_numbers = 140'000, most_motion_numbers = 130'000,
                  most_envelope_numbers = 60'000, most_scatter_numbers = 45'000,
                  most_effect_numbers = 20'000, most_correlations = 30'000;

@@ -1,4 +1,4 @@
-/// The resolution of the page: limits of its lists that keep its size below 4 MB for any campaign.
+/// The resolution of the page: limits of its lists that keep its data below 3.5 MB for any campaign.
 #pragma once
 
 #include <cstddef>

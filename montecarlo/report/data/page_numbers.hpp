@@ -22,10 +22,10 @@ inline constexpr int page_digits = 7;
 [[nodiscard]] Json page_number(const std::optional<double>& value);
 [[nodiscard]] Json page_numbers(std::span<const double> values, int digits = page_digits);
 
-/// Adds "lower" and "upper".
+/// Adds the rounded bounds as "lower" and "upper"; null for a missing one.
 void add_bounds(Json& json, const Bounds& bounds);
 
-/// JSON text to embed in HTML: one line without `<`.
+/// JSON text to embed in HTML: one line, each `<` escaped.
 [[nodiscard]] std::string page_text(const Json& json);
 
 } // namespace wingspread

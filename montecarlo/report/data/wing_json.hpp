@@ -33,8 +33,8 @@ struct BodyOutline {
 /// @param scene the scene of the nominal wing
 [[nodiscard]] Json wing_json(const Scene& scene);
 
-/// What a reader must know of the rest: stops that are pressed or touched there, hinges that rest far from their latched
-/// angle. Empty for an ordinary latched wing.
+/// Notes on the angles at rest: stops that are pressed or touched there, hinges that rest far from their latched angle.
+/// Empty for an ordinary latched wing.
 [[nodiscard]] std::vector<std::string> modes_notes(const WingModes& modes);
 
 } // namespace wingspread

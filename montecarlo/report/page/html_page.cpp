@@ -32,7 +32,7 @@ std::string name_of_folder(const std::filesystem::path& folder) {
   return name.empty() || name == "." || name == ".." ? folder.string() : name.string();
 }
 
-/// Says of the cases of a folder whether one `analyze` of it gives the statistics of all of them.
+/// Notes for the cases of a folder whether one `analyze` of the folder reproduces the statistics of all cases.
 void note_analyses(std::span<const std::unique_ptr<PageSource>> cases) {
   const auto as_the_first = [&](const auto& source) {
     return write_analysis(source->stored.campaign) ==
@@ -132,7 +132,7 @@ PageSources read_page_sources(std::span<const std::filesystem::path> folders, in
   const std::size_t sets = sources.runs.size() + sources.studies.size();
   if (sets == 0 || sets > most_sets)
     throw SpecError({{folders.front().string(), "", fmt::format("{} sets of runs", sets),
-                      fmt::format("from 1 to {}: folders, and cases in them", most_sets)}});
+                      fmt::format("from 1 to {}: each folder or case is a set", most_sets)}});
   label_by_path(sources);
   return sources;
 }

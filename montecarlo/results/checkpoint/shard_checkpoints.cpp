@@ -21,7 +21,7 @@ Stamp stamp_in(const std::filesystem::path& folder) {
   std::vector<Problem> problems;
   Stamp stamp = read_stamp(JsonCursor(about, path.string(), problems));
   if (problems.empty() && !stamp.shard)
-    problems.push_back({path.string(), "", "a study that is no shard", "a shard of one"});
+    problems.push_back({path.string(), "", "a whole study", "a shard of a study"});
   if (!problems.empty()) throw SpecError(std::move(problems));
   return stamp;
 }
@@ -60,7 +60,8 @@ ShardCheckpoints::ShardCheckpoints(const std::vector<std::filesystem::path>& fol
                                    Evaluator& inner, const std::atomic<bool>& stop)
     : inner_(inner), stop_(stop) {
   if (folders.empty()) return;
-  for (const std::filesystem::path& folder : folders) // first of all: do they belong to this study?
+  // Refuses folders of other studies first: missing shards are reported only for this study.
+  for (const std::filesystem::path& folder : folders)
     (void)Checkpoint(folder / checkpoint_file, about_shard(about, *stamp_in(folder).shard));
   for (const Part& part : parts_of(folders, runs, maker)) {
     const Shard shard = *part.stamp.shard;
@@ -79,7 +80,7 @@ long ShardCheckpoints::make(const RunPlan& plan, RunRange range, const BatchSink
   if (!have(plan, range)) return inner_.make(plan, range, sink);
   long handed_on = 0;
   const auto count = [&](const Batch& batch) {
-    read_ += std::ssize(batch.rows); // before it is handed on: then the progress is shown
+    read_ += std::ssize(batch.rows); // before sink.take(), which shows the progress
     sink.take(batch);
   };
   for (ShardLog& each : shards_) {

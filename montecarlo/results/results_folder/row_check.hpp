@@ -17,7 +17,7 @@ struct RowFault {
   std::string column, found, expected;
 };
 
-/// What a campaign allows its rows.
+/// Limits that a campaign sets for its rows.
 struct RowRules {
   double t_end = std::numeric_limits<double>::infinity(); ///< s
   bool holds = true; ///< whether a hold may keep a run from deploying after all latches

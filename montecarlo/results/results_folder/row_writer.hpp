@@ -14,6 +14,7 @@ namespace wingspread {
 /// The rows of a folder while its runs are made. After a signal or a crash the file can be continued.
 class RowWriter {
 public:
+  /// Does not touch the file before continue_after() or open(). @param names of the columns
   RowWriter(std::filesystem::path file, const ResultNames& names);
 
   /// Takes the rows read from the file, and cuts off bytes after its last complete row.

@@ -28,7 +28,8 @@ std::vector<double> pilot_values(const Results& pilot, std::span<const Column> m
   return values;
 }
 
-/// The grid of a hinge's angles where it stopped; of all its final angles if none of the pilot's runs stalled.
+/// The grid for the angles at which a hinge stopped in stalled runs. If it stopped in none of the pilot's runs: for its
+/// final angles in all of them.
 Grid grid_of_stopped(const FinalAngleColumns& columns, const Results& pilot) {
   std::vector<double> all, stopped;
   for (std::size_t row = 0; row < pilot.size(); ++row) {
@@ -202,7 +203,7 @@ void StreamingStatistics::add_correlations(const ResultRow& row) {
 void StreamingStatistics::add(const StreamingStatistics& other) {
   if (other_orders_ + other.other_orders_ > 0)
     throw SpecError({{"", "", "more than " + std::to_string(most_order_kinds) + " latch orders",
-                      "fewer: the rest was counted together and cannot be split"}});
+                      "fewer: orders beyond this number share one count, which cannot be merged"}});
   runs_ += other.runs_;
   for (std::size_t i = 0; i < status_.size(); ++i) status_[i] += other.status_[i];
   for (std::size_t i = 0; i < peaks_.size(); ++i) peaks_[i] += other.peaks_[i];

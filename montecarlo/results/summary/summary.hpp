@@ -96,7 +96,7 @@ struct NominalRun {
   PeaksFinal peaks = PeaksFinal::unknown; ///< unknown also where the campaign asks for no peaks
 };
 
-/// 1 for a run that deployed, 0 for every other: a draw that is no wing and a run that failed count as in verdicts.
+/// 1 for a run that deployed, 0 for every other: as in verdicts, invalid and failed runs count as not deployed.
 [[nodiscard]] Column deployed_column(const Results& results);
 
 /// Correlation of a draw with an output or with deployed_column() (Pearson's is then the point-biserial correlation).
@@ -105,7 +105,7 @@ struct DrawCorrelation {
   Correlation value;
 };
 
-/// Draws of another tool's runs that the dispersion's law does not give.
+/// Draws of another tool's runs that lie outside the dispersion's law.
 struct StrangeDraws {
   std::string name;                            ///< of the dispersion
   long runs = 0;                               ///< with such a draw
@@ -160,12 +160,13 @@ struct Summary {
   std::optional<PeaksCount> peaks{};         ///< nothing if not recorded
   std::vector<GoalState> until{};            ///< goals of the stopping rule
   bool stopped = false;                      ///< all goals were met before all runs were made
-  InterimAnalyses interim{};                 ///< which share the risk of every bound and verdict
+  InterimAnalyses interim{};                 ///< they share the risk of every bound and verdict
   bool without_rows = false;                 ///< computed from streaming statistics
   bool one_run =
       false; ///< nothing is dispersed, and all runs have the same result (judge_campaign.hpp)
 
-  /// Of each bound at this analysis, so that the bounds of all interim analyses hold together at `confidence`.
+  /// The confidence of each bound at this analysis: with it the bounds of all interim analyses hold together at
+  /// `confidence`.
   [[nodiscard]] double confidence_of_bound() const {
     return interim.confidence_of_bound(confidence);
   }
@@ -185,7 +186,7 @@ struct Summary {
 /// for both ends.
 [[nodiscard]] std::string_view words_of(MissingRank end);
 /// Why an output lacks a quantile over all runs: "976 of 1000 runs have a value; the others rank above every value".
-/// Empty if it has it.
+/// Empty if the quantile exists.
 [[nodiscard]] std::string why_no_quantile(const OutputSummary& output,
                                           const QuantileEstimate& quantile);
 /// Why a quantile over all runs or one of its bounds is missing; empty if none is.

@@ -47,7 +47,7 @@ TEST_CASE("a hinge that turns back counts near its latch, or near its stowed ang
       for (const double way : {1e-6, 0.1}) { // the hinge's travel in the step
         const Wing<double> wing = wing_of_panel(other);
         const auto counts = [&](const TurnBack& turn, bool waits) {
-          return turns_where_it_counts(wing, at, turn.step(wing.hinges[1], h), 1, waits);
+          return turns_near_an_end(wing, at, turn.step(wing.hinges[1], h), 1, waits);
         };
         const double bend = 8 * way; // from the middle to an end: ½ bend/4
         CAPTURE(other, h, way);

@@ -202,8 +202,8 @@ TEST_CASE(
 TEST_CASE("auto leaves steps that are not surely held back on a clear promise only") {
   const double stable = DormandPrince853<double>::stable_real / 1e3;
   struct Case {
-    double share, quickness; ///< of a step in the stable one; 1/s
-    int first, last;         ///< step after which auto leaves
+    double share, highest_frequency; ///< of a step in the stable one; 1/s
+    int first, last;                 ///< step after which auto leaves
   };
   constexpr int never = 3000;
   const auto near = [&](double share, double of_promise) {
@@ -223,8 +223,8 @@ TEST_CASE("auto leaves steps that are not surely held back on a clear promise on
     int steps = 0;
     for (bool leaves = false; !leaves && steps < never; ++steps)
       leaves = choice.after_step(c.share * stable, time += c.share * stable, evaluations += 12,
-                                 c.quickness);
-    CAPTURE(c.share, c.quickness, steps);
+                                 c.highest_frequency);
+    CAPTURE(c.share, c.highest_frequency, steps);
     CHECK(steps >= c.first);
     CHECK(steps <= c.last);
   }

@@ -75,9 +75,10 @@ TEST_CASE("a swing counts with its frequency or more at every phase, on a latch 
       const double tangent = std::abs(std::tan(phase));
       const double expected = latched ? omega * std::max(tangent, 1 / tangent) : omega / tangent;
       CAPTURE(latched, phase);
-      CHECK(quickness(system, step, 0.0) == Approx(expected).epsilon(1e-9));
-      CHECK(quickness(system, step, std::abs(rate) / 101) == Approx(expected).epsilon(1e-9));
-      CHECK(quickness(system, step, std::abs(rate) / 99) == 0); // as if at rest
+      CHECK(highest_frequency(system, step, 0.0) == Approx(expected).epsilon(1e-9));
+      CHECK(highest_frequency(system, step, std::abs(rate) / 101) ==
+            Approx(expected).epsilon(1e-9));
+      CHECK(highest_frequency(system, step, std::abs(rate) / 99) == 0); // as if at rest
     }
   }
 }

@@ -162,8 +162,13 @@ TEST_CASE("numbers of latches, stops, dampers and loops that no wing has are tol
     });
   };
   CHECK(loop(100, 0).empty());
-  CHECK(loop(0, 1).empty());
+  CHECK(loop(0, 1) == Places{"/synchronisations/0/stiffness"});
   CHECK(loop(0, 0) == Places{"/synchronisations/0/stiffness"});
+  const auto friction = [&](const Json& value) { return with("friction", value); };
+  CHECK(friction({{"model", "exact"}, {"coulomb", 0.1}}).empty());
+  CHECK(friction({{"coulomb", 0.1}, {"regularization_rate", 2e-3}}).empty());
+  CHECK(friction({{"model", "exact"}, {"coulomb", 0.1}, {"regularization_rate", 2e-3}}) ==
+        Places{"/hinges/0/friction/regularization_rate"});
 }
 
 TEST_CASE("a latch that gives way to its spring is told", "[warnings]") {
