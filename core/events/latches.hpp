@@ -41,7 +41,7 @@ template <class T>
 /// Whether a latch engages at t or at an instant simultaneous with t.
 /// @param gap, rate signed distance past the latched angle, rad, and its rate, rad/s
 template <class T> [[nodiscard]] auto engages_at(const T& t, const T& gap, const T& rate) {
-  return gap + one_instant(t) * larger(rate, T(0)) >= T(0);
+  return gap + one_instant_of_latches(t) * larger(rate, T(0)) >= T(0);
 }
 
 /// The first s in [0, 1] at which the engaged latch of hinge i lets go in the step; none if it does not. Halves pieces

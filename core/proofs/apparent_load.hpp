@@ -11,12 +11,12 @@
 ///     V = Σ m (a·r − ½ Ω² r²)                                                                  (2)
 ///
 /// Let u_i be the way of hinge i from its rest, and λ_i the length of the way from the hinge to a mass
-/// outward of it. Then V exerts at most g_i on the hinge. As a turns, seen from the base, V changes:
+/// outward of it. Then V exerts at most g_i on the hinge:
 ///
 ///     g_i = Σ m λ_i (|a| + Ω² R)       V(φ) − V(rest) ≥ −Σ g_i |u_i|                           (3)
-///     s_i = Σ m λ_i                    d/dt (V(φ) − V(rest)) ≤ |a Ω| Σ s_i |u_i|               (4)
 ///
-/// There are no such bounds while Ω or a changes: on a base driven by a table, until its last knot.
+/// If neither a nor Ω is 0, a turns as seen from the base, and V changes with time. There are no such bounds while Ω or a
+/// changes: on a base driven by a table, until its last knot.
 #pragma once
 
 #include "core/mechanics/energy.hpp"
@@ -32,8 +32,8 @@ public:
   /// Cost O(n) times the tree's depth. @return whether there are bounds
   template <class AnySystem> bool prepare(const AnySystem& system) {
     const int n = system.layout().bodies;
-    moment_.setZero(n + 1), lever_.setZero(n + 1), specific_.setZero(n + 1);
-    spin_ = drift_ = T(0);
+    moment_.setZero(n + 1), specific_.setZero(n + 1);
+    spin_ = T(0), turns_ = false;
     if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
       if (!system.drive_is_steady()) return false;
       sum_up(system, system.topology());
@@ -42,10 +42,9 @@ public:
   }
 
   [[nodiscard]] const T& moment(int i) const { return moment_(i); }     ///< g, N·m
-  [[nodiscard]] const T& lever(int i) const { return lever_(i); }       ///< s, kg·m
   [[nodiscard]] const T& specific(int i) const { return specific_(i); } ///< of (1), at rest, m/s²
   [[nodiscard]] const T& spin() const { return spin_; }                 ///< |Ω|, rad/s
-  [[nodiscard]] const T& drift() const { return drift_; }               ///< |a Ω|, m/s³
+  [[nodiscard]] bool turns() const { return turns_; } ///< whether a turns as seen from the base
 
   /// @return ½ Σ (m v² + J ω²) + V as seen from the base, and the sum of the sizes of its terms, J
   template <class AnySystem>
@@ -66,7 +65,7 @@ private:
     const Drive<T> drive = system.drive(system.work().driven.from); // as at any other time
     const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
     const T push = length(drive.felt);
-    spin_ = abs(drive.rate), drift_ = push * spin_;
+    spin_ = abs(drive.rate), turns_ = push * spin_ > T(0);
     for (int k = 1; k <= wing.size(); ++k) {
       const T &mass = wing.bodies[k].mass, own = length(wing.bodies[k].center);
       T reach = own;
@@ -74,15 +73,15 @@ private:
       specific_(k) = fused(spin_ * spin_, reach, push);
       T lambda = own;
       for (int i = k; i != 0; i = tree.parent_of(i)) {
-        lever_(i) = fused(mass, lambda, lever_(i));
         moment_(i) = fused(mass * lambda, specific_(k), moment_(i));
         lambda = lambda + length(wing.bodies[i].arm);
       }
     }
   }
 
-  Numbers moment_, lever_, specific_;
-  T spin_{}, drift_{};
+  Numbers moment_, specific_;
+  T spin_{};
+  bool turns_ = false;
 };
 
 } // namespace wingspread

@@ -3,7 +3,7 @@
 /// | symbol    | meaning                                                     | unit           | source               |
 /// |-----------|-------------------------------------------------------------|----------------|----------------------|
 /// | E, T      | energy that is never exceeded; kinetic energy ≤ E           | J              | remaining_energy.hpp |
-/// | E', r     | part of E that may move hinges; turning of a free base      | J, rad/s       | remaining_energy.hpp (4) |
+/// | E', r     | part of E that may move hinges; turning of a free base      | J, rad/s       | remaining_energy.hpp (3) |
 /// | κ, δ, g   | stiffness, damping, what the load exerts on a hinge         | N·m/rad, …     | remaining_energy.hpp |
 /// | τ_s       | the largest friction                                        | N·m            | scene                |
 /// | J, m      | central inertia, mass of a body                             | kg·m², kg      | scene                |

@@ -97,7 +97,7 @@ template <class T>
 template <class T> class ThoroughAttempts {
 public:
   /// Counts an attempt that the cheaper bounds refused. @return whether to ask for the energy's box
-  /// @param energy E' of remaining_energy.hpp (4): E has the rigid turning of a free base, which never decays
+  /// @param energy E' of remaining_energy.hpp (3): E has the rigid turning of a free base, which never decays
   [[nodiscard]] bool is_due(const T& energy) {
     constexpr int before_first = 2;
     ++refusals_;
@@ -145,7 +145,7 @@ public:
     if (holds_forbid(system)) return false;
     if (!is_prepared_) prepare(system, x, t, t_end, all_latched);
     if (!modes_ || !latches_act_fully(system, x)) {
-      const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t, t_end);
+      const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t);
       return energy && prove_by_energy(system, x, *energy, seen);
     }
     const auto start = modes_->start(&x[system.layout().angle(1)], &x[system.layout().rate(1)], t);
@@ -154,7 +154,7 @@ public:
     // asked either. Its bounds ignore damping and are as a rule wider; where they are not, the run ends some attempts
     // later.
     if (linear_loads_are_below(seen, start)) {
-      const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t, t_end);
+      const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t);
       is_proven = prove_by_modes(system, x, t, t_end, start, energy, seen);
     }
     if (!is_proven) tune_dampers(system, start);
@@ -167,7 +167,7 @@ public:
                                   bool all_latched) {
     if (system.next_knot() < T(never) || holds_forbid(system)) return false;
     if (!is_prepared_) prepare(system, x, t, t_end, all_latched);
-    const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t, t_end);
+    const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t);
     if (!energy) return false;
     bounds_.bound(system, remaining_, *energy);
     for (int i = 1; i <= system.layout().bodies; ++i)

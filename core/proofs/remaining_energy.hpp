@@ -6,7 +6,7 @@
 /// | κ_i    | its stiffness (an engaged latch is a restoring spring)                  | N·m/rad |
 /// | G_j    | the most that a hinge can give that cannot reach its latch: stall.hpp   | J       |
 /// | T, V   | kinetic energy; potential of the apparent load: apparent_load.hpp       | J       |
-/// | g, s, a, Ω | of the apparent load: apparent_load.hpp (3), (4)                    |         |
+/// | g, a, Ω | of the apparent load: apparent_load.hpp (3)                           |         |
 ///
 ///     E = T + Σ ½ κ_i u_i² + Σ G_j + V − V(rest)                                               (1)
 ///
@@ -18,7 +18,7 @@
 /// motion is a rigid turning at r = H/I and a motion relative to it: T = T' + ½H²/I. As I ≤ I_max, the hinges get at
 /// most
 ///
-///     E' = E − ½H²/I_max,     I_max = Σ_(k<l) m_k m_l d_kl²/m + Σ J_k,     |r| ≤ 2E/|H|              (4)
+///     E' = E − ½H²/I_max,     I_max = Σ_(k<l) m_k m_l d_kl²/m + Σ J_k,     |r| ≤ 2E/|H|              (3)
 ///
 /// d_kl is the length of the path along the bodies between the centres of k and l. E' stands for E below.
 ///
@@ -26,9 +26,7 @@
 ///
 ///     T + Σ ½ κ_i (|u_i| − g_i/κ_i)² ≤ Ē = E + Σ g_i²/2κ_i                                     (2)
 ///
-/// By (4) there, Ē grows no faster than p + q √Ē. In a time Δ it reaches at most
-///
-///     (√(Ē + p Δ) + q Δ/2)²       p = |a Ω| Σ s_i g_i/κ_i       q = |a Ω| Σ s_i √(2/κ_i)      (3)
+/// On a base that turns and accelerates, a turns as seen from the base and may drive a mode: there is no bound.
 ///
 /// The moment of a hinge then stays within g_i + √(2Ē) √(κ_i + δ_i² σ_i) + τ_s, σ_i as in
 /// energy_bounds.hpp. For a hinge without rest κ is 0, and g the most that its spring exerts on its
@@ -59,8 +57,8 @@ namespace wingspread {
 
 /// Bounds from the energy that is left.
 template <class T> struct EnergyLeft {
-  T whole;    ///< E, or Ē of (3), J
-  T within;   ///< E' of (4), what the hinges may get, J; on a base that is not free E
+  T whole;    ///< E, or Ē of (2), J
+  T within;   ///< E' of (3), what the hinges may get, J; on a base that is not free E
   T whirl{0}; ///< largest |r| of a free base, rad/s
 };
 
@@ -75,9 +73,9 @@ public:
     for (Numbers* v : {&stiffness_, &damping_, &steady_, &least_stiffness_, &at_rest_})
       v->setZero(n + 1);
     window_.setConstant(n + 1, T(std::numeric_limits<double>::infinity()));
-    bounded_ =
-        load_.prepare(system) && (system.wing().plates.empty() || stands_still(system.wing().base));
-    offset_ = p_ = q_ = T(0);
+    bounded_ = load_.prepare(system) && !load_.turns() &&
+               (system.wing().plates.empty() || stands_still(system.wing().base));
+    offset_ = T(0);
     if (system.base_motion == BaseMotion::free) largest_inertia_ = largest_inertia(system);
     rest_.assign(system.layout().size(), T(0));
     for (int i = 1; i <= n; ++i) prepare(system, i);
@@ -85,22 +83,23 @@ public:
     for (int i = 1; i <= n; ++i) elastic_ = elastic_ && least_stiffness_(i) > T(0);
   }
 
-  /// Bounds the energy from the state x at t up to t_end, by (1), (2) or (3). Cost O(n).
-  /// @return none without a bound: where the base's motion is not steady, air meets a moving base, a spring
-  ///         drives its hinge away from rest, an open hinge has a motor or stands beside real hinges, a latch
-  ///         has backlash or is smoothed and not yet full, or a hinge may touch a stop or leave its window
+  /// Bounds the energy from the state x at t on, by (1) or (2). Cost O(n).
+  /// @return none without a bound: where the base's motion is not steady, its acceleration turns as seen from it, air
+  ///         meets a moving base, a spring drives its hinge away from rest, an open hinge has a motor or stands beside
+  ///         real hinges, a latch has backlash or is smoothed and not yet full, or a hinge may touch a stop or leave its
+  ///         window
   template <class AnySystem>
   [[nodiscard]] std::optional<EnergyLeft<T>> energy(AnySystem& system, const State<T>& x,
-                                                    const T& t, const T& t_end) {
+                                                    const T& t) {
     if (!bounded_) return std::nullopt;
     const Layout& at = system.layout();
     T sum(0);
     for (int i = 1; i <= at.bodies; ++i) {
-      const std::optional<T> own = energy(system, x, i);
+      const std::optional<T> own = part_of(system, x, i);
       if (!own) return std::nullopt;
       sum = sum + *own;
     }
-    const EnergyLeft<T> left = with_motion(system, x, t, t_end, T(sum + loops_energy(system, x)));
+    const EnergyLeft<T> left = with_motion(system, x, t, T(sum + loops_energy(system, x)));
     if (may_touch_stop(system, left.within) || may_leave_window(system, x, left.within))
       return std::nullopt;
     for (int i = 1; i <= at.bodies; ++i)
@@ -175,8 +174,6 @@ private:
     const T& g = load_.moment(i);
     steady_(i) = g, least_stiffness_(i) = kappa;
     offset_ = offset_ + g * g / (T(2) * kappa);
-    p_ = fused(load_.drift() * load_.lever(i), g / kappa, p_);
-    q_ = fused(load_.drift() * load_.lever(i), T(sqrt(T(2) / kappa)), q_);
   }
 
   template <class AnySystem>
@@ -265,7 +262,7 @@ private:
 
   /// The part of hinge i in (1), J; none where it has no bound.
   template <class AnySystem>
-  [[nodiscard]] std::optional<T> energy(const AnySystem& system, const State<T>& x, int i) const {
+  [[nodiscard]] std::optional<T> part_of(const AnySystem& system, const State<T>& x, int i) const {
     const Layout& at = system.layout();
     const HingeTerms<T>& hinge = system.wing().hinges[i];
     if (system.is_held(i)) return T(0);
@@ -289,16 +286,14 @@ private:
 
   template <class AnySystem>
   [[nodiscard]] EnergyLeft<T> with_motion(AnySystem& system, const State<T>& x, const T& t,
-                                          const T& t_end, const T& springs) const {
+                                          const T& springs) const {
     using std::sqrt;
     constexpr double lost = 64 * epsilon_of<T>; // by the rounding of differences and sums
     if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
       const auto [now, size] = ApparentLoad<T>::energy(system, x, t);
       const auto [at_rest, size_at_rest] = ApparentLoad<T>::energy(system, rest_, t);
-      const T ahead = t_end - t, bar = springs + (now - at_rest) + T(lost) * (size + size_at_rest);
-      const T root =
-          fused(T(0.5) * q_, ahead, T(sqrt(larger(T(bar + fused(p_, ahead, offset_)), T(0)))));
-      return {root * root, root * root};
+      const T bar = springs + (now - at_rest) + T(lost) * (size + size_at_rest) + offset_;
+      return {larger(bar, T(0)), larger(bar, T(0))};
     } else {
       using std::abs;
       const TotalMotion<T> now = total_motion(system, x, t);
@@ -313,7 +308,7 @@ private:
     }
   }
 
-  /// I_max of (4), kg·m². Cost O(n²) times the tree's depth.
+  /// I_max of (3), kg·m². Cost O(n²) times the tree's depth.
   template <class AnySystem> [[nodiscard]] static T largest_inertia(const AnySystem& system) {
     const Wing<T>& wing = system.wing();
     T products(0), mass(0), inertia(0);
@@ -384,8 +379,8 @@ private:
   Numbers at_rest_;         ///< P(y*) of a real hinge
   Numbers window_;          ///< r within which κ holds, rad; infinite: everywhere
   State<T> rest_;
-  T offset_{}, p_{}, q_{}; ///< Σ g²/2κ; p and q of (3)
-  T largest_inertia_{1};   ///< I_max of a free base
+  T offset_{};           ///< Σ g²/2κ, J
+  T largest_inertia_{1}; ///< I_max of a free base
 };
 
 } // namespace wingspread

@@ -25,11 +25,13 @@ public:
 
   /// Newton's method. A hinge that nothing holds stays: the least solution does not move it. Eight full steps and eight
   /// half steps by turns end cycles about the kink of a linear table or of a strand.
-  /// @return whether it settles at a stable rest
+  /// @return whether it settles at a stable rest by short steps that descend the potential. Others may leap a barrier,
+  ///         to a rest that hinges do not reach that creep from here
   [[nodiscard]] bool converge() {
     for (int pass = 0; pass < 100; ++pass) {
       balance_();
       const Eigen::VectorXd way = K_.completeOrthogonalDecomposition().solve(r_);
+      if (way.lpNorm<Eigen::Infinity>() > longest || r_.dot(way) < 0) return false;
       angles_ += (pass % 16 < 8 ? 1 : 0.5) * way;
       if (!(way.lpNorm<Eigen::Infinity>() > settled)) return is_stable(); // or not a number
     }
@@ -53,6 +55,8 @@ public:
 
 private:
   static constexpr double settled = 1e-12; ///< rad: a way that counts as none
+  /// A longer step counts as one that may leap a barrier, rad. Heuristic: a smaller value takes more steps.
+  static constexpr double longest = 0.3;
 
   /// Whether moments balance, to rounding, and no mode grows. @pre K and r are those of the angles
   [[nodiscard]] bool is_stable() const {
@@ -64,7 +68,7 @@ private:
   }
 
   [[nodiscard]] Eigen::VectorXd descent() const {
-    constexpr double longest = 0.3, nudge = 1e-3; // rad
+    constexpr double nudge = 1e-3; // rad
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(K_);
     const double stiffest = modes.eigenvalues().cwiseAbs().maxCoeff();
     Eigen::VectorXd way = Eigen::VectorXd::Zero(K_.rows());

@@ -66,6 +66,26 @@ TEST_CASE("fit: a parameter at a limit of its prior is marked, and told with --j
   CHECK_THAT(fit({"--resume"}).error, Catch::Contains("warning: spring lies at the limit 1.02"));
 }
 
+TEST_CASE("fit: intervals are those of 95 %, whatever confidence the campaign's statistics have") {
+  const Folder folder;
+  const std::string tests =
+      folder.write("tests.json", R"({ "tests": [ { "name": "timer", "values": [
+      { "output": "root.latch_time", "value": 2.3, "std": "10 ms" } ] } ],
+    "fit": { "parameters": ["spring"], "starts": 2, "samples": 200 } })");
+  const auto parameter = [&](double confidence) {
+    Json campaign = panel_campaign(0.01);
+    campaign["statistics"]["confidence"] = confidence;
+    const std::string file = folder.write("c.json", campaign.dump());
+    const Finished done = run_program(folder, {"fit", file, tests, "--json"});
+    REQUIRE(done.code == 0);
+    return parse_json(done.out)["parameters"]["spring"];
+  };
+  const Json usual = parameter(0.95), half = parameter(0.5);
+  CHECK(half == usual);
+  const double width = usual["upper"].get<double>() - usual["lower"].get<double>();
+  CHECK(width / usual["std"].get<double>() == Approx(3.92).epsilon(0.1)); // of a normal posterior
+}
+
 TEST_CASE("fit: every option does what its help says") {
   const Fit fit;
   const auto nine = fit(9, "nine", {"--json"});

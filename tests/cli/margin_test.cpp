@@ -187,6 +187,13 @@ TEST_CASE("margin refuses a used folder, and what it cannot show, before anythin
   CHECK(refused.code == 2);
   CHECK_THAT(refused.error, Catch::Contains("/sampling/runs: found 50, expected at least 76"));
   CHECK_FALSE(std::filesystem::exists(program.out));
+  Json unjudged = one_panel_margin(100);
+  unjudged["margin"]["cases"] = {"one_spring_out"};
+  unjudged["requirements"] = parse_json(
+      R"([{ "motorization": "ECSS", "min": 0.3, "probability": 0.95, "confidence": 0.9 }])");
+  CHECK_THAT(
+      program.margin(unjudged).error,
+      Catch::Contains("/margin/cases: found only cases with a lost spring, expected \"nominal\""));
   json["sampling"]["runs"] = 80;
   json["integration"]["max_steps"] = 2; // all fail
   const auto failed = program.margin(json);

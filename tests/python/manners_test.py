@@ -3,6 +3,7 @@
 import ast
 import inspect
 import json
+import os
 import pathlib
 import re
 import signal
@@ -36,6 +37,29 @@ class Manners(unittest.TestCase):
         self.assertLess(time.monotonic() - began, 30)
         self.assertEqual(process.returncode, -signal.SIGINT)
         self.assertTrue(said.rstrip().endswith("KeyboardInterrupt"))
+
+    def test_messages_name_paths_that_are_no_utf8(self):
+        with tempfile.TemporaryDirectory() as held:
+            folder = os.path.join(os.fsencode(held), b"bad\xff")
+            os.mkdir(folder)
+            missing = os.fsdecode(os.path.join(folder, b"nope.json"))
+            for call in (wingspread.run, wingspread.simulate, wingspread.read):
+                with self.assertRaisesRegex(wingspread.SpecError, r"bad\\xff") as raised:
+                    call(missing)
+                self.assertIn("bad\\xff", raised.exception.problems[0][0])
+
+    def test_too_little_memory_is_the_machines_refusal(self):
+        script = ("import resource, sys, wingspread\n"
+                  "model = wingspread.Model(sys.argv[1], ['hinges.*.spring.scale'], ['deployment_time'])\n"
+                  "pages = int(open('/proc/self/statm').read().split()[0])\n"
+                  "limit = pages * resource.getpagesize() + (64 << 20)\n"
+                  "resource.setrlimit(resource.RLIMIT_AS, (limit, limit))\n"
+                  "try:\n"
+                  "    wingspread.simulate(sys.argv[1], t_end=1e5, dt=1e-4)\n"
+                  "except wingspread.MachineError as error:\n"
+                  "    print('refused:', error)\n")
+        done = subprocess.run([sys.executable, "-c", script, SCENE], capture_output=True, text=True, timeout=120)
+        self.assertTrue(done.stdout.startswith("refused: "), done.stdout + done.stderr)
 
     def test_ctrl_c_ends_a_long_trajectory(self):
         script = ("import sys, wingspread\n"

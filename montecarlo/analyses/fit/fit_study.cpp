@@ -214,7 +214,7 @@ private:
       const Moments after = moments(columns[k]);
       std::vector<double> sorted = columns[k];
       std::ranges::sort(sorted);
-      const double tail = (1 - options_.confidence) / 2;
+      const double tail = (1 - fit_confidence) / 2;
       const auto place = static_cast<Eigen::Index>(k);
       result_.parameters.push_back({parameter.name, std::string(parameter.unit), prior.mean,
                                     prior.standard_deviation, mode[k], after.mean, after.std,
@@ -314,7 +314,7 @@ private:
 
   void add_bands(const Channel& channel, const std::vector<Prediction>& predictions,
                  FittedChannel& fitted) const {
-    const double tail = (1 - options_.confidence) / 2;
+    const double tail = (1 - fit_confidence) / 2;
     for (std::size_t i = channel.first; i < channel.first + channel.count; ++i) {
       std::vector<double> values;
       for (const Prediction& prediction : predictions)

@@ -19,8 +19,10 @@ namespace wingspread {
 struct FitOptions {
   ThreadPool pool{};
   long most_runs = 0; ///< evaluations of the sampler; 0: 400 for each sample asked for
-  double confidence = 0.95;
 };
+
+/// Of the intervals of parameters and of the bands of traces, whatever confidence the campaign's statistics have.
+inline constexpr double fit_confidence = 0.95;
 
 /// The smallest FitOptions::most_runs that a fit of up to eight parameters accepts. Beyond eight it grows in proportion
 /// to their number.

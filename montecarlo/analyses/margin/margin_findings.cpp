@@ -281,6 +281,14 @@ std::vector<std::string> margin_warnings(const MarginResult& result) {
       }))
     lines.emplace_back("the static margins leave out the loads of the moving base; give them as "
                        "\"inertia\" in the margin's \"torques\"");
+  if (!result.campaigns.empty() && result.campaigns.front().margin &&
+      !result.campaigns.front().margin->nominal)
+    for (const Requirement& requirement : result.campaigns.front().requirements)
+      if (requirement.static_margin)
+        lines.push_back(
+            fmt::format("\"{}\" is not judged, because every case of the margin lacks a "
+                        "spring: add \"nominal\" to its cases",
+                        to_string(requirement)));
   for (const MarginSearch& search : result.searches) {
     for (const CutPeaks& each : cut_peaks(result, search)) lines.push_back(warn_of(each, result));
     if (const auto open = open_latches(search)) lines.push_back(*open);

@@ -18,6 +18,10 @@
 namespace wingspread {
 namespace {
 
+bool is_of_static_margin(const Requirement& requirement) {
+  return requirement.static_margin.has_value();
+}
+
 void refuse_unsuitable(const Campaign& campaign) {
   std::vector<Problem> problems;
   if (!campaign.margin)
@@ -33,6 +37,12 @@ void refuse_unsuitable(const Campaign& campaign) {
   if (campaign.requirements.empty())
     problems.push_back(
         {"", "/requirements", "none", "at least one: the requirements limit the window"});
+  else if (campaign.margin && !campaign.margin->nominal &&
+           std::ranges::all_of(campaign.requirements, is_of_static_margin))
+    problems.push_back(
+        {"", "/margin/cases", "only cases with a lost spring",
+         "\"nominal\" too, or a requirement on an output: those on static margins are "
+         "not judged where a spring is lost"});
   for (const Requirement& requirement : campaign.requirements) {
     const auto least = runs_to_show(requirement.probability,
                                     confidence_alone(campaign.requirements, requirement), 0);

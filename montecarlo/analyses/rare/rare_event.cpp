@@ -134,7 +134,8 @@ private:
   }
 
   [[nodiscard]] SubsetOptions subset_of(std::size_t s) const {
-    return {samples_of(strata_, s, options_.samples), smallest_of(s), campaign_.sampling.seed, 0};
+    return {samples_of(strata_, s, options_.samples), smallest_of(s), campaign_.sampling.seed, 0,
+            strata_.list[s].labels};
   }
 
   /// Most runs of the strata after this one.

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace wingspread {
@@ -25,6 +26,8 @@ constexpr double enough_draws = 10;
 // lets the simulation climb, so it needs no strata.
 constexpr std::size_t most_rare_values = 20;
 constexpr double most_rare_mass = 0.5;
+// Heuristic: so many values may be types or suppliers, in any order. More are a sample: moves of a scale suit it better.
+constexpr std::size_t most_label_values = 20;
 // Ten releases that may fail have 1 + 10 + 45 strata with at most two failures.
 constexpr std::size_t most_strata = 64;
 // Heuristic: of 30 parts that fail rarely, 1024 of the other combinations have more than 99 % of their probability. More
@@ -200,6 +203,29 @@ void keep_probable(double smallest, Strata& strata, std::vector<Stratum>& others
     strata.left_out += others.back().probability;
 }
 
+/// Whether a stratum leaves a single value in this direction.
+bool is_fixed(const Stratum& stratum, const std::vector<double>& direction) {
+  return std::ranges::any_of(stratum.restricted, [&](const RestrictedCoordinate& each) {
+    return each.direction == direction && each.intervals.size() == 1;
+  });
+}
+
+std::vector<std::size_t> labels_of(const Campaign& campaign, const Stratum& stratum) {
+  const Coordinates coordinates = coordinates_of(campaign.dispersions);
+  const std::vector<std::vector<double>> directions = directions_of(campaign, coordinates);
+  std::set<std::size_t> labels;
+  for (std::size_t i = 0; i < campaign.dispersions.size(); ++i) {
+    const std::size_t values = discrete_values(campaign.dispersions[i]).size();
+    const bool is_label = campaign.dispersions[i].rows.empty()
+                              ? values > 1 && values <= most_label_values
+                              : values > 1;
+    if (is_label && !is_fixed(stratum, directions[coordinates.of[i]]))
+      labels.insert(coordinates.of[i]);
+  }
+  if (!stratum.others.empty()) labels.insert(coordinates.names.size());
+  return {labels.begin(), labels.end()};
+}
+
 /// The stratum among the others that the coordinate chooses.
 const Stratum& chosen(const Stratum& stratum, double coordinate) {
   double below = unit_point(coordinate).below * stratum.probability;
@@ -280,10 +306,12 @@ Strata strata_of(const Campaign& campaign, const StrataOptions& options) {
     strata.list = std::move(finer);
     keep_probable(options.smallest, strata, others);
   }
-  if (others.empty()) return strata;
-  Stratum together{0, {}, {}, std::move(others)};
-  for (const Stratum& each : together.others) together.probability += each.probability;
-  strata.list.push_back(std::move(together));
+  if (!others.empty()) {
+    Stratum together{0, {}, {}, std::move(others)};
+    for (const Stratum& each : together.others) together.probability += each.probability;
+    strata.list.push_back(std::move(together));
+  }
+  for (Stratum& stratum : strata.list) stratum.labels = labels_of(campaign, stratum);
   return strata;
 }
 

@@ -61,6 +61,9 @@ struct Stratum {
   std::vector<std::pair<std::string, double>>
       rare;                      ///< dispersions with a rare value, and the value
   std::vector<Stratum> others{}; ///< disjoint strata that this one has together; else empty
+  /// Coordinates of which neighbouring values may have nothing in common (subset_simulation.hpp): those that choose a
+  /// row of a table, one of a few values, or one of the others.
+  std::vector<std::size_t> labels{};
 };
 
 /// "nofire = 1, k = 9000"; "no rare value"; "others with rare values".

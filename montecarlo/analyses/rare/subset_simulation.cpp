@@ -22,6 +22,9 @@ constexpr double aimed_at =
 constexpr double first_scale =
     0.6; // λ of the first chains (ibid.); a bad value costs accepted moves in the first steps only
 constexpr double bias_of_square = 0.5; // bias / δ²: the middle of the measurements in README.md
+// Heuristic: share of the steps that draw labels anew. Larger: the other coordinates move less often. Smaller: the labels
+// of a level stay those of its seeds.
+constexpr double new_labels = 1.0 / 3;
 // Heuristic. Below a tie of g a level may start its chains from so few points: the standard error of its share is then
 // 1/√30 = 18 %.
 constexpr long fewest_seeds = 30;
@@ -153,13 +156,28 @@ private:
     return chosen;
   }
 
-  /// A candidate by (2).
-  [[nodiscard]] NormalPoint candidate_from(const NormalPoint& from, RandomStream random) const {
+  struct Candidate {
+    NormalPoint point;
+    bool scaled; ///< by (2), not by new labels
+  };
+
+  [[nodiscard]] Candidate candidate_from(const NormalPoint& from, RandomStream random) const {
     NormalPoint to(dimensions_);
+    const std::vector<std::size_t>& labels = options_.labels;
+    const double share = labels.size() == dimensions_ ? 1 : new_labels;
+    if (const double u = labels.empty() ? 1 : open_uniform(random()); u < share) {
+      to = from;
+      const auto one = static_cast<std::size_t>(u / share * static_cast<double>(labels.size()));
+      for (std::size_t k = 0; k < labels.size(); ++k)
+        if (open_uniform(random()) < label_share_ || k == one)
+          to[labels[k]] = standard_normal(random);
+      return {std::move(to), false};
+    }
     const double rho = std::sqrt(1 - scale_ * scale_);
     for (std::size_t i = 0; i < dimensions_; ++i)
       to[i] = rho * from[i] + scale_ * standard_normal(random);
-    return to;
+    for (const std::size_t label : labels) to[label] = from[label];
+    return {std::move(to), true};
   }
 
   /// The next level: all chains advance step by step.
@@ -193,21 +211,32 @@ private:
   long advance_chains(long step, double threshold, std::vector<NormalPoint>& at,
                       std::vector<double>& g) {
     std::vector<NormalPoint> candidates;
-    for (std::size_t chain = 0; chain < at.size(); ++chain)
-      candidates.push_back(
-          candidate_from(at[chain], stream(static_cast<long>(chain) * chain_length + step)));
+    std::vector<bool> scaled;
+    for (std::size_t chain = 0; chain < at.size(); ++chain) {
+      Candidate candidate =
+          candidate_from(at[chain], stream(static_cast<long>(chain) * chain_length + step));
+      candidates.push_back(std::move(candidate.point));
+      scaled.push_back(candidate.scaled);
+    }
     const std::vector<double> there = evaluate_points(candidates);
-    long moves = 0;
+    long moves = 0, scaled_moves = 0;
     for (std::size_t chain = 0; chain < at.size(); ++chain) {
       if (!(there[chain] <= threshold)) continue;
       at[chain] = std::move(candidates[chain]);
       g[chain] = there[chain];
-      ++moves;
+      ++moves, scaled_moves += scaled[chain];
     }
-    const double share = static_cast<double>(moves) / static_cast<double>(at.size());
-    scale_ =
-        std::min(1.0, scale_ * std::exp((share - aimed_at) / std::sqrt(step))); // Robbins-Monro
+    const auto tried = std::ranges::count(scaled, true);
+    adapt(scale_, scaled_moves, tried, step);
+    adapt(label_share_, moves - scaled_moves, std::ssize(scaled) - tried, step);
     return moves;
+  }
+
+  /// Robbins and Monro's step for a value up to 1 that makes fewer moves acceptable the larger it is.
+  static void adapt(double& value, long accepted, long tried, long step) {
+    if (tried == 0) return;
+    const double share = static_cast<double>(accepted) / static_cast<double>(tried);
+    value = std::min(1.0, value * std::exp((share - aimed_at) / std::sqrt(step)));
   }
 
   SubsetEstimate finish_estimate() {
@@ -225,8 +254,9 @@ private:
   SubsetOptions options_;
   SubsetEstimate estimate_;
   Level level_;
-  double scale_ = first_scale; ///< λ
-  double copies_ = 1;          ///< chains of the level that start from one point
+  double scale_ = first_scale;       ///< λ
+  double label_share_ = first_scale; ///< q
+  double copies_ = 1;                ///< chains of the level that start from one point
 };
 
 /// The relative standard error of the mean.

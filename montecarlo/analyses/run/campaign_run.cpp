@@ -70,13 +70,16 @@ bool count_earlier_runs(StreamingFolder& folder, Evaluator& evaluator, RunCounts
 }
 
 /// Makes the runs that a folder lacks, and writes timing.json. @return whether they were interrupted
+/// @param outdated a file that no longer holds once a run is made: it is removed before the first; empty: none
 template <class Folder>
 bool complete_runs(Folder& folder, const RunPlan& plan, const ThreadPool& pool,
-                   const RunCallbacks& callbacks, OverallCounts& overall) {
+                   const RunCallbacks& callbacks, const std::filesystem::path& outdated,
+                   OverallCounts& overall) {
   const auto start = std::chrono::steady_clock::now();
   const auto evaluator = evaluator_of(pool, callbacks.begin_runs());
   RunCounts counts{.total = folder.stored().runs().size()};
   if (!count_earlier_runs(folder, *evaluator, counts)) return true;
+  if (!outdated.empty() && counts.done < counts.total) std::filesystem::remove(outdated);
   const auto show = [&](const RunCounts& own) { callbacks.show_progress(overall.with(own)); };
   show(counts);
   const bool interrupted = make_runs(folder, plan, *evaluator, counts, show);
@@ -95,16 +98,16 @@ Summary write_folder_statistics(const StreamingFolder& folder, int /*threads*/) 
                                     folder.stored().campaign.statistics);
 }
 
-/// Makes the runs and the statistics of one results folder. @return false if the runs were interrupted, or the
+/// Makes the runs and the statistics of one results folder. @param outdated as of complete_runs @return false if the runs were interrupted, or the
 /// statistics were left for later
 template <class Folder>
 bool run_folder(const Campaign& campaign, const std::filesystem::path& out,
-                const RunRequest& request, const RunCallbacks& callbacks, OverallCounts& overall,
-                CampaignResults& results) {
+                const std::filesystem::path& outdated, const RunRequest& request,
+                const RunCallbacks& callbacks, OverallCounts& overall, CampaignResults& results) {
   const RunPlan plan(campaign);
   Folder folder(out, plan, request.shard, request.resume);
   RunsKept runs{.of_case = campaign.of_case, .total = folder.stored().runs().size()};
-  runs.interrupted = complete_runs(folder, plan, request.pool, callbacks, overall);
+  runs.interrupted = complete_runs(folder, plan, request.pool, callbacks, outdated, overall);
   runs.kept = folder.count();
   const bool wanted = callbacks.begin_statistics(runs);
   if (wanted && !(runs.interrupted && runs.kept == 0)) {
@@ -126,15 +129,15 @@ bool run_folder(const Campaign& campaign, const std::filesystem::path& out,
 CampaignResults run_cases(const RunRequest& request, const RunCallbacks& callbacks) {
   const Campaign& campaign = request.campaign;
   const std::vector<CaseSpec> chosen = chosen_cases(campaign, request.cases);
-  const CasesFolder folder(request.out, campaign, request.shard, request.resume);
-  std::filesystem::remove(request.out / cases_file); // it compares cases whose results will change
+  CasesFolder folder(request.out, campaign, request.shard, request.resume);
   OverallCounts overall(std::ssize(chosen) *
                         shard_runs(campaign.sampling.runs, request.shard).size());
   CampaignResults results;
   for (const CaseSpec& spec : chosen)
     if (!run_folder<FolderWriter>(campaign_of_case(campaign, spec), request.out / spec.name,
-                                  request, callbacks, overall, results))
+                                  request.out / cases_file, request, callbacks, overall, results))
       return results;
+  folder.note_extensions();
   for (const auto& [stored, summary] : results.folders)
     results.cases.push_back(case_summary(stored, summary));
   results.cases = complete_cases(folder.stored(), std::move(results.cases));
@@ -163,7 +166,7 @@ CampaignResults run_campaign(const RunRequest& request, const RunCallbacks& call
   OverallCounts overall(shard_runs(campaign.sampling.runs, request.shard).size());
   CampaignResults results;
   const auto run = request.streaming ? run_folder<StreamingFolder> : run_folder<FolderWriter>;
-  run(campaign, request.out, request, callbacks, overall, results);
+  run(campaign, request.out, "", request, callbacks, overall, results);
   return results;
 }
 

@@ -96,7 +96,14 @@ std::string in_digits(double value) {
 }
 
 std::string quantile_name(double p) {
-  return p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * p);
+  if (p == 0.5) return "median";
+  constexpr int least = 5, most = 15; // digits
+  std::string text;
+  for (int digits = least; digits <= most; ++digits) {
+    text = fmt::format("{:.{}g}", 100 * p, digits);
+    if (std::abs(std::stod(text) / 100 - p) < 1e-3 * std::min(p, 1 - p)) break;
+  }
+  return text + " %";
 }
 
 std::string paragraph(std::string_view text, std::size_t indent) {
@@ -105,7 +112,12 @@ std::string paragraph(std::string_view text, std::size_t indent) {
 }
 
 std::string percent(double share, int decimals) {
-  return std::isnan(share) ? "–" : fmt::format("{:.{}f} %", 100 * share, decimals);
+  if (std::isnan(share)) return "–";
+  constexpr int most = 12; // 1 − share is then near the rounding of a double
+  std::string text = fmt::format("{:.{}f} %", 100 * share, decimals);
+  while (share < 1 && text.starts_with("100") && decimals < most)
+    text = fmt::format("{:.{}f} %", 100 * share, ++decimals);
+  return text;
 }
 
 std::string percent_range(double lower, double upper) {

@@ -38,7 +38,7 @@ inline constexpr int table_width = 100;
 /// Lines indented by `indent`, broken at blanks to stay within `table_width`; ends with a line feed.
 [[nodiscard]] std::string paragraph(std::string_view text, std::size_t indent = 2);
 
-/// "0.500 %" of 0.005; "–" of NaN.
+/// "0.500 %" of 0.005; "–" of NaN. A share below 1 has as many decimals as tell it from 100 %.
 [[nodiscard]] std::string percent(double share, int decimals = 3);
 
 /// "0.500 – 0.700 %" of 0.005 and 0.007.
@@ -61,7 +61,7 @@ inline constexpr int table_width = 100;
 /// "1 body", "3 bodies".
 [[nodiscard]] std::string counted(long count, std::string_view one, std::string_view many);
 
-/// "median" or "99 %".
+/// "median" or "99 %", with as many digits as tell 1 − p to 0.1 %.
 [[nodiscard]] std::string quantile_name(double p);
 
 } // namespace wingspread

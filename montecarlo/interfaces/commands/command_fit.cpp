@@ -89,7 +89,6 @@ int fit(const FitCommandOptions& given) {
     warn_of_limits(show_finished(given.out / fit_json_file, given.json));
     return exit_of(true);
   }
-  options.confidence = campaign.statistics.confidence;
   try {
     FitResult result;
     {

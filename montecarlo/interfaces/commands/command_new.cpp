@@ -78,7 +78,7 @@ int make_new(const NewOptions& options) {
   const WingDesign design = asks ? ask_design(std::cin, std::cout) : options.design;
   if (design.panels >= many_panels)
     print_message("the wing is deployed several times to choose its damper and its limits: with "
-                  "{} panels this takes up to a minute\n",
+                  "{} panels this takes some minutes\n",
                   design.panels);
   const Starter starter = make_starter(design, command_of(design, options.out.string()));
   const std::filesystem::path folder =

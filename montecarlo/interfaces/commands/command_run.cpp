@@ -68,10 +68,7 @@ int show_run(const CampaignResults& results, bool has_cases, const Display& disp
       show_table(stored, summary, display);
   if (results.whole) {
     show_cases(*results.whole, results.cases, display);
-    std::vector<CaseSummary> made; // cases of earlier sessions were judged then
-    for (const auto& [stored, summary] : results.folders)
-      made.push_back(case_summary(stored, summary));
-    return judge_cases(*results.whole, made);
+    return judge_cases(*results.whole, results.cases);
   }
   int worst = exit_code::done; // interrupted: there is nothing to compare
   for (const auto& [stored, summary] : results.folders)
@@ -154,10 +151,11 @@ risk of a wrong verdict. Use --until, or a new --seed and a number of runs fixed
 --resume with more --runs counts as a further interim analysis, and the verdicts allow for it.
 
 With --no-rows there is no runs.csv, and memory and disk space do not grow with the number of runs.
-Counts, moments, verdicts and the 4096 largest and smallest values of every output are the same as
-with rows; other quantiles come with an error bound. broken_runs.csv keeps the rows of the runs that
+Counts, verdicts and the 4096 largest and smallest values of every output are the same as with rows,
+moments to rounding; other quantiles come with an error bound. broken_runs.csv keeps the rows of the runs that
 did not deploy or broke a requirement. --resume, --shard, merge, replay, analyze and report work on
-such a folder; sensitivity, export and --until need rows and refuse it.
+such a folder; sensitivity, export and --until need rows and refuse it. A campaign with cases is
+refused: run FOLDER/CASE/campaign.json of an earlier folder, one for each case.
 
 Example:
   wingspread run campaign.json --out results/first --runs 2000 --threads 4

@@ -47,6 +47,9 @@ void refuse_run_options(const SensitivityOptions& options) {
   refuse(options.seed.has_value(), "--seed");
   refuse(options.resume, "--resume");
   refuse(!options.shard.empty(), "--shard");
+  if (options.resamples && !is_design_folder(options.from))
+    problems.push_back({"", "--resamples", "this option with the folder of a campaign",
+                        "it only for Sobol' indices: rank correlations have no bootstrap"});
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
@@ -91,18 +94,23 @@ int analyze_ranks(const SensitivityOptions& options) {
   const AnalysisFolders folders(options);
   const Results results = read_stored_results(stored).results;
   const double confidence = confidence_of(options.confidence, stored.campaign.statistics);
-  Stamp stamp = stored.stamp;
-  stamp.shard.reset();
+  Json about = stamp_json(stored.stamp);
+  std::string part = stored.stamp.shard ? " · " + describe(stored.stamp.shard) : "";
+  if (!is_complete(stored, results)) {
+    about["partial"] = {{"done", results.size()}, {"of", stored.runs().size()}};
+    part += fmt::format(" · partial, of {} runs", stored.runs().size());
+  }
   warn_of_preview(stored);
   RunsMade made{replication_of(stored.campaign.sampling, results),
                 interim_analyses(stored.campaign)};
   for (const Dispersion& each : stored.campaign.dispersions)
     if (!each.rows.empty()) made.rows[each.rows].push_back(each.name);
-  show_analysis(rank_sensitivity(results, confidence, made), stamp_json(stamp),
-                fmt::format("{} · {} · rank correlations", stored.campaign.scene.name,
-                            counted(static_cast<long>(results.size()), "run", "runs")),
+  show_analysis(rank_sensitivity(results, confidence, made), about,
+                fmt::format("{} · {}{} · rank correlations", stored.campaign.scene.name,
+                            counted(static_cast<long>(results.size()), "run", "runs"), part),
                 folders.to(), options);
-  return exit_code::done;
+  return report_failed(std::ranges::count(results.status, Status::failed),
+                       std::ssize(results.runs));
 }
 
 /// Sobol' indices of a complete design.
@@ -135,6 +143,9 @@ int analyze_design(const SaltelliDesign& design, const Results& results,
 /// Sobol' indices of a design's folder.
 int analyze_design_folder(const SensitivityOptions& options) {
   refuse_run_options(options);
+  if (!options.of_case.empty())
+    throw SpecError({{"", "--case", fmt::format("\"{}\", with a design's folder", options.of_case),
+                      "no case: the design is of one"}});
   const SaltelliDesign design = read_design(options.from);
   if (design.shard)
     throw SpecError({{options.from.string(), "", describe(design.shard) + " of a design",
@@ -181,6 +192,9 @@ SaltelliDesign new_design(const SensitivityOptions& options) {
 SaltelliDesign design_of(const SensitivityOptions& options) {
   if (!options.shard.empty() && options.out.empty())
     throw SpecError({{"", "--shard", "--shard without --out", "the folder for its runs in --out"}});
+  if (options.resume && options.out.empty())
+    throw SpecError(
+        {{"", "--resume", "--resume without --out", "the folder of the study in --out"}});
   SaltelliDesign design =
       is_design_file(options.from) ? read_given_design(options) : new_design(options);
   design.shard = parse_shard(options.shard);

@@ -37,7 +37,6 @@ Fit fit(const Input& input, const Input& tests, const FitRequest& request) {
   const std::atomic<bool>& stop = request.stop ? *request.stop : never;
   FitOptions options{.pool = {.threads = request.threads}};
   options.most_runs = request.runs;
-  options.confidence = campaign.statistics.confidence;
   refuse_unpredictable(campaign, spec, options, tests.file.string(), stop);
   std::optional<FitFolder> folder;
   if (!request.out.empty()) folder.emplace(request.out, about, false);

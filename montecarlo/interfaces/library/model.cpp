@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cassert>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace wingspread::api {
@@ -98,8 +99,13 @@ Model::Model(const Input& input, const std::vector<std::string>& paths,
   if (!problems.empty()) throw SpecError(std::move(problems));
   prepared->outputs = std::move(outputs);
   prepared->goal = goal_of(families_of(prepared->columns));
-  for (const auto& parameters : prepared->parameters)
-    prepared->nominal.push_back(parameters.front().in(scene));
+  for (const auto& parameters : prepared->parameters) {
+    const double first = parameters.front().in(scene);
+    const auto is_first = [&](const SceneParameter& each) { return each.in(scene) == first; };
+    prepared->nominal.push_back(std::ranges::all_of(parameters, is_first)
+                                    ? first
+                                    : std::numeric_limits<double>::quiet_NaN());
+  }
   prepared->notices = notices_of(prepared->task, input.file);
   prepared_ = std::move(prepared);
 }

@@ -195,7 +195,7 @@ public:
   [[nodiscard]] const std::vector<std::string>& outputs() const;
   /// The warnings of the input checks on the nominal wing.
   [[nodiscard]] const std::vector<std::string>& notices() const;
-  /// The nominal x, SI; for a path with several parameters the value of the first one.
+  /// The nominal x, SI; NaN for a path with several parameters of different values: no x stands for the nominal wing.
   [[nodiscard]] const std::vector<double>& nominal() const;
 
   /// Simulates n deployments, several at once in the lanes of each thread's vector registers. A row of y depends on

@@ -9,6 +9,8 @@
 
 #include <chrono>
 #include <future>
+#include <new>
+#include <string_view>
 #include <system_error>
 
 namespace py = pybind11;
@@ -36,6 +38,18 @@ template <class Work> auto run_interruptibly(const Work& work) {
     throw py::error_already_set();
   }
   return future.get();
+}
+
+/// Text of the program. A path may have bytes that are no UTF-8: they are shown as \xff.
+py::str text_of(std::string_view text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
+}
+
+py::list texts_of(const std::vector<std::string>& texts) {
+  py::list list;
+  for (const std::string& text : texts) list.append(text_of(text));
+  return list;
 }
 
 /// A read-only numpy view of memory that the owner keeps alive.
@@ -79,7 +93,7 @@ py::tuple simulate_it(const Input& input, const Settings& settings, std::optiona
   for (const Series& series : outcome.trajectory)
     trajectory[py::str(series.name)] =
         py::array_t<double>(static_cast<py::ssize_t>(series.values.size()), series.values.data());
-  return py::make_tuple(outcome.json, trajectory, outcome.notices);
+  return py::make_tuple(outcome.json, trajectory, texts_of(outcome.notices));
 }
 
 py::tuple fit_it(const Input& campaign, const Input& tests, const std::filesystem::path& out,
@@ -125,14 +139,17 @@ void add_errors(py::module_& module) {
     } catch (const SpecError& error) {
       py::list problems;
       for (const auto& [file, pointer, found, expected] : error.problems())
-        problems.append(py::make_tuple(file, pointer, found, expected));
-      const py::object raised = spec_error(error.what());
+        problems.append(
+            py::make_tuple(text_of(file), text_of(pointer), text_of(found), text_of(expected)));
+      const py::object raised = spec_error(text_of(error.what()));
       raised.attr("problems") = problems;
       PyErr_SetObject(spec_error.ptr(), raised.ptr());
     } catch (const MachineError& error) {
-      PyErr_SetString(machine_error.ptr(), error.what());
+      PyErr_SetObject(machine_error.ptr(), text_of(error.what()).ptr());
     } catch (const std::system_error& error) { // from threads
-      PyErr_SetString(machine_error.ptr(), error.what());
+      PyErr_SetObject(machine_error.ptr(), text_of(error.what()).ptr());
+    } catch (const std::bad_alloc&) {
+      PyErr_SetString(machine_error.ptr(), "the machine has not enough memory");
     }
   });
 }
@@ -172,7 +189,8 @@ PYBIND11_MODULE(_native, module) {
       .def_property_readonly("outputs", &Table::outputs)
       .def_property_readonly("is_complete", &Table::is_complete)
       .def_property_readonly("campaign", &Table::campaign)
-      .def_property_readonly("notices", &Table::notices)
+      .def_property_readonly("notices",
+                             [](const Table& table) { return texts_of(table.notices()); })
       .def("runs", &runs_of, "The runs' numbers, a view")
       .def("numbers", &numbers_of, py::arg("column"), "A draw or an output, a view")
       .def("words", &words_of, py::arg("column"), "A view of codes, and the texts that they index")
@@ -184,7 +202,8 @@ PYBIND11_MODULE(_native, module) {
            py::arg("input"), py::arg("paths"), py::arg("outputs"), py::arg("settings"))
       .def_property_readonly("outputs", &Model::outputs)
       .def_property_readonly("nominal", &Model::nominal)
-      .def_property_readonly("notices", &Model::notices)
+      .def_property_readonly("notices",
+                             [](const Model& model) { return texts_of(model.notices()); })
       .def("evaluate", &evaluate_it, py::arg("x"), py::arg("threads"),
            "Returns a row of outputs for each row of parameters");
 

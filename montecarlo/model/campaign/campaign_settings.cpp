@@ -85,6 +85,7 @@ void read_quantiles(const JsonCursor& at, std::vector<double>& quantiles) {
     else if (std::find(quantiles.begin(), here, *here) != here)
       at.element(i).refuse_repeated("each quantile once");
   }
+  std::ranges::sort(quantiles); // tables and charts show the first and the last as the outermost
 }
 
 void read_tolerance(const JsonCursor& at, std::vector<ToleranceLimitSpec>& tolerance) {

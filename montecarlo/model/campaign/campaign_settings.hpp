@@ -52,7 +52,7 @@ struct ToleranceLimitSpec {
 };
 
 struct StatisticsSpec {
-  std::vector<double> quantiles{0.01, 0.5, 0.99}; ///< probabilities, each in (0, 1)
+  std::vector<double> quantiles{0.01, 0.5, 0.99}; ///< probabilities, each in (0, 1), ascending
   double confidence = 0.95;                       ///< of every two-sided bound, in (0, 1)
   Bins bins = AutoBins{};
   std::vector<ToleranceLimitSpec> tolerance_limits{};

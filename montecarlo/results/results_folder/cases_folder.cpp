@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <set>
 #include <utility>
 
 namespace wingspread {
@@ -70,10 +72,30 @@ CasesFolder::CasesFolder(std::filesystem::path folder, const Campaign& campaign,
     : stored_{std::move(folder), campaign, stamp_of(campaign, shard)} {
   lock_campaign_folder(lock_, stored_.folder, resume);
   const std::filesystem::path file = stored_.folder / campaign_file;
-  if (!is_new_folder(stored_.folder))
-    refuse_other_campaign(read_stored_campaign(stored_.folder), stored_.campaign, stored_.stamp);
+  if (!is_new_folder(stored_.folder)) {
+    const StoredCampaign there = read_stored_campaign(stored_.folder);
+    if (stored_.campaign.sampling.extended_from.empty() &&
+        there.campaign.sampling.seed == stored_.campaign.sampling.seed)
+      note_extension(stored_.campaign, there.campaign.sampling.extended_from);
+    refuse_other_campaign(there, stored_.campaign, stored_.stamp);
+    stored_.stamp = stamp_of(stored_.campaign, shard);
+  }
   const std::string text = campaign_text(stored_.campaign, stored_.stamp);
   if (read_text(file) != text) write_file(file, text);
+}
+
+void CasesFolder::note_extensions() {
+  std::set<std::int64_t> analyses(stored_.campaign.sampling.extended_from.begin(),
+                                  stored_.campaign.sampling.extended_from.end());
+  for (const CaseSpec& spec : made_cases(stored_)) {
+    const StoredCampaign own = read_stored_campaign(stored_.folder / spec.name);
+    analyses.insert(own.campaign.sampling.extended_from.begin(),
+                    own.campaign.sampling.extended_from.end());
+  }
+  if (analyses.size() == stored_.campaign.sampling.extended_from.size()) return;
+  note_extension(stored_.campaign, {analyses.begin(), analyses.end()});
+  stored_.stamp = stamp_of(stored_.campaign, stored_.stamp.shard);
+  write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
 }
 
 std::vector<CaseSpec> made_cases(const StoredCampaign& whole) {
@@ -101,6 +123,9 @@ std::vector<CaseSummary> complete_cases(const StoredCampaign& whole,
     const FolderLock lock(stored.folder);
     all.push_back(
         case_summary(stored, write_statistics(stored, read_stored_results(stored).results)));
+    // runs that were added to other cases only are missing here
+    all.back().partial |=
+        !all.back().summary.stopped && all.back().summary.runs < whole.runs().size();
   }
   return all;
 }

@@ -44,6 +44,10 @@ public:
   CasesFolder(std::filesystem::path folder, const Campaign& campaign,
               const std::optional<Shard>& shard, bool resume);
 
+  /// Gives the folder's campaign.json the interim analyses of all its cases (Sampling::extended_from), so that running
+  /// that file anew judges the draws as often as these cases have.
+  void note_extensions();
+
   [[nodiscard]] const StoredCampaign& stored() const { return stored_; }
 
 private:
@@ -54,7 +58,8 @@ private:
 /// The cases that have a folder, in the campaign's order.
 [[nodiscard]] std::vector<CaseSpec> made_cases(const StoredCampaign& whole);
 
-/// Reads the folders of cases that are not in `known`, and computes their statistics.
+/// Reads the folders of cases that are not in `known`, and computes their statistics. Such a case is partial if runs
+/// were since added to others.
 /// @return all cases that have a folder, in the campaign's order
 [[nodiscard]] std::vector<CaseSummary> complete_cases(const StoredCampaign& whole,
                                                       std::vector<CaseSummary> known);

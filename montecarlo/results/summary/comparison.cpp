@@ -195,7 +195,9 @@ Json cases_json(const std::vector<CaseSummary>& cases, const Json& about) {
   if (!cases.front().summary.requirements.empty())
     json["joint_confidence"] = joint_confidence_of(cases);
   json["definitions"] = {
-      {"worst", "failed before undecided before passed, then the least margin"},
+      {"worst",
+       "failed before undecided before passed, then the largest number of runs that break the "
+       "requirement, as a share of the number that may, then the least margin"},
       {"draws", "the same in every case: differences between cases are the cases'"},
       {"joint_confidence",
        "at least this for all that pass in all cases together: 1 - the sum of (1 - c)"},

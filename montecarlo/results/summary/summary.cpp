@@ -242,12 +242,12 @@ std::string why_no_bound(const Summary& summary, const OutputSummary& output) {
                                  : counted(output.moments.count, "value", "values");
   if (summary.replicates > 1)
     return fmt::format("{} in {} replicates are too few, or agree too well, for every bound at a "
-                       "confidence of {}",
-                       values, summary.replicates, summary.confidence);
-  return fmt::format("{} too few for every bound at a confidence of {}",
+                       "confidence of {:.6g}",
+                       values, summary.replicates, summary.confidence_of_bound());
+  return fmt::format("{} too few for every bound at a confidence of {:.6g}",
                      output.missing == 0 && output.moments.count == 1 ? values + " is"
                                                                       : values + " are",
-                     summary.confidence);
+                     summary.confidence_of_bound());
 }
 
 } // namespace

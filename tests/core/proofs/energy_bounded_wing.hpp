@@ -28,7 +28,7 @@ template <BaseMotion M = BaseMotion::fixed> struct LatchedWing {
 
   /// What no energy exceeds from this state on, at its own time.
   [[nodiscard]] double energy(const State<double>& x, double t) {
-    return remaining.energy(system, x, t, t).value().whole;
+    return remaining.energy(system, x, t).value().whole;
   }
 
   /// Largest share of its bound that any moment or force takes at the state rest + s·way, s such

@@ -194,7 +194,7 @@ TEST_CASE("of a free base that turns, the energy of the whole's turning loads no
         x[wing.at.rate(i)] = size * draws.uniform(-1, 1) * turning;
       }
       x[BaseExcursion<double>::coordinate + wing.at.freedoms()] = turning;
-      const auto left = wing.remaining.energy(wing.system, x, 0., 0.).value();
+      const auto left = wing.remaining.energy(wing.system, x, 0.).value();
       const TotalMotion<double> now = total_motion(wing.system, x, 0.);
       const double spin = now.spin(), inertia = now.central_inertia();
       CAPTURE(k, turning, size, left.whole, left.within, left.whirl);
@@ -221,7 +221,7 @@ TEST_CASE("two stretched wings in line have the largest inertia that they can ha
   LatchedWing<BaseMotion::free> wing(scene);
   State<double> x = wing.rest;
   x[BaseExcursion<double>::coordinate + wing.at.freedoms()] = 0.5;
-  const auto left = wing.remaining.energy(wing.system, x, 0., 0.).value();
+  const auto left = wing.remaining.energy(wing.system, x, 0.).value();
   CHECK(left.whole > 10);
   CHECK(left.within <= 2e-9 * left.whole);
   CHECK(left.whirl == Approx(0.5));
@@ -265,7 +265,7 @@ TEST_CASE(
           x[at.angle(i)] = remaining.rest()[at.angle(i)] + draws.uniform(-3, 3);
       }
       x[BaseExcursion<double>::coordinate + at.freedoms()] = 1;
-      const auto left = remaining.energy(system, x, 0., 0.);
+      const auto left = remaining.energy(system, x, 0.);
       if (!left) continue;
       const TotalMotion<double> now = total_motion(system, x, 0.);
       const double largest = now.spin() * now.spin() / (2 * (left->whole - left->within));

@@ -148,7 +148,7 @@ bool proves_with_hold(KindOfHold kind, double most, double* bound = nullptr) {
   State<double> x = remaining.rest();
   x[system.layout().rate(held == 1 ? 2 : 1)] = 1e-2;
   if (bound) {
-    bounds.bound(system, remaining, remaining.energy(system, x, 0., 10.).value());
+    bounds.bound(system, remaining, remaining.energy(system, x, 0.).value());
     *bound = bounds.moment[held] + 2; // what turns the root itself: its spring
   }
   std::vector<PeakOf<double>> holds(4);

@@ -23,7 +23,7 @@ enum class Kind { modes, capped, in_reach };
 
 /// What no energy exceeds from this state on, J.
 template <BaseMotion M> std::optional<double> energy_of(Latched<M>& wing, const State<double>& x) {
-  const auto left = wing.remaining.energy(wing.system, x, 0., 0.);
+  const auto left = wing.remaining.energy(wing.system, x, 0.);
   return left ? std::optional(left->whole) : std::nullopt;
 }
 

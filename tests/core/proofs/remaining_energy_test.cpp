@@ -67,7 +67,7 @@ TEST_CASE(
     x[1] = draws.uniform(-0.3, 0.3);
     RemainingEnergy<double> remaining;
     remaining.prepare(system);
-    const auto left = remaining.energy(system, x, 0.0, 1e9);
+    const auto left = remaining.energy(system, x, 0.0);
     CAPTURE(trial);
     REQUIRE(left);
     double most = 0;
@@ -102,7 +102,7 @@ TEST_CASE("there is no bound of the energy where it may take a hinge to a stop, 
         State<double> x{share * way, 0};
         system.find_sides(x);
         CAPTURE(far, stowed, share);
-        CHECK(remaining.energy(system, x, 0., 1.).has_value() == (std::abs(share) < 1));
+        CHECK(remaining.energy(system, x, 0.).has_value() == (std::abs(share) < 1));
       }
     }
 }
@@ -187,7 +187,7 @@ TEST_CASE(
       const bool stays = std::abs(y) <= r && reach < r;
       if (std::abs(reach / r - 1) < 1e-3 || std::abs(std::abs(y) / r - 1) < 1e-3) continue;
       State<double> x{sense * y, 0};
-      const auto left = wing.remaining.energy(wing.system, x, 0., 1.);
+      const auto left = wing.remaining.energy(wing.system, x, 0.);
       CAPTURE(trial, place, width, slope, r, y, energy, rest, kappa, reach);
       CHECK(left.has_value() == stays);
       if (!left || !stays) continue;

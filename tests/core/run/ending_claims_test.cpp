@@ -161,3 +161,27 @@ TEST_CASE("holding moments that no load reaches leave a run's end as it is") {
     CHECK(held.peaks_final == plain.peaks_final);
   }
 }
+
+// The push turns as seen from the base, at the frequency of the latched panel: the swing grows until damping balances it.
+TEST_CASE("on a base that turns and is pushed, loads that grow after a quiet end are not final") {
+  Scene scene = free_panel(-1.5, -0.15);
+  scene.base.motion = BaseMotion::prescribed;
+  scene.base.rate = 2, scene.base.acceleration = {0.1, 0};
+  scene.bodies[0].mass = 10, scene.bodies[0].inertia = 30;
+  Hinge& hinge = scene.hinges[0];
+  hinge.parent_point = {0, 0}, hinge.child_point = {-0.5, 0};
+  hinge.latched = 0, hinge.spring.torque_stowed = 4;
+  hinge.stop = Stop{.stiffness = 2000, .dissipation = 20, .gap = 0};
+  hinge.latch = Latch{130, 0.01};
+  const Outcome late = Deployment().run(scene, within(1e-8, 400), {});
+  CHECK(late.peak_moment[0].value == Approx(66.032).epsilon(1e-4));
+  for (const double t_end : {8., 12., 40.}) {
+    const Outcome early = Deployment().run(scene, within(1e-8, t_end), {});
+    CAPTURE(t_end);
+    CHECK(early.peak_moment[0].value == Approx(47.761).epsilon(1e-4));
+    CHECK_FALSE(early.peaks_final);
+  }
+  hinge.latch->holding_moment = 55;
+  CHECK_FALSE(Deployment().run(scene, within(1e-8, 40), {}).reason.empty()); // it may let go
+  CHECK(Deployment().run(scene, within(1e-8, 400), {}).let_go.size() == 1);
+}

@@ -72,8 +72,9 @@ class Table(typing.Mapping[str, npt.NDArray[typing.Any]]):
     """The rows of a campaign: a mapping from the columns of runs.csv to numpy arrays.
 
     Numbers are read-only views of the table's memory; NaN marks a missing value. `status`,
-    `latch_order` and `reason` are arrays of str, `peaks_final` of True, False, the only family proven, or None. pandas.DataFrame(dict(table))
-    is a data frame.
+    `latch_order` and `reason` are arrays of str. `peaks_final` is an array of True, False, None, or the name of the only
+    family of peaks that is proven ("peak_moment"). pandas.DataFrame(dict(table)) is a data frame; a Table itself cannot be
+    pickled, dict(table) can.
     """
 
     def __init__(self, native: _native.Table) -> None:
@@ -221,7 +222,7 @@ class Model:
 
     @property
     def nominal(self) -> Floats:
-        """The nominal values of the parameters, in SI units."""
+        """The nominal values of the parameters, in SI units; NaN for a path whose parameters have different values."""
         return np.array(self._native.nominal)
 
     def __call__(self, x: npt.ArrayLike, *, threads: int = 0) -> Floats:

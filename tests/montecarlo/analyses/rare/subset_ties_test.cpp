@@ -13,6 +13,8 @@ using namespace wingspread::oracle;
 
 TEST_CASE("levels climb over ties of a quantity that takes few values") {
   const int needed = GENERATE(4, 5); // of six values that are each low with probability 0.1
+  const auto labels =
+      GENERATE(std::vector<std::size_t>{}, std::vector<std::size_t>{0, 1, 2, 3, 4, 5});
   const double low = -1.2815515655446004;
   const LimitStateFunction g = limit_state([&](const NormalPoint& z) {
     return needed - 0.5 -
@@ -26,12 +28,13 @@ TEST_CASE("levels climb over ties of a quantity that takes few values") {
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     std::vector<SubsetEstimate> estimates;
     for (std::uint64_t k = 0; k < 5; ++k)
-      estimates.push_back(subset_simulation(g, 6, {.samples = 500, .seed = seed, .repetition = k}));
+      estimates.push_back(subset_simulation(
+          g, 6, {.samples = 500, .seed = seed, .repetition = k, .labels = labels}));
     const RareEstimate found = combined(estimates, 0.9);
     missed += !(found.interval.lower <= p && p <= found.interval.upper);
     sum += found.probability;
   }
-  INFO(needed << " low values, P = " << p);
+  INFO(needed << " low values, P = " << p << ", labels: " << labels.size());
   CHECK(missed <= 6 + 3 * 2.4);
   CHECK(sum / seeds == Approx(p).epsilon(0.15));
 }

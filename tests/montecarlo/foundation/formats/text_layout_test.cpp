@@ -87,6 +87,10 @@ TEST_CASE("long lines of a text go on below, deeper", "[text_layout]") {
 TEST_CASE("shares in percent, and counted things", "[text_layout]") {
   CHECK(percent(0.123456) == "12.346 %");
   CHECK(percent(0.126, 0) == "13 %");
+  CHECK(percent(0.999999) == "99.9999 %"); // not 100
+  CHECK(percent(0.99999, 3) == "99.999 %");
+  CHECK(percent(0.9999, 1) == "99.99 %");
+  CHECK(percent(1) == "100.000 %");
   CHECK(percent(std::numeric_limits<double>::quiet_NaN()) == "–");
   CHECK(percent_range(0.005, 0.5) == "0.500 – 50.000 %");
   CHECK(spaced("timed_out") == "timed out");

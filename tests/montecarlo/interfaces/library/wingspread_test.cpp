@@ -198,6 +198,8 @@ TEST_CASE("a model's rows are deployments of their own, in lanes or alone", "[pa
   const api::Model model(input, {"hinges.*.spring.scale", "bodies.panel_1.mass"}, outputs,
                          {.t_end = 20});
   CHECK(model.nominal() == std::vector<double>{1, 10});
+  // no one number stands for springs of different torques
+  CHECK(std::isnan(api::Model(input, {"hinges.*.spring.torque_stowed"}, outputs).nominal()[0]));
   CHECK(model.parameters() == 2);
   const std::vector<double> x{1, 10, 1.2, 10, 1, -1, 0.9, 11, 1, NAN};
   std::vector<double> y(10), alone(2);

@@ -133,6 +133,11 @@ TEST_CASE("summary.json says why a bound is null") {
   CHECK(low["note"] ==
         "30 runs, 10 of them without a value, are too few for every bound at a confidence of 0.95");
   CHECK(json["outputs"]["root.latch_time"]["quantiles"][1]["upper"].is_null()); // X_(21) of 30
+  Summary extended = some_summary(30);
+  extended.interim.before = {10}; // its bounds are at 1 − 0.05/2
+  CHECK_THAT(summary_json(extended, {})["outputs"]["root.latch_time"]["quantiles"][0]["note"]
+                 .get<std::string>(),
+             Catch::EndsWith("at a confidence of 0.975"));
   Results results(ResultNames{{}, {"t"}});
   for (long run = 0; run < 2; ++run) results.append({run, Status::deployed, {}, {1.5}, "", ""});
   const Json single = summary_json(summarize(results, {}, {1, {0, 0}}), {});

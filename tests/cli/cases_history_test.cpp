@@ -1,0 +1,72 @@
+// Folders of cases that were made in several sessions: what they keep, and what the last session says of all.
+#include "montecarlo/results/results_folder/cases_folder.hpp"
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// Two cases of 24 runs: all wings deploy in time in `light`, none does in `heavy`.
+struct Sessions {
+  Folder folder{};
+  std::string file, out = folder.path() / "r";
+
+  Sessions() {
+    Json campaign = quick_campaign(24);
+    campaign["cases"] = parse_json(R"([ { "name": "light" },
+      { "name": "heavy", "scale": { "bodies.*.inertia": 3, "bodies.*.mass": 3 } } ])");
+    campaign["requirements"] = parse_json(R"([
+      { "output": "deployment_time", "max": 9, "probability": 0.8, "confidence": 0.9 } ])");
+    file = folder.write("c.json", campaign.dump());
+  }
+  [[nodiscard]] Finished run(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"run", file, "--out", out});
+    return run_program(folder, options);
+  }
+  [[nodiscard]] Json compared() const { return parse_json_file(out + '/' + cases_file); }
+};
+
+} // namespace
+
+TEST_CASE(
+    "an extended folder of cases keeps the analyses of its cases, and a rerun judges as it does",
+    "[cases]") {
+  const Sessions sessions;
+  (void)sessions.run({});
+  (void)sessions.run({"--resume", "--runs", "40", "--case", "heavy"});
+  CHECK(sessions.compared()["cases"]["light"]["partial"] == true); // 16 runs are missing
+  CHECK_FALSE(sessions.compared()["cases"]["heavy"].contains("partial"));
+  (void)sessions.run({"--resume", "--runs", "40"});
+  CHECK_FALSE(sessions.compared()["cases"]["light"].contains("partial"));
+  const Json whole = parse_json_file(sessions.out + "/campaign.json");
+  CHECK(whole["sampling"]["extended_from"] == Json{24});
+  const std::string again = sessions.folder.path() / "again";
+  (void)run_program(sessions.folder, {"run", sessions.out + "/campaign.json", "--out", again});
+  for (const std::string name : {"/light", "/heavy"})
+    CHECK(contents(again + name) == contents(sessions.out + name));
+  CHECK(read_text(again + "/cases.json") == read_text(sessions.out + "/cases.json"));
+  CHECK(sessions.run({"--resume", "--runs", "40"}).code == 1); // nothing to do, and not refused
+}
+
+TEST_CASE("cases.json stays where a folder is refused", "[cases]") {
+  const Sessions sessions;
+  (void)sessions.run({});
+  const std::string before = *read_text(sessions.out + "/cases.json");
+  const std::string rows = sessions.out + "/heavy/runs.csv";
+  const std::string text = *read_text(rows);
+  const auto second = text.find('\n', text.find('\n') + 1) + 1;
+  std::ofstream(rows) << text.substr(0, second) + text.substr(text.find('\n', second) + 1);
+  CHECK(sessions.run({"--resume"}).code == 2);
+  CHECK(read_text(sessions.out + "/cases.json") == before);
+}
+
+TEST_CASE("a session with one case ends with the verdicts of all", "[cases]") {
+  const Sessions sessions;
+  CHECK(sessions.run({"--case", "heavy"}).code == 1);
+  const Finished last = sessions.run({"--case", "light", "--resume"});
+  CHECK(last.code == 1);
+  CHECK_THAT(last.error, Catch::Contains("not met: heavy: deployment_time"));
+}
