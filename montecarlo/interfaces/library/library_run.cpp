@@ -51,8 +51,12 @@ Table run(const Input& input, const RunOptions& options) {
 
 Table read(const std::filesystem::path& folder, const std::string& of_case) {
   const StoredCampaign stored = read_any_campaign(folder_of_case(folder, of_case));
+  std::vector<std::string> warnings;
+  if (stored.stamp.preview)
+    warnings.push_back(stored.folder.string() + " is " + describe(*stored.stamp.preview) +
+                       "; the results may change");
   return table_of(stored, RunPlan(stored.campaign).names(), read_stored_results(stored).results,
-                  {});
+                  std::move(warnings));
 }
 
 std::string version() { return std::string(wingspread::version()); }

@@ -139,7 +139,7 @@ public:
   [[nodiscard]] bool is_complete() const;
   /// The campaign with all defaults, as JSON.
   [[nodiscard]] const std::string& campaign() const;
-  /// The warnings of the input checks, as `wingspread run` prints them.
+  /// The warnings of the input checks, as `wingspread run` prints them; of a folder that was read, that it is a preview.
   [[nodiscard]] const std::vector<std::string>& notices() const;
 
   struct Data;

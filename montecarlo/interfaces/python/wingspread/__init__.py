@@ -174,7 +174,9 @@ def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", se
 
 def read(folder: str | os.PathLike[str], *, case: str = "") -> Table:
     """Reads the rows of a results folder. case: the case, required for a campaign with cases."""
-    return Table(_native.read(os.fspath(folder), _text("case", case)))
+    table = _native.read(os.fspath(folder), _text("case", case))
+    _warn(table.notices)
+    return Table(table)
 
 
 def simulate(scene: Source, *, set: Changes | None = None, case: str = "", dt: float | None = None,

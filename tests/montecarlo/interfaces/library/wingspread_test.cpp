@@ -1,6 +1,7 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/library/wingspread.hpp"
+#include "montecarlo/results/results_folder/merge.hpp"
 #include "tests/montecarlo/analyses/fit/fit_support.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
@@ -83,6 +84,16 @@ TEST_CASE("a results folder is read as the table that its campaign gives") {
   CHECK(part.size() < 30);
   CHECK_THAT(message_of([&] { return api::read(folder.path() / "none"); }),
              Catch::StartsWith((folder.path() / "none").string() + ": found no such folder"));
+}
+
+TEST_CASE("a preview that is read says what it is") {
+  const Folder folder;
+  const std::filesystem::path part = folder.path() / "part", preview = folder.path() / "preview";
+  (void)run_into(part, campaign_of(quick_campaign(10)), {.shard = Shard{1, 2}});
+  CHECK(api::read(part).notices().empty());
+  (void)merge_folders({part}, preview, MergeKind::preview);
+  CHECK(api::read(preview).notices() ==
+        std::vector{preview.string() + " is a preview of 5 of 10 runs; the results may change"});
 }
 
 TEST_CASE("a campaign of the library stops by its rule, and when it is told to") {
