@@ -84,7 +84,7 @@ def a_campaign(session, seed, brief):
     folder = "results" + ("/" + case[1] if case else "")
     session.ask("replay", folder, "--run", 0, "--json")
     session.ask("simulate", "campaign.json", "--json", *case)
-    session.ask("sensitivity", folder, "--all", "--resamples", 50)
+    session.ask("sensitivity", folder, "--all")
     session.ask("report", "results")
 
 

@@ -23,9 +23,8 @@ constexpr double independent_moves = 0.8;
 // with offsets of a clock and of two sensors, ended unfinished.
 constexpr long runs_of_a_sample = 400;
 constexpr std::size_t predicted_rows = 400; // for bands and p-values: 10 rows in each 2.5 % tail
-// Heuristic: number of starts of a second search, made if the first one ends far from a trace. A trace of a moment that
-// jumps at latching has many local modes. Fewer starts miss the true mode more often; more starts cost runs where the
-// trace is of another wing.
+// Heuristic: starts of a second search, if the first ends far from a trace. A moment that jumps at latching has many local
+// modes. Fewer starts miss the true one more often; more cost runs where the trace is of another wing.
 constexpr int most_starts_of_search = 32;
 constexpr int temperings = 2;   // rounds of tempering and a new search; each moves the mode little
 constexpr int least_tried = 16; // points of the prior; if no run there has a number, it is refused
@@ -35,9 +34,8 @@ std::size_t walkers_for(std::size_t dimensions) {
   return walkers + walkers % 2;
 }
 
-/// A prior with one limit is cut off there, and does not fade out, if its 1 % quantile next to the limit is nearer to
-/// the limit than this share of the median's distance. A uniform law has 0.02, a normal law cut at its mean 0.019.
-/// Heuristic: laws that fade out towards the limit have far more.
+/// A prior with one limit is cut off there if its 1 % quantile is nearer to the limit than this share of the median's
+/// distance: 0.02 for a uniform law, 0.019 for a normal law cut at its mean. Heuristic: laws that fade out have far more.
 constexpr double most_of_cut = 0.05;
 
 /// The campaign whose laws the parameter has.
@@ -54,8 +52,7 @@ LawMoments prior_moments(const FitParameter& parameter, const Campaign& campaign
   return moments_of(campaign.dispersions[parameter.dispersion].distribution);
 }
 
-/// The limit of the prior at which the posterior lies (at_limit); nothing if it lies at none, or if a prior with one
-/// limit fades out towards it (most_of_cut).
+/// The limit at which the posterior lies (at_limit); none if a prior with one limit fades out there (most_of_cut).
 /// @param campaign see laws_of
 std::optional<double> limit_at(std::span<const double> sorted, const FitParameter& parameter,
                                const Campaign& campaign) {
