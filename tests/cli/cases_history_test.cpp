@@ -17,9 +17,9 @@ struct Sessions {
   Sessions() {
     Json campaign = quick_campaign(24);
     campaign["cases"] = parse_json(R"([ { "name": "light" },
-      { "name": "heavy", "scale": { "bodies.*.inertia": 3, "bodies.*.mass": 3 } } ])");
+      { "name": "heavy", "scale": { "bodies.*.inertia": 60 } } ])");
     campaign["requirements"] = parse_json(R"([
-      { "output": "deployment_time", "max": 9, "probability": 0.8, "confidence": 0.9 } ])");
+      { "output": "deployment_time", "max": 12, "probability": 0.8, "confidence": 0.9 } ])");
     file = folder.write("c.json", campaign.dump());
   }
   [[nodiscard]] Finished run(std::vector<std::string> options) const {

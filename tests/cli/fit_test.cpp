@@ -76,7 +76,8 @@ TEST_CASE("fit: intervals are those of 95 %, whatever confidence the campaign's 
     Json campaign = panel_campaign(0.01);
     campaign["statistics"]["confidence"] = confidence;
     const std::string file = folder.write("c.json", campaign.dump());
-    const Finished done = run_program(folder, {"fit", file, tests, "--json"});
+    const std::string out = folder.path() / std::to_string(confidence);
+    const Finished done = run_program(folder, {"fit", file, tests, "--out", out, "--json"});
     REQUIRE(done.code == 0);
     return parse_json(done.out)["parameters"]["spring"];
   };

@@ -55,7 +55,7 @@ class Manners(unittest.TestCase):
                   "limit = pages * resource.getpagesize() + (64 << 20)\n"
                   "resource.setrlimit(resource.RLIMIT_AS, (limit, limit))\n"
                   "try:\n"
-                  "    wingspread.simulate(sys.argv[1], t_end=1e5, dt=1e-4)\n"
+                  "    wingspread.simulate(sys.argv[1], t_end=1e5, dt=0.01)\n"
                   "except wingspread.MachineError as error:\n"
                   "    print('refused:', error)\n")
         done = subprocess.run([sys.executable, "-c", script, SCENE], capture_output=True, text=True, timeout=120)

@@ -151,11 +151,12 @@ risk of a wrong verdict. Use --until, or a new --seed and a number of runs fixed
 --resume with more --runs counts as a further interim analysis, and the verdicts allow for it.
 
 With --no-rows there is no runs.csv, and memory and disk space do not grow with the number of runs.
-Counts, verdicts and the 4096 largest and smallest values of every output are the same as with rows,
-moments to rounding; other quantiles come with an error bound. broken_runs.csv keeps the rows of the runs that
-did not deploy or broke a requirement. --resume, --shard, merge, replay, analyze and report work on
-such a folder; sensitivity, export and --until need rows and refuse it. A campaign with cases is
-refused: run FOLDER/CASE/campaign.json of an earlier folder, one for each case.
+Counts, verdicts and the 4096 largest and smallest values of every output are the same as with
+rows, moments to rounding; other quantiles come with an error bound. broken_runs.csv keeps the rows
+of the runs that did not deploy or broke a requirement. --resume, --shard, merge, replay, analyze
+and report work on such a folder; sensitivity, export and --until need rows and refuse it. A
+campaign with cases is refused: run FOLDER/CASE/campaign.json of an earlier folder, one for each
+case.
 
 Example:
   wingspread run campaign.json --out results/first --runs 2000 --threads 4

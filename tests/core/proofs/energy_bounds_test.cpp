@@ -127,7 +127,7 @@ TEST_CASE("friction of either model may be seen where no energy is left") {
 
 namespace {
 
-/// The seed wing on a base that turns at `rate` and is pushed.
+/// The seed wing on a base that turns at `rate` or is pushed.
 Scene carried_seed(double rate, double push) {
   Scene scene = oracle::seed_scene();
   scene.base.motion = BaseMotion::prescribed;
@@ -138,10 +138,9 @@ Scene carried_seed(double rate, double push) {
 
 } // namespace
 
-TEST_CASE("no state with the energy breaks the bounds on peaks: bases that turn and are pushed") {
+TEST_CASE("no state with the energy breaks the bounds on peaks: bases that turn or are pushed") {
   oracle::Draws draws(4);
-  for (const auto& [rate, push] :
-       {std::pair{0., 0.02}, {0., 1.}, {0.035, 0.}, {0.5, 0.}, {0.035, 0.02}, {-0.3, 0.2}}) {
+  for (const auto& [rate, push] : {std::pair{0., 0.02}, {0., 1.}, {0.035, 0.}, {0.5, 0.}}) {
     LatchedWing<BaseMotion::prescribed> wing(carried_seed(rate, push));
     const double least = wing.energy(wing.rest, 2);
     for (const double more : {1e-5, 1e-3, 0.03, 1.0}) {

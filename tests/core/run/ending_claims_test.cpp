@@ -182,6 +182,6 @@ TEST_CASE("on a base that turns and is pushed, loads that grow after a quiet end
     CHECK_FALSE(early.peaks_final);
   }
   hinge.latch->holding_moment = 55;
-  CHECK_FALSE(Deployment().run(scene, within(1e-8, 40), {}).reason.empty()); // it may let go
-  CHECK(Deployment().run(scene, within(1e-8, 400), {}).let_go.size() == 1);
+  CHECK_FALSE(Deployment().run(scene, within(1e-8, 40), {}).latches_final); // it may let go
+  CHECK_FALSE(Deployment().run(scene, within(1e-8, 400), {}).let_go.empty());
 }

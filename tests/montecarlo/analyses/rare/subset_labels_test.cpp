@@ -102,7 +102,8 @@ TEST_CASE("labels are drawn anew, the others move by a scale, and one of the two
     steps.push_back(points);
     return values;
   };
-  (void)subset_simulation(kept, 4, {.samples = 1000, .smallest = 0.1, .seed = 5, .labels = {1, 3}});
+  (void)subset_simulation(kept, 4,
+                          {.samples = 1000, .smallest = 0.05, .seed = 5, .labels = {1, 3}});
   REQUIRE(steps.size() >= 10);
   long labels_alone = 0, others_alone = 0;
   for (std::size_t step = 2; step < 10; ++step)
@@ -136,7 +137,7 @@ TEST_CASE("rows and laws with few values are labels, samples and fixed values ar
   };
   using Labels = std::vector<std::vector<std::size_t>>;
   const Json normal = normal_law("D", 5, 0.4, "set", "hinges.h.release.delay");
-  CHECK(labels({normal}) == Labels{{}});
+  CHECK(labels(Json::array({normal})) == Labels{{}});
   CHECK(labels({normal, empirical("e", 20)}) == Labels{{1}});
   CHECK(labels({normal, empirical("e", 21)}) == Labels{{}});
   CHECK(labels({empirical("e", 1), normal}) == Labels{{}});
@@ -147,10 +148,12 @@ TEST_CASE("rows and laws with few values are labels, samples and fixed values ar
   CHECK(
       labels({discrete_law("k", {1, 1.1, 1.2}, {0.5, 0.499, 0.001}, "scale", "bodies.lid.inertia"),
               normal}) == Labels{{0}, {}});
+  std::vector<double> k, J;
+  for (int row = 0; row < 40; ++row) k.push_back(1 + 1e-3 * row), J.push_back(1 - 1e-3 * row);
   const Json rows = {
       {"name", "measured"},
       {"rows",
-       {{"values", {{"k", std::vector<double>(40, 1.0)}, {"J", std::vector<double>(40, 1.0)}}},
+       {{"values", {{"k", k}, {"J", J}}},
         {"apply", "scale"},
         {"columns", {{"k", "hinges.h.spring.scale"}, {"J", "bodies.lid.inertia"}}}}}};
   CHECK(labels({normal, rows}) == Labels{{1}});

@@ -17,7 +17,7 @@ namespace {
 
 StaticMarginReport report_of(int runs) {
   Json json = one_panel_margin(runs);
-  json["statistics"] = {{"quantiles", {0.5, 0.1}}};
+  json["statistics"] = {{"quantiles", {0.1, 0.5}}};
   json["margin"]["motorization"] = {{"points", 3}, {"ecss", {{"friction", 2.5}}}};
   const Campaign campaign = campaign_of(json);
   StaticMarginReport report{
@@ -55,8 +55,8 @@ TEST_CASE("static margins as JSON: every number of the study, with the factors b
     CHECK(its["draws"]["worst_run"] == spread.worst_run);
     CHECK(its["draws"]["least"] == spread.least);
     CHECK(its["draws"]["share_below_0"] == spread.share_short);
-    CHECK(its["draws"]["quantiles"] == Json{{{"p", 0.5}, {"value", spread.quantiles[0]}},
-                                            {{"p", 0.1}, {"value", spread.quantiles[1]}}});
+    CHECK(its["draws"]["quantiles"] == Json{{{"p", 0.1}, {"value", spread.quantiles[0]}},
+                                            {{"p", 0.5}, {"value", spread.quantiles[1]}}});
   }
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("static margins as CSV: a cell for each name, and a line for each plac
       const std::string name(margin_kind_names[kind]);
       const MarginSpread& spread = at.spread[kind];
       check(name, at.margins[kind]);
-      check(name + "@0.5", spread.quantiles[0]), check(name + "@0.1", spread.quantiles[1]);
+      check(name + "@0.1", spread.quantiles[0]), check(name + "@0.5", spread.quantiles[1]);
       check(name + "_share_below_0", spread.share_short), check(name + "_least", spread.least);
       CHECK(row[name + "_worst_run"] == std::to_string(spread.worst_run));
     }
@@ -119,11 +119,11 @@ TEST_CASE("curves for the page: the nominal margins, and the draws' quantile at 
     CHECK(curve["angle"][k].get<double>() == Approx(point.angle).epsilon(1e-6).margin(1e-12));
     CHECK(curve["margin"][k].get<double>() == Approx(point.margins[nasa]).epsilon(1e-4));
     CHECK(curve["margin_lower"][k].get<double>() ==
-          Approx(point.spread[nasa].quantiles[1]).epsilon(1e-4));
+          Approx(point.spread[nasa].quantiles[0]).epsilon(1e-4));
   }
   CHECK(curve["least"].get<double>() == Approx(drive.worst[nasa]).epsilon(1e-4));
   CHECK(curve["lower"].get<double>() ==
-        Approx(drive.worst_spread[nasa].quantiles[1]).epsilon(1e-4));
+        Approx(drive.worst_spread[nasa].quantiles[0]).epsilon(1e-4));
   CHECK(static_margin_curves({}, MarginKind::nasa, {}).is_null());
 }
 
