@@ -98,8 +98,9 @@ Summary write_folder_statistics(const StreamingFolder& folder, int /*threads*/) 
                                     folder.stored().campaign.statistics);
 }
 
-/// Makes the runs and the statistics of one results folder. @param outdated as of complete_runs @return false if the runs were interrupted, or the
-/// statistics were left for later
+/// Makes the runs and the statistics of one results folder.
+/// @param outdated as of complete_runs
+/// @return false if the runs were interrupted, or the statistics were left for later
 template <class Folder>
 bool run_folder(const Campaign& campaign, const std::filesystem::path& out,
                 const std::filesystem::path& outdated, const RunRequest& request,
