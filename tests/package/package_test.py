@@ -72,27 +72,30 @@ class Completions(InFolder):
             os.execvpe("zsh", ["zsh", "-f", "-i"], {**WITH_PROGRAM, "TERM": "dumb", "PS1": "", "COLUMNS": "200"})
         said = ""
 
-        def until(mark, seconds=20):
+        def until(mark, seconds=60):
+            """Reads until the pattern is there. @return whether it is"""
             nonlocal said
             end = time.monotonic() + seconds
-            while mark not in said and time.monotonic() < end:
+            while not re.search(mark, said) and time.monotonic() < end:
                 if select.select([terminal], [], [], 0.1)[0]:
                     said += os.read(terminal, 65536).decode(errors="replace")
-            return said
+            return re.search(mark, said)
 
         os.write(terminal, b"unsetopt zle; PS1=; fpath=($PWD/here $fpath); autoload -U compinit; compinit -D -u; "
                            b"setopt zle; unsetopt beep; bindkey '^I' complete-word; LISTMAX=1000; echo rea''dy\n")
         until("ready\r\n")
-        said = ""
         # what is completed is printed by the shell itself, not read off its drawing
         os.write(terminal, b"show() { print -r -- \"<$BUFFER>\" }; zle -N show; bindkey '^X' show\n")
+        for _ in range(60):  # until the line editor answers a key: what is typed before may be lost
+            os.write(terminal, b"\x18")
+            if until("<>\r\n", 1):
+                break
         os.write(terminal, line.encode() + b"\t\x18")
-        until(">\r\n")
+        found = until(r"<(wingspread [^>]*)>\r\n")
         os.write(terminal, b"\x03exit\n")
         os.close(terminal)
         os.waitpid(child, 0)
-        found = re.findall(r"<(wingspread [^>]*)>", said)
-        return found[-1].rstrip() if found else said
+        return found[1].rstrip() if found else said
 
     def test_bash(self):
         self.assertEqual(self.bash("wingspread s"), ["simulate", "sample", "size", "sensitivity", "schema"])
