@@ -24,3 +24,14 @@ TEST_CASE("a step is refused for its roughness beyond 1, and the next one keeps 
     CHECK(verdict.factor == 1.75);
   }
 }
+
+// The interpolant through a step's ends is of order 5, so that it follows the formulas of order 5 and below.
+TEST_CASE(
+    "methods of an order above the interpolant's keep to its roughness, the others need not") {
+  using enum Method;
+  for (const Method method :
+       {fehlberg78, dop853, bulirsch_stoer, adams_bashforth_moulton, seulex, taylor})
+    CHECK(takes_long_steps(method));
+  for (const Method method : {runge_kutta4, cash_karp54, dopri5})
+    CHECK_FALSE(takes_long_steps(method));
+}

@@ -21,6 +21,18 @@ TEST_CASE("attempts that a lane has passed over leave the schedule as if they ha
   }
 }
 
+TEST_CASE("an attempt at the peaks that fell due among a lane's steps is still to be made") {
+  for (const SoughtProof sought : {SoughtProof::peaks_after_stall, SoughtProof::peaks_by_modes,
+                                   SoughtProof::peaks_by_energy}) {
+    ProofSchedule schedule;
+    schedule.restart(sought);
+    schedule.skip_steps(100, sought);
+    CHECK(schedule.steps_to_attempt() == 0);
+    CHECK(schedule.count_step(sought));
+    CHECK_FALSE(schedule.count_step(sought)); // and the next one keeps its distance
+  }
+}
+
 TEST_CASE("attempts at a proof come at their interval, and the steps before one are counted down") {
   const auto steps_of_attempts = [](SoughtProof sought) {
     ProofSchedule schedule;

@@ -35,6 +35,10 @@ TEST_CASE("the time of many runs is that of one, times their number, over the th
     CHECK(time_of_runs(nominal, threads) == "about 0.5 s");
     CHECK(time_of_runs(nominal, 80 * threads) == "about 40 s");
     CHECK(time_of_runs(nominal, 240 * threads) == "about 2 min");
+    CHECK(time_of_runs(nominal, 180 * threads) == "about 90 s");
+    CHECK(time_of_runs(nominal, 1800 * threads) == "about 15 min");
+    CHECK(time_of_runs(nominal, 11'880 * threads) == "about 99 min");
+    CHECK(time_of_runs(nominal, 12'600 * threads) == "about 2 h");
     CHECK(time_of_runs(nominal, 36000 * threads) == "about 5 h");
     nominal.seconds = 0.04;
     CHECK(time_of_runs(nominal, threads) == "about 40 ms");
