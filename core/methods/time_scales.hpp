@@ -12,8 +12,8 @@ namespace wingspread {
 /// of acceleration to rate or, if larger and its latch is engaged, that of rate to distance from rest. In a swing about
 /// an engaged latch one of the two is always at least the frequency; an elastic joint has only the first. A hinge
 /// counts however slow it is beside others: an implicit step must resolve its swing to the tolerance. Hinges slower
-/// than 100 times `still` do not count (heuristic: rounding and the rest of a mode that has died out would look like a high
-/// frequency).
+/// than 100 times `still` do not count (heuristic: rounding and the rest of a mode that has died out would look like a
+/// high frequency).
 /// @param still rad/s: the rate that an explicit method leaves of a motion that has died out
 /// @return 0 if no hinge counts
 template <class T, class AnySystem>
