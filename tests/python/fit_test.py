@@ -59,6 +59,28 @@ class Fitting(unittest.TestCase):
         self.assertIn(str(caught.warning), result["findings"])
         self.assertIn(f"not finished: effective sample size {result['sampler']['ess']:.0f} of 100000", str(caught.warning))
 
+    def test_a_fit_that_is_cut_off_goes_on_in_its_folder(self):
+        """To the same bytes as one made at once; the finished folder is read."""
+        tests = self.ground()
+        tests["fit"]["samples"] = 4000
+        with tempfile.TemporaryDirectory() as folder:
+            cut, whole = pathlib.Path(folder) / "cut", pathlib.Path(folder) / "whole"
+            with self.assertWarns(wingspread.Notice):
+                first, _ = wingspread.fit(self.campaign(), tests, out=cut, runs=3000)
+            self.assertFalse(first["finished"])
+            with self.assertRaisesRegex(wingspread.SpecError, "resume"):
+                wingspread.fit(self.campaign(), tests, out=cut)
+            wingspread.fit(self.campaign(), tests, out=whole)
+            made = wingspread.fit(self.campaign(), tests, out=cut, resume=True)
+            read = wingspread.fit(self.campaign(), tests, out=cut, resume=True)
+            for name in ("fit.json", "posterior.csv"):
+                self.assertEqual((cut / name).read_bytes(), (whole / name).read_bytes(), name)
+        for result, posterior in (made, read):
+            self.assertTrue(result["finished"])
+            self.assertEqual(list(posterior), ["spring"])
+            np.testing.assert_array_equal(posterior["spring"], made.posterior["spring"])
+        self.assertEqual(made.result, read.result)
+
     def test_faults_of_tests_have_their_place(self):
         tests = self.ground()
         tests["fit"]["parameters"] = ["sprung"]

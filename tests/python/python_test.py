@@ -285,6 +285,13 @@ class Errors(InFolder):
                 (lambda: wingspread.fit(small(), small(), runs=-1), "--runs", "-1", whole + "0 to 2147483647"),
                 (lambda: wingspread.evaluate(SCENE, ["hinges.*.spring.scale"], [[1]], threads=1.5), "--threads", "1.5",
                  whole + "0 to 1024"),
+                (lambda: wingspread.run(small(), threads=None), "--threads", "None", whole + "0 to 1024"),
+                (lambda: wingspread.fit(small(), small(), runs=None), "--runs", "None", whole + "0 to 2147483647"),
+                (lambda: wingspread.fit(small(), small(), resume=1), "--resume", "1", "True or False"),
+                (lambda: wingspread.evaluate(SCENE, ["hinges.*.spring.scale"], [[1j]]), "--x", "dtype('complex128')",
+                 "real numbers"),
+                (lambda: wingspread.evaluate(SCENE, ["hinges.*.spring.scale"], [[np.datetime64("2026-01-01")]]), "--x",
+                 "dtype('<M8[D]')", "real numbers"),
                 (lambda: wingspread.simulate(SCENE, dt=0), "--dt", "0", "a number, s, > 0"),
                 (lambda: wingspread.simulate(SCENE, t_end="5 s"), "--t-end", "'5 s'", "a number, in SI units")]:
             with self.assertRaises(wingspread.SpecError) as raised:

@@ -1,10 +1,14 @@
 #include "montecarlo/analyses/fit/fit_folder.hpp"
+#include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/library/wingspread.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
+
+#include <limits>
+#include <sstream>
 
 namespace wingspread::api {
 namespace {
@@ -23,6 +27,32 @@ Fit fit_of(const FitResult& result, std::string json) {
   return fit;
 }
 
+/// Reads posterior.csv. @param text empty: the fit found no posterior, and wrote no such file
+std::vector<Series> read_posterior(const std::string& text, const std::string& file) {
+  std::istringstream in(text);
+  CsvReader reader(in, file);
+  std::vector<Series> posterior;
+  if (!reader.next()) return posterior;
+  for (const std::string& name : reader.cells()) posterior.push_back({name, {}});
+  while (reader.next()) {
+    const std::vector<std::string>& cells = reader.cells();
+    if (cells.size() != posterior.size())
+      throw reader.error("", std::to_string(cells.size()) + " cells",
+                         "as many as the header has, " + std::to_string(posterior.size()));
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      posterior[k].values.push_back(
+          parse_csv_number(cells[k]).value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  return posterior;
+}
+
+/// The fit that an earlier session finished.
+Fit read_fit_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / posterior_file;
+  return {read_text(folder / fit_json_file).value_or(""),
+          read_posterior(read_text(file).value_or(""), file.string()), true};
+}
+
 } // namespace
 
 Fit fit(const Input& input, const Input& tests, const FitRequest& request) {
@@ -39,7 +69,8 @@ Fit fit(const Input& input, const Input& tests, const FitRequest& request) {
   options.most_runs = request.runs;
   refuse_unpredictable(campaign, spec, options, tests.file.string(), stop);
   std::optional<FitFolder> folder;
-  if (!request.out.empty()) folder.emplace(request.out, about, false);
+  if (!request.out.empty()) folder.emplace(request.out, about, request.resume);
+  if (folder && folder->is_finished()) return read_fit_folder(request.out);
   FitResult result = fit_campaign(campaign, spec, options, stop, folder ? &folder->log() : nullptr,
                                   [](const EnsembleState&) {});
   if (folder) folder->write(result, campaign, spec, options.pool, stop);

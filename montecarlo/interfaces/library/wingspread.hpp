@@ -165,6 +165,7 @@ struct FitRequest {
   long runs = 0;                           ///< most runs of the sampler; 0: 400 for each sample
   int threads = 0;                         ///< 0: all processors
   const std::atomic<bool>* stop = nullptr; ///< once true, no further run begins
+  bool resume = false;                     ///< goes on with the chains that an earlier call left in `out`
 };
 
 /// The fit of a campaign's parameters to deployment tests.

@@ -97,9 +97,9 @@ py::tuple simulate_it(const Input& input, const Settings& settings, std::optiona
 }
 
 py::tuple fit_it(const Input& campaign, const Input& tests, const std::filesystem::path& out,
-                 std::optional<std::uint64_t> seed, long runs, int threads) {
+                 std::optional<std::uint64_t> seed, long runs, int threads, bool resume) {
   const Fit made = run_interruptibly([&](const std::atomic<bool>& stop) {
-    return fit(campaign, tests, {out, seed, runs, threads, &stop});
+    return fit(campaign, tests, {out, seed, runs, threads, &stop, resume});
   });
   py::dict posterior;
   for (const Series& series : made.posterior)
@@ -213,7 +213,8 @@ PYBIND11_MODULE(_native, module) {
              py::arg("check"),
              "Returns the outcome as JSON, the trajectory's columns, and the input's warnings");
   module.def("fit", &fit_it, py::arg("campaign"), py::arg("tests"), py::arg("out"), py::arg("seed"),
-             py::arg("runs"), py::arg("threads"), "Returns fit.json and the posterior's columns");
+             py::arg("runs"), py::arg("threads"), py::arg("resume"),
+             "Returns fit.json and the posterior's columns");
   module.def("read", &read, py::arg("folder"), py::arg("of_case"),
              "Reads the rows of a results folder");
 }

@@ -149,22 +149,23 @@ def run(campaign: Source, *, runs: int | None = None, seed: int | None = None, t
     case: the case, required for a campaign with cases. set: changes of the nominal wing.
     """
     table = _native.run(_input_of(campaign), _whole("runs", runs, 1, _MOST_RUNS), _whole("seed", seed, 0, _MOST_SEED),
-                        _whole("threads", threads, 0, _MOST_THREADS), _text("case", case), _changes_of(set))
+                        _required("threads", threads, 0, _MOST_THREADS), _text("case", case), _changes_of(set))
     _warn(table.notices)
     return Table(table)
 
 
 def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", seed: int | None = None, runs: int = 0,
-        threads: int = 0) -> Fit:
+        threads: int = 0, resume: bool = False) -> Fit:
     """Fits parameters of a campaign to deployment tests, as `wingspread fit`.
 
     tests: the tests and the parameters. out: the folder to write; default: no files. runs: most runs of the sampler;
-    0: 400 for each sample. threads: 0 for all processors. If result["finished"] is False, the chains are too short, and
-    the numbers are no result; a Notice says so.
+    0: 400 for each sample. threads: 0 for all processors. resume: go on with the chains that an earlier call, or
+    `wingspread fit`, left in the folder out. If result["finished"] is False, the chains are too short, and the numbers are
+    no result; a Notice says so.
     """
     text, posterior = _native.fit(_input_of(campaign), _input_of(tests), os.fspath(out),
-                                  _whole("seed", seed, 0, _MOST_SEED), _whole("runs", runs, 0, _MOST_RUNS),
-                                  _whole("threads", threads, 0, _MOST_THREADS))
+                                  _whole("seed", seed, 0, _MOST_SEED), _required("runs", runs, 0, _MOST_RUNS),
+                                  _required("threads", threads, 0, _MOST_THREADS), _truth("resume", resume))
     result = json.loads(text)
     if not result["finished"]:
         why = next(finding for finding in result["findings"] if finding.startswith("not finished"))
@@ -194,10 +195,8 @@ def simulate(scene: Source, *, set: Changes | None = None, case: str = "", dt: f
     interval = _number("dt", dt)
     if interval is not None and not 0 < interval < float("inf"):
         raise _wrong("dt", dt, "a number, s, > 0")
-    if not isinstance(check, (bool, np.bool_)):
-        raise _wrong("check", check, "True or False")
     outcome, trajectory, notices = _native.simulate(_input_of(scene), settings, 0.0 if interval is None else interval,
-                                                    bool(check))
+                                                    _truth("check", check))
     _warn(notices)
     return Simulation(json.loads(outcome), trajectory)
 
@@ -235,7 +234,10 @@ class Model:
         """
         if np.ma.isMaskedArray(x):
             raise _wrong("x", "a masked array", "numbers without a mask")
-        return self._native.evaluate(np.asarray(x, dtype=float), _whole("threads", threads, 0, _MOST_THREADS))
+        given = np.asarray(x)
+        if given.dtype.kind not in "biufO":
+            raise _wrong("x", given.dtype, "real numbers")
+        return self._native.evaluate(np.asarray(given, dtype=float), _required("threads", threads, 0, _MOST_THREADS))
 
 
 def evaluate(scene: Source, paths: typing.Sequence[str], x: npt.ArrayLike, outputs: typing.Sequence[str] = (), *,
@@ -283,14 +285,12 @@ def _wrong(argument: str, value: typing.Any, expected: str) -> SpecError:
     return _spec_error([("", "--" + argument.replace("_", "-"), repr(value), expected)])
 
 
-@typing.overload
-def _whole(argument: str, value: int, least: int, most: int) -> int: ...
-@typing.overload
-def _whole(argument: str, value: int | None, least: int, most: int) -> int | None: ...
 def _whole(argument: str, value: int | None, least: int, most: int) -> int | None:
+    return None if value is None else _required(argument, value, least, most)
+
+
+def _required(argument: str, value: int, least: int, most: int) -> int:
     """Returns an integer, also a numpy one; raises SpecError for anything else, and beyond the limits."""
-    if value is None:
-        return None
     expected = f"a whole number from {least} to {most}"
     try:
         number = operator.index(value)
@@ -299,6 +299,12 @@ def _whole(argument: str, value: int | None, least: int, most: int) -> int | Non
     if isinstance(value, bool) or not least <= number <= most:
         raise _wrong(argument, value, expected)
     return number
+
+
+def _truth(argument: str, value: bool) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise _wrong(argument, value, "True or False")
+    return bool(value)
 
 
 def _number(argument: str, value: float | None) -> float | None:
