@@ -36,6 +36,7 @@ TEST_CASE("margin, from a requirement missed to new springs that meet it") {
   const Place program;
   Json json = one_panel_margin(300);
   for (Json& torque : json["scene"]["hinges"][0]["spring"]) torque = 0.75 * torque.get<double>();
+  json["sampling"]["extended_from"] = {200};
   const std::string campaign = program.file(json), out = program.out;
   CHECK(program({"run", campaign, "--out", out + "1"}).code == 1); // missed
   const auto [code, text, error] = program({"margin", campaign, "--out", out});
@@ -64,6 +65,7 @@ TEST_CASE("margin, from a requirement missed to new springs that meet it") {
           Approx(scale * torque.get<double>()));
   // the new springs meet the requirements, with the campaign's draws and with others
   const std::string resized = out + "/recommended.json";
+  CHECK_FALSE(parse_json_file(resized)["sampling"].contains("extended_from")); // not analysed yet
   CHECK(program({"run", resized, "--out", out + "2"}).code == 0);
   CHECK(program({"run", resized, "--out", out + "3", "--seed", "99"}).code == 0);
   CHECK(program({"check", resized}).code == 0);

@@ -134,6 +134,7 @@ Json predicting_campaign(const Campaign& campaign, const std::vector<std::size_t
           if (!is_fitted_name(campaign, fitted, name)) laws[name] = law;
         each["distributions"] = std::move(laws);
       }
+  json["sampling"].erase("extended_from"); // new laws, not analysed before
   json.erase(stamp_key);
   return json;
 }

@@ -39,12 +39,14 @@ struct MarginOptions {
   bool resume = false, json = false;
 };
 
-/// Writes the campaign with the recommended springs, if there is a recommendation.
+/// Writes the campaign with the recommended springs, if there is a recommendation. It has not been analysed before.
 void write_recommended(const Campaign& campaign, const MarginResult& result,
                        const std::filesystem::path& folder) {
-  if (const MarginSearch* search = recommending(campaign, result))
-    write_file(folder / recommended_file,
-               json_text(scaled(campaign, search->scaled, *search->recommended).resolved));
+  const MarginSearch* search = recommending(campaign, result);
+  if (!search) return;
+  Campaign recommended = scaled(campaign, search->scaled, *search->recommended);
+  note_extension(recommended, {});
+  write_file(folder / recommended_file, json_text(recommended.resolved));
 }
 
 /// Prints warnings, and names the searches without a confirmed scale. @return the exit status

@@ -17,6 +17,7 @@ TEST_CASE("fitted dispersions become columns with their effects, others stay as 
     { "between": ["mass.panel_1", "mass.panel_3"], "spearman": 0.2 } ])");
   json["cases"] = parse_json(R"([ { "name": "cold", "distributions": {
     "cause": { "type": "normal", "mean": -20, "std": 5 } } } ])");
+  json["sampling"]["extended_from"] = {2};
   const Campaign campaign = campaign_of(json);
   REQUIRE(campaign.dispersions.size() == 5);
   const std::vector<std::size_t> fitted{0, 2, 4}; // root_spring, mass.panel_2, cause
@@ -30,6 +31,8 @@ TEST_CASE("fitted dispersions become columns with their effects, others stay as 
   REQUIRE(after.wanted_correlations.size() == 1);
   CHECK(lost_laws(campaign, fitted) == std::vector<std::string>{"cold: cause"});
   CHECK(after.cases.at(0).distributions.empty());
+  CHECK(campaign.sampling.extended_from.size() == 1);
+  CHECK(after.sampling.extended_from.empty()); // the new laws were not analysed before
   // The effects: both campaigns with the same draws make the same scene.
   const auto draw_of = [](const std::string& name) {
     return name == "cause" ? 30 : name == "root_spring" ? 1.1 : 10.0;
