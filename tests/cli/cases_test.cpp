@@ -274,6 +274,14 @@ TEST_CASE("analyze goes through all cases, and writes elsewhere where it is told
   for (const Json& set : page_data(late + "/report.html")["sets"])
     CHECK(set["requirements"][0]["limit"] == 20);
   CHECK(cases.program({"replay", late, "--run", "3", "--case", "heavy"}).code == 0);
+  // one case alone: cases.json does not know of it
+  CHECK_THAT(cases.program({"analyze", cases.out + "/cold", "--requirements", other}).error,
+             HasFacts({"warning: ", cases.out + "/cases.json", "keeps the earlier analysis of cold",
+                       "wingspread analyze " + cases.out}));
+  CHECK(read_text(cases.out + "/cases.json") == before.at("cases.json"));
+  const std::string alone = cases.folder.path() / "alone";
+  CHECK_THAT(cases.program({"analyze", cases.out + "/cold", "--out", alone}).error,
+             !Catch::Contains("cases.json"));
 }
 
 TEST_CASE("cases that stop early are whole, and every command reads them", "[cases]") {

@@ -1,6 +1,7 @@
 #include "montecarlo/analyses/sensitivity/design_merge.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/number_text.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/platform/folder_lock.hpp"
 #include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
@@ -11,6 +12,7 @@
 #include "montecarlo/model/campaign/guarantees.hpp"
 #include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
+#include "montecarlo/results/results_folder/cases_folder.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 #include "montecarlo/results/results_folder/merge.hpp"
 #include "montecarlo/results/streaming/streaming_folder.hpp"
@@ -172,6 +174,17 @@ int analyze_cases(const AnalyzeOptions& options, const std::filesystem::path& to
   return show_all_cases(whole, cases, options.display);
 }
 
+/// Says that cases.json beside a case's folder does not know of its new analysis.
+void warn_of_cases_file(const StoredCampaign& stored) {
+  const std::filesystem::path whole =
+      std::filesystem::weakly_canonical(stored.folder).parent_path();
+  if (stored.campaign.of_case.empty() || !exists(whole / cases_file)) return;
+  print_message(
+      "warning: {} keeps the earlier analysis of {}; `wingspread analyze {}` analyzes all "
+      "cases\n",
+      (whole / cases_file).string(), stored.campaign.of_case, shell_word(whole.string()));
+}
+
 int analyze(const AnalyzeOptions& options) {
   (void)read_any_campaign(options.folder); // before the lock makes a file in some other folder
   const bool elsewhere = !options.out.empty();
@@ -183,6 +196,7 @@ int analyze(const AnalyzeOptions& options) {
   if (is_cases_folder(options.folder)) return analyze_cases(options, to);
   StoredCampaign stored = as_asked(read_any_campaign(options.folder), options);
   const Summary summary = summarize_again(stored, to);
+  warn_of_cases_file(stored);
   return show_results(stored, summary, options.display);
 }
 
