@@ -93,7 +93,7 @@ public:
   /// @param rests whether no hinge will move any more
   [[nodiscard]] bool may_release(bool rests) const {
     for (int i = 1; held_ > 0 && i < size(); ++i)
-      if (is_held(i) && (due_[i] < T(never) || (watches(i) && !rests && awaited_hinge_is_free(i))))
+      if (is_held(i) && (due_[i] < T(never) || (watches(i) && !rests && awaited_hinge_moves(i))))
         return true;
     return false;
   }
@@ -144,21 +144,24 @@ private:
     return hold.event == Release::Event::time ||
            (hold.event == Release::Event::released && !(due_[hold.after] > T(0)));
   }
-  /// Whether the hold of hinge i, which is held, never lets go. If it waits for a held hinge, that hinge's hold
-  /// decides.
+  /// Whether the hold of hinge i, which is held, never lets go. If what it waits for does not happen while that hinge is
+  /// held, that hinge's hold decides.
   [[nodiscard]] bool never_lets_go(int i, bool no_latch, bool rests) const {
     for (int passed = 0; passed < size(); ++passed) {
       const ReleaseTerms<T>& hold = terms(i);
       if (hold.fails != T(0)) return true;
       if (due_[i] < T(never)) return false;
       if (hold.after == 0) return true;
-      if (!is_held(hold.after)) return hold.event == Release::Event::passed ? rests : no_latch;
+      if (awaited_hinge_moves(i) && ((hold.event == Release::Event::passed && !rests) ||
+                                     (hold.event == Release::Event::latched && !no_latch)))
+        return false;
+      if (!is_held(hold.after)) return true;
       i = hold.after;
     }
     return true; // holds that wait for each other
   }
-  /// Whether the hinge for whose angle the hold of hinge i waits is free.
-  [[nodiscard]] bool awaited_hinge_is_free(int i) const { return !is_held(terms(i).after); }
+  /// Whether the hinge for which the hold of hinge i waits may turn: it is free, or held elastically.
+  [[nodiscard]] bool awaited_hinge_moves(int i) const { return !system_.is_held(terms(i).after); }
 
   /// Notes when the hold of hinge i lets go, once that is known.
   void schedule(int i, int due, const Step<T>& step, const LatchRecord& record) {

@@ -26,12 +26,23 @@ void add_measured(const JsonCursor& at, const std::string& name, const Scene& sc
 /// The campaign with the dispersions replaced by one that draws rows of posterior.csv. Their correlations and laws
 /// that cases give them are left out.
 /// @param fitted indices of the dispersions; the columns have their names
+/// @pre refuse_lost_order has not thrown
 [[nodiscard]] Json predicting_campaign(const Campaign& campaign,
                                        const std::vector<std::size_t>& fitted);
 
-/// The laws of cases that predicting_campaign leaves out: "cold: temperature".
+/// The laws of cases that predicting_campaign leaves out, by case and fitted dispersion: "cold: temperature".
 [[nodiscard]] std::vector<std::string> lost_laws(const Campaign& campaign,
                                                  const std::vector<std::size_t>& fitted);
+
+/// The parameters of the space that posterior.csv has: the common ones, and tests' own that follow from them.
+[[nodiscard]] std::vector<std::size_t> posterior_parameters(const ParameterSpace& space);
+
+/// Refuses a fit of which the written campaign cannot keep the order of draws that change the same parameter: it draws
+/// all fitted dispersions at one place.
+/// @param file the tests'
+/// @throws SpecError
+void refuse_lost_order(const Campaign& campaign, const ParameterSpace& space,
+                       const std::string& file);
 
 /// posterior.csv: the common parameters, then every test's own parameters (`own`) that the campaign correlates with
 /// common ones. Each row draws the latter for a new unit, given its common parameters.

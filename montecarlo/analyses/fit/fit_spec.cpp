@@ -3,8 +3,10 @@
 #include "montecarlo/analyses/fit/fit_campaign.hpp"
 #include "montecarlo/analyses/fit/trace_check.hpp"
 #include "montecarlo/engine/runs/trajectory_columns.hpp"
+#include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/quantity.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <fmt/format.h>
@@ -93,6 +95,9 @@ private:
       if (std::holds_alternative<Discrete>(law) || std::holds_alternative<Empirical>(law) ||
           std::holds_alternative<Constant>(law))
         at.refuse(quoted(index) + ", whose law has steps", "a dispersion with a continuous law");
+      else if (is_unit(header_cell(campaign_.dispersions[index].name).unit))
+        at.refuse(quoted(index) + ", which would head a column of posterior.csv in that unit",
+                  "a name without a unit in brackets: the values are in SI units");
       else if (std::ranges::find(parameters, index) != parameters.end())
         at.refuse_repeated(quoted(index), "each parameter once");
       else

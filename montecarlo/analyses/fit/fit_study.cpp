@@ -17,8 +17,7 @@ namespace wingspread {
 namespace {
 
 constexpr std::size_t least_walkers = 32; // each half fills two threads of eight lanes
-// Heuristic: share of moves drawn from the proposal; the other moves reach regions that the proposal misses.
-constexpr double independent_moves = 0.8;
+constexpr double independent_moves = 0.8; // heuristic: the others reach what the proposal misses
 // Heuristic: the limit of the evaluations, unless the user gives one. With 100, 16 of 43 fits of four parameters, each
 // with offsets of a clock and of two sensors, ended unfinished.
 constexpr long runs_of_a_sample = 400;
@@ -379,6 +378,7 @@ void refuse_unpredictable(const Campaign& campaign, const FitSpec& spec, const F
     throw SpecError(
         {{"", "--runs", std::to_string(options.most_runs),
           fmt::format("at least {}, which the first diagnosis of the chains takes", least)}});
+  refuse_lost_order(campaign, space, file);
   TestRuns runs(spec.tests, spec.parameters, space, *evaluator);
   std::vector<Problem> problems = unpredictable(
       spec.tests, runs,

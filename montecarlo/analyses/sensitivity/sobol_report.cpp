@@ -135,6 +135,22 @@ std::string moved_by_table(const SobolSensitivity& all, std::string_view title) 
          moved.table("moved by (share of the variance, interactions included)");
 }
 
+namespace {
+
+/// The outputs with an index whose bounds are wider than 0 to 1, where every true index lies.
+std::vector<std::string> unknown_shares(const SobolSensitivity& all) {
+  const auto says_nothing = [](const SobolEffect& effect) {
+    const auto& [lower, upper] = effect.total.bounds;
+    return lower && upper && *upper - *lower > 1;
+  };
+  std::vector<std::string> names;
+  for (const auto& output : all.outputs)
+    if (std::ranges::any_of(output.indices.effects, says_nothing)) names.push_back(output.name);
+  return names;
+}
+
+} // namespace
+
 std::vector<std::string> warnings(const SobolSensitivity& all) {
   std::vector<std::string> list;
   std::vector<CutOutput> cut;
@@ -150,6 +166,10 @@ std::vector<std::string> warnings(const SobolSensitivity& all) {
   if (const std::vector<std::string> names = incomplete(all); !names.empty())
     list.push_back(fmt::format("no indices of {}: some points of the design have no value (rank "
                                "correlations of a campaign's runs use the runs with a value)",
+                               quoted(names)));
+  if (const std::vector<std::string> names = unknown_shares(all); !names.empty())
+    list.push_back(fmt::format("shares of the variance of {} have bounds wider than the whole "
+                               "variance (--all prints them): more --samples",
                                quoted(names)));
   if (all.runs < all.total)
     list.push_back(fmt::format("only {} of {} runs are complete", all.runs, all.total));

@@ -1,5 +1,7 @@
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 
+#include "montecarlo/foundation/platform/arithmetic.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -40,6 +42,7 @@ struct SharedWork {
   std::exception_ptr first{};
 
   void one_thread() noexcept {
+    const DefaultArithmetic arithmetic; // a thread that the caller has used may have another
     try {
       work();
     } catch (...) {

@@ -181,7 +181,7 @@ void add_modes_options(CLI::App& command, ModesOptions& options) {
       ->type_name("HINGE,...");
   command.add_flag("--json", options.json, "Print the modes as JSON, with flexible bodies' joints");
   add_set_option(command, options.settings.set);
-  add_case_option(command, options.settings.of_case);
+  add_case_option(command, options.settings.of_case, without_case);
   command.footer(
       R"(Prints the natural frequencies, damping ratios and shapes of small swings about rest: latches,
 springs, joints, loops, motors at their last rate and gravity, no friction but the viscous one, no

@@ -135,7 +135,7 @@ void add_simulate_options(CLI::App& command, SimulateOptions& options) {
   command.add_option("scene", options.scene, "A scene, or a campaign for its nominal scene")
       ->required();
   add_set_option(command, settings.set);
-  add_case_option(command, settings.of_case);
+  add_case_option(command, settings.of_case, without_case);
   command.add_flag("--json", options.json, "Print the outcome as JSON");
   command.add_flag("--check", options.check,
                    "Repeat by another method at rtol/100; say how many digits agree");
@@ -268,7 +268,7 @@ int sample(const SampleOptions& options) {
 void add_sample_options(CLI::App& command, SampleOptions& options) {
   command.add_option("campaign", options.campaign, "The campaign, a JSON file")->required();
   add_sampling_options(command, options.sampling);
-  add_case_option(command, options.of_case);
+  add_case_option(command, options.of_case, without_case);
   command.add_flag("--applied", options.applied,
                    "Print the parameters that the draws change, as each run has them");
   command.add_option("--out", options.out, "Write to this file; default: standard output");

@@ -1,6 +1,7 @@
 #include "montecarlo/analyses/fit/fit_folder.hpp"
 #include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/platform/arithmetic.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/library/wingspread.hpp"
@@ -56,6 +57,7 @@ Fit read_fit_folder(const std::filesystem::path& folder) {
 } // namespace
 
 Fit fit(const Input& input, const Input& tests, const FitRequest& request) {
+  const DefaultArithmetic arithmetic;
   check_threads(request.threads);
   if (request.runs < 0)
     throw SpecError({{"", "--runs", std::to_string(request.runs), "an integer, at least 1, or 0"}});

@@ -1,5 +1,6 @@
 #include "montecarlo/analyses/run/campaign_run.hpp"
 #include "montecarlo/engine/runs/campaign_check.hpp"
+#include "montecarlo/foundation/platform/arithmetic.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/library/table.hpp"
@@ -33,6 +34,7 @@ std::vector<std::string> warnings_of(const Campaign& campaign, const std::filesy
 } // namespace
 
 Table run(const Input& input, const RunOptions& options) {
+  const DefaultArithmetic arithmetic;
   check_options(options);
   Campaign campaign = read_campaign_input(input);
   change_scene(campaign, options.set);
@@ -50,6 +52,7 @@ Table run(const Input& input, const RunOptions& options) {
 }
 
 Table read(const std::filesystem::path& folder, const std::string& of_case) {
+  const DefaultArithmetic arithmetic;
   const StoredCampaign stored = read_any_campaign(folder_of_case(folder, of_case));
   std::vector<std::string> warnings;
   if (stored.stamp.preview)

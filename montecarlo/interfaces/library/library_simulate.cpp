@@ -1,4 +1,5 @@
 #include "core/deployment.hpp"
+#include "montecarlo/foundation/platform/arithmetic.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/library/wingspread.hpp"
 #include "montecarlo/report/text/check_report.hpp"
@@ -51,6 +52,7 @@ Input from_text(std::string json, std::filesystem::path directory) {
 
 Outcome simulate(const Input& input, const Settings& settings, std::optional<double> interval,
                  bool check, const std::atomic<bool>* stop) {
+  const DefaultArithmetic arithmetic;
   const Task task = task_of(read_input(input), settings);
   if (interval && *interval != 0) check_interval(*interval, task.integration.t_end);
   Goal goal;

@@ -1,5 +1,6 @@
 #include "core/deployment.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
+#include "montecarlo/foundation/platform/arithmetic.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/model/campaign/outputs.hpp"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cassert>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -67,6 +67,16 @@ Outputs families_of(const std::vector<OutputColumn>& columns) {
   return families;
 }
 
+/// @param d, m the numbers of components of x and of y @throws SpecError
+void check_sizes(std::size_t x, std::size_t y, std::size_t d, std::size_t m) {
+  if (x % d != 0)
+    throw SpecError({{"", "x", fmt::format("{} numbers", x),
+                      fmt::format("rows of {} numbers, one for each parameter", d)}});
+  if (y != x / d * m)
+    throw SpecError({{"", "y", fmt::format("{} numbers", y),
+                      fmt::format("{} rows of {} numbers, one for each output", x / d, m)}});
+}
+
 } // namespace
 
 struct Model::Prepared {
@@ -88,6 +98,7 @@ struct Model::Prepared {
 
 Model::Model(const Input& input, const std::vector<std::string>& paths,
              std::vector<std::string> outputs, const Settings& settings) {
+  const DefaultArithmetic arithmetic;
   auto prepared = std::make_shared<Prepared>();
   prepared->task = task_of(read_input(input), settings);
   const Scene& scene = prepared->task.scene;
@@ -120,10 +131,11 @@ const std::vector<double>& Model::nominal() const { return prepared_->nominal; }
 
 bool Model::evaluate(std::span<const double> x, std::span<double> y, int threads,
                      const std::atomic<bool>* stop) const {
+  const DefaultArithmetic arithmetic;
   const Prepared& model = *prepared_;
   const std::size_t d = parameters(), m = outputs().size();
   const auto rows = static_cast<long>(x.size() / d);
-  assert(x.size() % d == 0 && y.size() == static_cast<std::size_t>(rows) * m);
+  check_sizes(x.size(), y.size(), d, m);
   check_threads(threads);
   if (rows == 0) return true;
   std::atomic<long> begun = 0, ended = 0;

@@ -12,7 +12,8 @@
 /// threads. Errors: wingspread::SpecError for wrong input, wingspread::MachineError if the machine lacks memory, disk
 /// space or a permission, both with the text that the program prints; wingspread::Stopped after a stop. A run that fails
 /// is a row of the table, not an error. Every function may be called from any thread, from several threads at once, and
-/// in a process that was forked; each call has a thread pool of its own.
+/// in a process that was forked; each call has a thread pool of its own. A call computes with rounding to nearest and
+/// without traps, whatever floating-point environment its thread has; on return the thread has its own again.
 #pragma once
 
 #include "montecarlo/foundation/formats/machine_error.hpp"
@@ -128,7 +129,8 @@ public:
   /// The values of a draw or an output; NaN for a missing value.
   /// @throws SpecError when no such column has numbers
   [[nodiscard]] std::span<const double> numbers(std::string_view column) const;
-  /// The texts of `status`, `latch_order` or `peaks_final` ("true", "false" or "").
+  /// The texts of `status`, `latch_order` or `peaks_final` ("true", "false", "", or the only family of peaks that is
+  /// proven: "peak_moment" or "peak_force").
   /// @throws SpecError for any other column
   [[nodiscard]] Words words(std::string_view column) const;
   /// Why the wing did not deploy in this run; empty if it did. @pre row < size()
@@ -165,12 +167,12 @@ struct FitRequest {
   long runs = 0;                           ///< most runs of the sampler; 0: 400 for each sample
   int threads = 0;                         ///< 0: all processors
   const std::atomic<bool>* stop = nullptr; ///< once true, no further run begins
-  bool resume = false;                     ///< goes on with the chains that an earlier call left in `out`
+  bool resume = false; ///< goes on with the chains that an earlier call left in `out`
 };
 
 /// The fit of a campaign's parameters to deployment tests.
 struct Fit {
-  std::string json;              ///< fit.json; `prediction` only with a folder
+  std::string json; ///< fit.json; `prediction` and `predicted_deployed` only with a folder
   std::vector<Series> posterior; ///< posterior.csv, by parameter
   bool finished = false;         ///< false: the chains are too short, and the numbers are no result
 };
@@ -203,10 +205,10 @@ public:
   /// its row of x alone.
   /// @param x n rows of parameters, row by row, SI
   /// @param y n rows of outputs, which are set; NaN for a missing value, or if the parameters are unphysical
-  /// @pre x.size() == n · parameters() and y.size() == n · outputs().size()
   /// @param threads 0: all processors
   /// @return false if `stop` ended the call before the last row
-  /// @throws SpecError for a wrong number of threads
+  /// @throws SpecError unless x.size() == n · parameters() and y.size() == n · outputs().size(), and for a wrong number of
+  ///   threads
   bool evaluate(std::span<const double> x, std::span<double> y, int threads = 0,
                 const std::atomic<bool>* stop = nullptr) const;
 
@@ -215,7 +217,7 @@ private:
   std::shared_ptr<const Prepared> prepared_;
 };
 
-/// "0.1.0".
+/// The library's version, "0.2.0"; of a build between releases with its commit, "0.2.0+g998554094aca".
 [[nodiscard]] std::string version();
 
 } // namespace wingspread::api

@@ -133,6 +133,9 @@ void add_errors(py::module_& module) {
   static py::handle spec_error, machine_error; // the interpreter owns them until it ends
   spec_error = py::exception<SpecError>(module, "SpecError", PyExc_ValueError).release();
   machine_error = py::exception<MachineError>(module, "MachineError", PyExc_OSError).release();
+  spec_error.attr("__doc__") = "Wrong input; `problems` lists (file, place, found, expected)";
+  spec_error.attr("problems") = py::tuple();
+  machine_error.attr("__doc__") = "The machine lacks memory, disk space or a permission";
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       std::rethrow_exception(std::move(thrown));

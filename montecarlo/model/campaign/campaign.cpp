@@ -32,6 +32,25 @@ bool has_spread(const Campaign& campaign) {
   return vary(campaign.dispersions) || std::ranges::any_of(campaign.cases, varies_in);
 }
 
+std::size_t entry_of(const Campaign& campaign, const Dispersion& dispersion) {
+  const Json& list = campaign.resolved.at("dispersions");
+  const std::string& own = dispersion.rows.empty() ? dispersion.name : dispersion.rows;
+  std::size_t found = list.size(), length = 0; // of the longest name of an `each` that begins it
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string name = list[i].at("name").get<std::string>();
+    if (name == own) return i;
+    if (list[i].contains("each") && own.starts_with(name + ".") && name.size() >= length)
+      found = i, length = name.size();
+  }
+  assert(found < list.size());
+  return found;
+}
+
+bool is_drawn_by(const Campaign& campaign, const std::string& entry, const Dispersion& dispersion) {
+  const Json& list = campaign.resolved.at("dispersions");
+  return list[entry_of(campaign, dispersion)].at("name") == entry;
+}
+
 std::vector<SceneParameter> dispersed_parameters(std::span<const Dispersion> dispersions) {
   std::vector<SceneParameter> parameters;
   std::set<SceneParameter> known;

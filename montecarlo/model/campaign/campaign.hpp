@@ -63,6 +63,13 @@ struct Campaign {
 [[nodiscard]] std::vector<SceneParameter>
 dispersed_parameters(std::span<const Dispersion> dispersions);
 
+/// The index, in the campaign's list, of the entry that a dispersion comes from: its own, the `each` of which it is a
+/// copy, or the `rows` of which it is a column.
+[[nodiscard]] std::size_t entry_of(const Campaign& campaign, const Dispersion& dispersion);
+/// Whether the entry with this name draws the dispersion, so that a case's law for the entry is the dispersion's.
+[[nodiscard]] bool is_drawn_by(const Campaign& campaign, const std::string& entry,
+                               const Dispersion& dispersion);
+
 /// Sets all dispersed parameters of a scene to their nominal values and applies a run's draws. Allocates nothing.
 /// @param draws     one for each dispersion, in their order
 /// @param nominal   the campaign's scene

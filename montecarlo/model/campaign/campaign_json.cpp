@@ -288,6 +288,27 @@ Campaign with_scene(const Campaign& campaign, const Scene& scene) {
   return revalidate(campaign, json);
 }
 
+namespace {
+
+/// Keeps the coefficient of each pair of which a case changes a law: its covariance is that of the campaign's laws. With
+/// the same coefficients all cases have the same draws.
+void keep_coefficients(const Campaign& campaign, const CaseSpec& spec, Json& correlations) {
+  const auto has_law_of_case = [&](std::size_t i) {
+    return std::ranges::any_of(spec.distributions, [&](const CaseDistribution& law) {
+      return is_drawn_by(campaign, law.dispersion, campaign.dispersions[i]);
+    });
+  };
+  for (std::size_t k = 0; k < campaign.wanted_correlations.size(); ++k) {
+    const RankCorrelation& pair = campaign.wanted_correlations[k];
+    if (!pair.covariance || !(has_law_of_case(pair.first) || has_law_of_case(pair.second)))
+      continue;
+    correlations[k].erase("covariance");
+    correlations[k]["spearman"] = pair.spearman;
+  }
+}
+
+} // namespace
+
 Campaign campaign_of_case(const Campaign& campaign, const CaseSpec& spec) {
   Json json = campaign.resolved;
   json.erase("cases");
@@ -296,6 +317,7 @@ Campaign campaign_of_case(const Campaign& campaign, const CaseSpec& spec) {
   for (const auto& [name, distribution] : spec.distributions)
     for (Json& dispersion : json["dispersions"])
       if (dispersion["name"] == name) dispersion["distribution"] = write_distribution(distribution);
+  if (json.contains("correlations")) keep_coefficients(campaign, spec, json["correlations"]);
   return revalidate(campaign, json);
 }
 

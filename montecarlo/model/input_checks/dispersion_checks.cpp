@@ -229,7 +229,7 @@ void check_through(const Dispersion& dispersion, const Spread& spread, const std
 void check_case(const Campaign& campaign, std::size_t k, InputWarnings& warnings) {
   for (const auto& [name, distribution] : campaign.cases[k].distributions)
     for (const Dispersion& dispersion : campaign.dispersions)
-      if (dispersion.name == name || dispersion.name.starts_with(name + "."))
+      if (is_drawn_by(campaign, name, dispersion))
         check_through(dispersion, Spread(distribution), "",
                       fmt::format("/cases/{}/distributions{}", k, pointer_token(name)), warnings);
 }

@@ -50,7 +50,7 @@ std::string place_of_law(const Campaign& whole, const std::string& of_case,
   const auto own = std::ranges::find(whole.cases, of_case, &CaseSpec::name);
   if (own != whole.cases.end())
     for (const CaseDistribution& law : own->distributions)
-      if (dispersion.name == law.dispersion || dispersion.name.starts_with(law.dispersion + "."))
+      if (is_drawn_by(whole, law.dispersion, dispersion))
         return fmt::format("/cases/{}/distributions{}", own - whole.cases.begin(),
                            pointer_token(law.dispersion));
   return place_of(whole, dispersion);
@@ -126,16 +126,8 @@ private:
 } // namespace
 
 std::string place_of(const Campaign& campaign, const Dispersion& dispersion) {
-  const Json& list = campaign.resolved.at("dispersions");
-  const std::string& name = dispersion.name;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string own = list[i].at("name").get<std::string>();
-    if (own == name || (list[i].contains("each") && name.starts_with(own + ".")))
-      return fmt::format("/dispersions/{}", i);
-    if (list[i].contains("rows") && list[i]["rows"]["columns"].contains(name))
-      return fmt::format("/dispersions/{}/rows/columns{}", i, pointer_token(name));
-  }
-  return "/dispersions";
+  const std::string place = fmt::format("/dispersions/{}", entry_of(campaign, dispersion));
+  return dispersion.rows.empty() ? place : place + "/rows/columns" + pointer_token(dispersion.name);
 }
 
 std::set<std::string> check_draws(const Campaign& campaign, const DrawScenes& draw,

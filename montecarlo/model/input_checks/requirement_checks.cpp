@@ -134,6 +134,22 @@ void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& n
                  "requirement, whatever t_end is");
 }
 
+/// Warns of a limit on the overtravel of a hinge without a latch where runs end at the last latch, before it may be largest.
+void check_overtravel(const Campaign& campaign, std::size_t k, InputWarnings& warnings) {
+  using enum OutputFamily;
+  const Requirement& own = campaign.requirements[k];
+  const OutputName output = parse_output_name(own.output);
+  if (!own.max || !output.kind || output.kind->quantity != OutputQuantity::overtravel) return;
+  for (const OutputFamily on : {peak_moment, peak_force, final_angle, base_motion})
+    if (campaign.outputs.contains(on)) return;
+  const auto hinge = std::ranges::find(campaign.scene.hinges, output.hinge, &Hinge::name);
+  if (hinge == campaign.scene.hinges.end() || hinge->latch) return;
+  warnings.add(fmt::format("/{}", k),
+               fmt::format("a limit on {} up to the last latch, where runs of these outputs end",
+                           own.output),
+               "peak_moment among the outputs: runs then go on until no overtravel rises");
+}
+
 /// Warns of a lower limit above an upper one of the same output: no run meets both.
 void check_together(const std::vector<Requirement>& all, std::size_t k, InputWarnings& warnings) {
   if (!all[k].min) return;
@@ -160,6 +176,7 @@ std::string_view why_never_final(const Scene& scene) {
 void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings) {
   for (std::size_t k = 0; k < campaign.requirements.size(); ++k) {
     check_requirement(campaign, k, nominal, warnings);
+    check_overtravel(campaign, k, warnings);
     check_together(campaign.requirements, k, warnings);
   }
 }

@@ -31,12 +31,15 @@ double root_between(const HingeTorque& torque, const Hinge& hinge, double from, 
 
 /// Places along the pieces of a motor's table by which a hinge that follows the command passes.
 std::vector<double> places_along(const Motor& motor, const Hinge& hinge) {
+  constexpr double beyond = 1e-9; // of the way: far above the rounding of its integral
   std::vector<double> knots;
-  for (const double time : motor.time) {
-    const double x =
-        commanded_way(motor, std::max(time, 0.0)) / std::abs(hinge.latched - hinge.stowed);
+  const auto add = [&](double way) {
+    const double x = way / std::abs(hinge.latched - hinge.stowed);
     if (x > 0 && x < 1) knots.push_back(x);
-  }
+  };
+  for (const double time : motor.time) add(commanded_way(motor, std::max(time, 0.0)));
+  for (const double way : turning_ways(motor)) // the moment may jump there
+    for (const double side : {1 - beyond, 1 + beyond}) add(side * way);
   return parts_between(std::move(knots));
 }
 

@@ -34,6 +34,17 @@ template <class Condition> double first_where(double from, double to, Condition 
   return to;
 }
 
+bool drives_back(const Motor& motor, double time) {
+  return motor.scale * table_rate(motor, time) <= 0;
+}
+
+/// The first time in [from, to], between two knots, at which the command drives back; `to` if there is none. Between two
+/// knots the rate changes its sign once at most.
+double time_of_turn(const Motor& motor, double from, double to) {
+  if (!drives_back(motor, to)) return to;
+  return first_where(from, to, [&](double time) { return drives_back(motor, time); });
+}
+
 } // namespace
 
 double commanded_way(const Motor& motor, double time) {
@@ -45,19 +56,30 @@ std::optional<double> time_of_way(const Motor& motor, double way) {
   if (!(way > 0)) return 0;
   if (!motor.table) return motor.rate > 0 ? std::optional(way / motor.rate) : std::nullopt;
   const auto there = [&](double time) { return commanded_way(motor, time) >= way; };
-  const auto drives_back = [&](double time) { return motor.scale * table_rate(motor, time) <= 0; };
   double from = 0;
   for (const double knot : motor.table->knots()) {
     if (knot <= from) continue;
     if (there(knot)) return first_where(from, knot, there);
-    // between two knots the rate changes its sign once at most: the way is longest there
-    const double turn = drives_back(knot) ? first_where(from, knot, drives_back) : knot;
+    const double turn = time_of_turn(motor, from, knot); // the way is longest there
     if (there(turn)) return first_where(from, turn, there);
     from = knot;
   }
   const double last = motor.scale * motor.rates.back();
   if (!(last > 0)) return std::nullopt;
   return from + (way - commanded_way(motor, from)) / last;
+}
+
+std::vector<double> turning_ways(const Motor& motor) {
+  std::vector<double> ways;
+  if (!motor.table) return ways;
+  double from = 0;
+  for (const double knot : motor.table->knots()) {
+    if (knot <= from) continue;
+    if (!drives_back(motor, from) && drives_back(motor, knot))
+      ways.push_back(commanded_way(motor, time_of_turn(motor, from, knot)));
+    from = knot;
+  }
+  return ways;
 }
 
 StallTorques stall_torques(const Motor& motor, double from) {

@@ -16,6 +16,7 @@
 #include "core/scene/scene.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace wingspread {
 
@@ -24,6 +25,10 @@ namespace wingspread {
 
 /// The first t with w(t) ≥ way, s; nothing if the command never goes that far. @param way rad, ≥ 0
 [[nodiscard]] std::optional<double> time_of_way(const Motor& motor, double way);
+
+/// The ways at which the command turns back, rad: w(t) where r(t) falls to 0 or below. Beyond such a way a hinge that
+/// follows the command waits for a later one, so the moment that counts may jump there.
+[[nodiscard]] std::vector<double> turning_ways(const Motor& motor);
 
 /// The moments that a motor exerts at rest under its slowest and its fastest command, N·m along the travel.
 struct StallTorques {

@@ -54,3 +54,59 @@ TEST_CASE("a run that asks for latches alone waits for a motor's later command t
     CHECK(early.status == late.status);
   }
 }
+
+namespace {
+
+/// A yoke that swings in its elastic hold, which lets go as the tip latches; the tip's rigid hold waits for the yoke's
+/// angle of 0.28 rad. Beside them a panel that latches.
+Scene swinging_in_its_hold(double damping) {
+  Scene scene;
+  scene.bodies = {{"yoke", 10, 0.5}, {"panel", 5, 0.3}, {"side", 3, 0.2}};
+  Hinge root, tip, aside;
+  root.name = "root", root.child = 0;
+  root.child_point = {-0.5, 0}, root.latched = 1.5;
+  root.spring = {3, 3};
+  root.release = Release{.event = Release::Event::latched, .after = 1};
+  root.hold = Hold{.stiffness = 20, .damping = damping};
+  tip.name = "tip", tip.parent = 0, tip.child = 1;
+  tip.parent_point = {0.5, 0}, tip.child_point = {-0.5, 0}, tip.stowed = 1.5;
+  tip.spring = {1, 1};
+  tip.release = Release{.event = Release::Event::passed, .after = 0, .angle = 0.28};
+  tip.latch = Latch{.stiffness = 1000, .damping = 10};
+  aside.name = "aside", aside.child = 2;
+  aside.parent_point = {0, 1}, aside.child_point = {-0.3, 0}, aside.latched = 1.5;
+  aside.spring = {1, 1};
+  aside.latch = Latch{.stiffness = 1000, .damping = 10};
+  scene.hinges = {root, tip, aside};
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("a hold that waits for the angle of a hinge that swings in its own hold may let go") {
+  for (const bool fails : {false, true}) {
+    Scene scene = swinging_in_its_hold(0);
+    scene.hinges[0].release->fails = fails;
+    const Outcome early = Deployment().run(scene, within(1e-9, 20), latches_only);
+    CAPTURE(fails);
+    REQUIRE(early.latches.size() == 2);
+    CHECK(early.latches[1].hinge == 1);
+    CHECK(early.latches[1].time == Approx(4.074556).epsilon(1e-6)); // by dop853 at 1e-11
+    CHECK(early.releases.front().time == Approx(1.843168).epsilon(1e-6));
+    CHECK(early.status == (fails ? Status::stalled : Status::deployed));
+  }
+}
+
+TEST_CASE(
+    "before t_end such holds count among those that may let go later, unless all is at rest") {
+  const auto held = [](double damping, double t_end, bool fails) {
+    Scene scene = swinging_in_its_hold(damping);
+    scene.hinges[0].release->fails = fails;
+    const Outcome out = Deployment().run(scene, within(1e-8, t_end), latches_only);
+    CHECK(out.never_released.size() + out.may_release_later.size() >= 1);
+    CHECK(out.latches.size() == 1);
+    return out.may_release_later;
+  };
+  CHECK(held(0, 1.5, false) == std::vector<int>{0, 1});
+  CHECK(held(0, 1.5, true) == std::vector<int>{1}); // the yoke's hold never lets go
+}

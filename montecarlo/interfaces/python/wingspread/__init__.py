@@ -63,7 +63,8 @@ class Fit(typing.NamedTuple):
     """Parameters fitted to deployment tests."""
 
     result: dict[str, typing.Any]
-    """The content of fit.json: finished, findings, parameters, correlation, unseen, tests, …"""
+    """The content of fit.json: finished, findings, parameters, correlation, unseen, tests, …; `prediction` and
+    `predicted_deployed` only with a folder"""
     posterior: dict[str, Floats]
     """Samples of the parameters by name, a row a sample: the columns of posterior.csv"""
 

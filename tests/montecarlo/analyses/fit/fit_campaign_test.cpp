@@ -1,7 +1,10 @@
 #include "montecarlo/analyses/fit/fit_campaign.hpp"
+#include "montecarlo/analyses/fit/fit_spec.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <algorithm>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -82,4 +85,133 @@ TEST_CASE("a case keeps its laws of what is not fitted, whatever their names beg
       found.push_back(name);
     CHECK(found == kept);
   }
+}
+
+namespace {
+
+/// Draws that scale and add to a spring's offset in turn, and one that scales a mass.
+Campaign changes_in_turn() {
+  Json json = quick_campaign(4);
+  json["dispersions"] = Json::array();
+  const auto add = [&](const char* name, const char* apply, const char* path) {
+    json["dispersions"].push_back(
+        {{"name", name},
+         {"distribution", {{"type", "normal"}, {"mean", 1.5}, {"std", 0.1}}},
+         {"apply", apply},
+         {"to", {path}}});
+  };
+  constexpr const char* offset = "hinges.root.spring.offset";
+  add("a", "add", offset), add("s", "scale", offset), add("m", "scale", "bodies.panel_1.mass");
+  add("b", "add", offset), add("t", "scale", offset), add("c", "add", offset);
+  return campaign_of(json);
+}
+
+/// The offset, if the fitted draws act together before the other draw with this place.
+double offset_with(const std::vector<bool>& fitted, std::size_t place,
+                   const std::vector<double>& draws) {
+  double offset = 0;
+  const auto act = [&](std::size_t i) {
+    if (i == 0 || i == 3 || i == 5) offset += draws[i];
+    if (i == 1 || i == 4) offset *= draws[i];
+  };
+  const auto act_fitted = [&] {
+    for (std::size_t i = 0; i < draws.size(); ++i)
+      if (fitted[i]) act(i);
+  };
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    if (fitted[i]) continue;
+    if (others++ == place) act_fitted();
+    act(i);
+  }
+  if (place >= others) act_fitted();
+  return offset;
+}
+
+} // namespace
+
+// By trial of all places: the written campaign gives the same wing, or the fit is refused before its runs.
+TEST_CASE("fitted draws act in their order among the others, or the fit is refused") {
+  const Folder folder;
+  const Campaign campaign = changes_in_turn();
+  const std::vector<double> draws{1.1, 1.3, 1.2, 0.7, 1.7, 0.4};
+  Scene expected = campaign.scene;
+  apply(campaign, draws, campaign.scene, expected);
+  const double offset = expected.hinges[0].spring.offset;
+  int refused = 0;
+  for (unsigned set = 1; set < 64; ++set) {
+    CAPTURE(set);
+    Json names = Json::array();
+    std::string header, row;
+    std::vector<bool> fitted;
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < draws.size(); ++i)
+      if (fitted.push_back((set >> i & 1) != 0); fitted.back()) {
+        names.push_back(campaign.dispersions[i].name), indices.push_back(i);
+        header += "," + campaign.dispersions[i].name, row += "," + csv_cell(draws[i]);
+      }
+    bool any = false; // place that keeps the offset
+    for (std::size_t place = 0; place <= draws.size(); ++place)
+      any = any || offset_with(fitted, place, draws) == Approx(offset).epsilon(1e-12);
+    const Json tests{{"tests",
+                      {{{"name", "one"},
+                        {"values", {{{"output", "deployment_time"}, {"value", 3}, {"std", 1}}}}}}},
+                     {"fit", {{"parameters", names}}}};
+    const ParameterSpace space(campaign, read_fit(tests, "t.json", ".", campaign));
+    const std::string problem = message_of([&] { refuse_lost_order(campaign, space, "t.json"); });
+    CHECK(problem.empty() == any);
+    refused += !problem.empty();
+    if (!problem.empty()) {
+      CHECK_THAT(problem, Catch::Contains("t.json: /fit/parameters: "));
+      continue;
+    }
+    folder.write(posterior_file, header.substr(1) + "\n" + row.substr(1) + "\n" + row.substr(1));
+    const Campaign after =
+        read_campaign(predicting_campaign(campaign, indices).dump(), folder.path());
+    std::vector<double> drawn;
+    for (const Dispersion& each : after.dispersions)
+      drawn.push_back(draws[static_cast<std::size_t>(
+          std::ranges::find(campaign.dispersions, each.name, &Dispersion::name) -
+          campaign.dispersions.begin())]);
+    Scene made = after.scene;
+    apply(after, drawn, after.scene, made);
+    CHECK(made.hinges[0].spring.offset == Approx(offset).epsilon(1e-12));
+    CHECK(made.bodies[0].mass == expected.bodies[0].mass);
+  }
+  CHECK(refused > 10);
+}
+
+TEST_CASE("correlations and laws of what is not fitted stay, whatever fitted names begin with") {
+  Json json = quick_campaign(4);
+  const Json law = {{"type", "normal"}, {"mean", 1}, {"std", 0.1}};
+  json["dispersions"] = {{{"name", "spring"},
+                          {"distribution", law},
+                          {"apply", "scale"},
+                          {"to", {"hinges.root.spring.scale"}}},
+                         {{"name", "spring.x"},
+                          {"distribution", law},
+                          {"apply", "scale"},
+                          {"to", {"bodies.panel_1.mass"}}},
+                         {{"name", "mass"},
+                          {"distribution", law},
+                          {"apply", "scale"},
+                          {"to", {"bodies.panel_2.mass"}}},
+                         {{"name", "rub"},
+                          {"distribution", law},
+                          {"apply", "scale"},
+                          {"each", "hinges.*.friction.scale"}}};
+  json["correlations"] = {{{"between", {"spring", "mass"}}, {"spearman", 0.8}}};
+  json["cases"] = {{{"name", "cold"}, {"distributions", {{"spring", law}, {"rub", law}}}}};
+  const Campaign campaign = campaign_of(json);
+  REQUIRE(campaign.dispersions.size() > 4);
+  const Json written = predicting_campaign(campaign, {1, 3}); // spring.x, one of rub's copies
+  CHECK(written["correlations"].size() == 1);
+  const Json& laws = written["cases"][0]["distributions"];
+  CHECK(laws.contains("spring"));
+  CHECK_FALSE(laws.contains("rub"));
+  CHECK_FALSE(laws.contains(campaign.dispersions[3].name));
+  for (std::size_t i = 4; i < campaign.dispersions.size(); ++i)
+    CHECK(laws.contains(campaign.dispersions[i].name)); // copies that became dispersions
+  CHECK(lost_laws(campaign, {1, 3}) ==
+        std::vector<std::string>{"cold: " + campaign.dispersions[3].name});
 }

@@ -78,6 +78,24 @@ TEST_CASE("tests: case, changes, traces in SI, values, own parameters") {
   CHECK(test.own == std::vector<std::size_t>{1});
 }
 
+TEST_CASE("a fitted dispersion's name ends in no unit, which its column would be read in") {
+  Json json = panel_campaign();
+  for (const char* name : {"spring [g]", "k [N*m]", "spring [-]x", "spring [left]"}) {
+    json["dispersions"][0]["name"] = name;
+    const Campaign campaign = campaign_of(json);
+    Json tests = parse_json(R"({ "tests": [ { "name": "one",
+      "values": [ { "output": "root.latch_time", "value": 2, "std": 0.1 } ] } ],
+      "fit": { "parameters": [""] } })");
+    tests["fit"]["parameters"][0] = name;
+    const std::string problem =
+        message_of([&] { return read_fit(tests, "t.json", ".", campaign); });
+    CAPTURE(name, problem);
+    const bool is_unit_of = std::string(name).ends_with("[g]") || name[0] == 'k';
+    CHECK(problem.starts_with("t.json: /fit/parameters/0: ") == is_unit_of);
+    CHECK(problem.empty() == !is_unit_of);
+  }
+}
+
 TEST_CASE("each fault of the tests has its place") {
   const Files files;
   const auto change = [&](const char* pointer, const char* value) {

@@ -165,6 +165,20 @@ TEST_CASE("fewer samples than bounds take are told, with the number that they ta
   }
 }
 
+TEST_CASE("shares of which the bounds say nothing are warned of by their output's name") {
+  SobolSensitivity all{.rows = 256, .dispersions = {"a"}};
+  const auto add = [&](const char* name, double lower, double upper) {
+    all.outputs.push_back({name, {10, 0, 1, 1, {{{0, {}}, {0.9, {lower, upper}}, false}}}});
+  };
+  add("root.latch_time", 0.2, 1.15);
+  CHECK(warnings(all).empty());
+  add("mid.latch_time", 0.106, 5.48);
+  add("tip.latch_time", -0.1, 0.91);
+  REQUIRE(warnings(all).size() == 1);
+  CHECK_THAT(warnings(all)[0], Catch::Contains("\"mid.latch_time\", \"tip.latch_time\"") &&
+                                   Catch::Contains("more --samples"));
+}
+
 TEST_CASE("the short table has outputs without indices as not known, and warns of constant draws") {
   SobolSensitivity all;
   all.dispersions = {"a"};

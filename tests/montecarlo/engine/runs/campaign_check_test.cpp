@@ -142,3 +142,63 @@ TEST_CASE("replicates of independent draws are said to be ignored", "[warnings]"
   json["sampling"]["design"] = "latin_hypercube";
   CHECK(check_campaign(campaign_of(json), "").empty());
 }
+
+TEST_CASE("a warning names the law that drew it, whatever another law's name begins with",
+          "[warnings]") {
+  Json json = ringing_panel(500, 20, 0.1);
+  json["dispersions"][0] = {{"name", "spring"},
+                            {"distribution", {{"type", "normal"}, {"mean", 1}, {"std", 0.01}}},
+                            {"apply", "scale"},
+                            {"to", {"hinges.root.spring.scale"}}};
+  json["cases"] = parse_json(R"([ { "name": "k", "distributions": {
+    "spring": { "type": "normal", "mean": 1.02, "std": 0.01 } } } ])");
+  const auto warned = [&](const char* second) {
+    json["dispersions"][1] = parse_json(second);
+    std::vector<std::string> pointers;
+    for (const InputWarning& each : check_campaign(campaign_of(json), ""))
+      pointers.push_back(each.pointer);
+    return pointers;
+  };
+  // negative friction by a law of its own, "spring.x"
+  const auto unphysical = warned(R"({ "name": "spring.x", "apply": "set",
+    "distribution": { "type": "normal", "mean": 0.02, "std": 0.05 },
+    "to": ["hinges.root.friction.coulomb"] })");
+  CHECK(std::ranges::count(unphysical, "/dispersions/1") > 0);
+  CHECK(std::ranges::count(unphysical, "/cases/0/distributions/spring") == 0);
+  // its table does not reach to the case's law of "spring"
+  const auto through = warned(R"({ "name": "spring.x",
+    "distribution": { "type": "uniform", "lower": 10, "upper": 30 },
+    "through": [ { "to": ["hinges.root.friction.scale"], "apply": "scale",
+                   "table": { "at": [5, 35], "value": [1.5, 1] } } ] })");
+  CHECK(std::ranges::count(through, "/cases/0/distributions/spring") == 0);
+  // an `each` of that name: the case's law is that of its copies
+  json["dispersions"][0].erase("to");
+  json["dispersions"][0]["each"] = "hinges.*.latch.stiffness";
+  json["cases"][0]["distributions"]["spring"]["std"] = 0.5;
+  CHECK(std::ranges::count(warned(R"({ "name": "spring.x", "apply": "scale",
+    "distribution": { "type": "uniform", "lower": 0.9, "upper": 1.1 },
+    "to": ["bodies.panel.mass"] })"),
+                           "/cases/0/distributions/spring") > 0);
+}
+
+TEST_CASE("a limit on an overtravel that may grow after the last latch is warned of",
+          "[warnings]") {
+  const auto warned = [](const char* output, const char* limit, std::vector<std::string> outputs,
+                         bool latch) {
+    Json json = quick_campaign(20);
+    json["outputs"] = std::move(outputs);
+    if (!latch) json["scene"]["hinges"][0].erase("latch");
+    json["requirements"] = {
+        {{"output", output}, {limit, 0.1}, {"probability", 0.9}, {"confidence", 0.9}}};
+    const auto warnings = check_campaign(campaign_of(json), "");
+    const InputWarning* found = at(warnings, "/requirements/0");
+    return found && found->found.find("up to the last latch") != std::string::npos;
+  };
+  CHECK(warned("root.overtravel", "max", {"latch_time", "overtravel"}, false));
+  CHECK_FALSE(warned("root.overtravel", "max", {"latch_time", "overtravel"}, true));
+  CHECK_FALSE(warned("root.overtravel", "min", {"latch_time", "overtravel"}, false));
+  CHECK_FALSE(warned("mid.overtravel", "max", {"latch_time", "overtravel"}, false));
+  CHECK_FALSE(warned("mid.latch_time", "max", {"latch_time", "overtravel"}, false));
+  for (const char* on : {"peak_moment", "peak_force", "final_angle"})
+    CHECK_FALSE(warned("root.overtravel", "max", {"latch_time", "overtravel", on}, false));
+}

@@ -4,6 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <numbers>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -91,6 +94,44 @@ TEST_CASE("A case is a campaign of its own, with the same draws", "[cases]") {
   // Of another law the draw has the same place: −60 + 3 z where the campaign has 20 + 5 z.
   CHECK(draws[0][3] == Approx(-60 + 3 * (draws[1][3] - 20) / 5).epsilon(1e-14));
   CHECK(campaigns_of(campaign_of(small_campaign())).size() == 1);
+}
+
+// The covariance is that of the campaign's laws: with a case's law their coefficient holds, and with it the draws.
+TEST_CASE("A case's law beside a covariance keeps the draws", "[cases][correlations]") {
+  Json document = small_campaign();
+  document["dispersions"] = Json::array();
+  for (const char* name : {"spring", "other"})
+    document["dispersions"].push_back(
+        {{"name", name},
+         {"distribution", {{"type", "normal"}, {"mean", 1}, {"std", 0.1}}},
+         {"apply", "scale"},
+         {"to", {"hinges.root.spring.scale"}}});
+  document["correlations"] = {{{"between", {"spring", "other"}}, {"covariance", 0.009}}};
+  document["cases"] = parse_json(R"([ { "name": "plain" },
+    { "name": "wide", "distributions": { "other": { "type": "normal", "mean": 1, "std": 0.2 } } },
+    { "name": "narrow", "distributions": { "spring": { "type": "normal", "mean": 1, "std": 0.05 } } },
+    { "name": "flat", "distributions": { "other": { "type": "uniform", "lower": 0, "upper": 1 } } } ])");
+  const std::vector<Campaign> all = campaigns_of(campaign_of(document));
+  REQUIRE(all.size() == 4);
+  const double coefficient = all[0].wanted_correlations.at(0).spearman;
+  CHECK(coefficient == Approx(6 / std::numbers::pi * std::asin(0.45)).epsilon(1e-12));
+  const auto scores = [](const Campaign& campaign) { // of the draws, by their laws
+    std::vector<double> draws(2);
+    RunPlan(campaign).draw(17, draws);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Law& law = campaign.dispersions[i].distribution.law;
+      if (const auto* normal = std::get_if<Normal>(&law))
+        draws[i] = 0.5 * std::erfc((normal->mean - draws[i]) / normal->std / std::sqrt(2.0));
+    }
+    return draws;
+  };
+  for (const Campaign& campaign : all) {
+    CHECK(campaign.wanted_correlations.at(0).spearman == coefficient);
+    for (std::size_t i = 0; i < 2; ++i)
+      CHECK(scores(campaign)[i] == Approx(scores(all[0])[i]).epsilon(1e-12));
+    CHECK(campaign_of(campaign.resolved).resolved == campaign.resolved);
+  }
+  CHECK(all[0].resolved["correlations"][0].contains("covariance"));
 }
 
 TEST_CASE("Cases are resolved in SI, and read back to themselves", "[cases]") {

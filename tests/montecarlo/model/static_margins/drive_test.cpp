@@ -329,3 +329,30 @@ TEST_CASE("no place of tables has a smaller margin than the least one", "[motori
     }
   }
 }
+
+// The command turns back between two knots: beyond its longest way the motor only brakes, and the spring still rises.
+TEST_CASE("the least margin lies where a motor's command turns back", "[motorization]") {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0.05, 0.95);
+  for (const auto interpolation : {Interpolation::linear, Interpolation::monotone})
+    for (int trial = 0; trial < 10; ++trial) {
+      Scene scene;
+      scene.hinges = {hinge_of("root", 0, 1.5, 0, 0.02)};
+      Hinge& root = scene.hinges[0];
+      root.latch = Latch{.stiffness = 1e4, .damping = 100};
+      root.spring = {0.5, 0.5 + 10 * unit(random)};
+      const std::vector<double> time{0, 3, 3 + 2 * unit(random), 9},
+          rates{0.2 * unit(random), 0.2 * unit(random), -0.2 * unit(random), -0.1};
+      root.motor = Motor{.gain = 10, .torque_limit = 1};
+      root.motor->table = std::make_shared<Curve>(time, rates, interpolation);
+      root.motor->time = time, root.motor->rates = rates;
+      const StaticMarginSpec spec = default_static_margins(scene);
+      const HingeDrive drive = drives_of(scene).front();
+      const Margins least = least_margins(scene, drive, spec),
+                    seen = least_seen(scene, drive, spec);
+      for (std::size_t kind = 0; kind < least.size(); ++kind) {
+        CHECK(least[kind] <= seen[kind] + 1e-9 * std::abs(1 + seen[kind]));
+        CHECK(least[kind] >= seen[kind] - 1e-3 * std::abs(1 + seen[kind]));
+      }
+    }
+}

@@ -53,6 +53,21 @@ TEST_CASE("the time of a way is the first at which the command has come so far",
   CHECK_FALSE(time_of_way(ends, 0.501));
 }
 
+TEST_CASE("a command turns back where its rate falls to 0", "[motorization]") {
+  CHECK(turning_ways(Motor{.rate = 0.1}).empty());
+  CHECK(turning_ways(motor_by({0, 4}, {0.1, 0.2})).empty());
+  CHECK(turning_ways(motor_by({0, 4}, {-0.1, -0.2})).empty());
+  const Motor twice = motor_by({0, 2, 3, 5, 9}, {0.4, 0.4, -0.4, 0.4, 0});
+  REQUIRE(turning_ways(twice).size() == 2); // at 2.5 s and at 9 s
+  CHECK(turning_ways(twice)[0] == Approx(0.8 + 0.1));
+  CHECK(turning_ways(twice)[1] == Approx(0.9 - 0.1 - 0.2 + 0.2 + 0.8));
+  Motor back = motor_by({0, 2, 4}, {-0.5, 0.5, 0.5});
+  CHECK(turning_ways(back).empty());
+  back.scale = -1; // forward, and back from 1 s on
+  REQUIRE(turning_ways(back).size() == 1);
+  CHECK(turning_ways(back)[0] == Approx(0.25));
+}
+
 TEST_CASE("a motor's moments at rest are those of the commands still to come", "[motorization]") {
   Motor motor = motor_by({0, 1, 2}, {-0.05, 0.1, 0}, Interpolation::monotone);
   motor.scale = 0.5;
