@@ -66,6 +66,6 @@ void print_warnings(const std::vector<InputWarning>& warnings, bool strict);
 void add_set_option(CLI::App& command, std::vector<std::string>& changes);
 /// Adds --case NAME, for commands that take one case. @param more of its help: what is done without it
 void add_case_option(CLI::App& command, std::string& name, const std::string& more = "");
-inline constexpr const char* without_case = "; without it the wing in none of the cases";
+inline constexpr const char* without_case = "; without it the wing in none";
 
 } // namespace wingspread

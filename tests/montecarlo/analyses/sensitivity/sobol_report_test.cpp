@@ -166,7 +166,8 @@ TEST_CASE("fewer samples than bounds take are told, with the number that they ta
 }
 
 TEST_CASE("shares of which the bounds say nothing are warned of by their output's name") {
-  SobolSensitivity all{.rows = 256, .dispersions = {"a"}};
+  SobolSensitivity all;
+  all.rows = 256, all.dispersions = {"a"};
   const auto add = [&](const char* name, double lower, double upper) {
     all.outputs.push_back({name, {10, 0, 1, 1, {{{0, {}}, {0.9, {lower, upper}}, false}}}});
   };
