@@ -152,7 +152,7 @@ void read_change(const JsonCursor& value, std::string_view path, Apply apply, co
     return void(value.refuse(fmt::format("the path \"{}\"", path), found.expected));
   CaseChange change{apply, {}, 0};
   const std::string_view unit =
-      apply == Apply::scale ? "" : unit_of(found.matches.front().parameter);
+      apply == Apply::scale ? "" : common_unit(Json(path), scene).value_or("");
   if (apply != Apply::scale) value.note_quantity("in the parameter's unit");
   if (!value.read(change.value, Dimension{unit})) return;
   for (const ParameterMatch& match : found.matches) {

@@ -247,3 +247,21 @@ TEST_CASE("A quantity of an unknown parameter is no further fault", "[cases]") {
   document["dispersions"][1]["distribution"]["type"] = "unifrm";
   CHECK_THAT(message(), Catch::Contains("\"much\"") && Catch::Contains("\"unifrm\""));
 }
+
+TEST_CASE("A change of parameters with different units takes numbers in SI only", "[cases]") {
+  Json document = small_campaign();
+  document["cases"] = Json::array();
+  Json& hinges = document["scene"]["hinges"];
+  REQUIRE(hinges.size() >= 2);
+  hinges[0]["damper"] = {{"law", "viscous"}, {"coefficient", 1}};
+  hinges[1]["damper"] = {{"law", "power"}, {"coefficient", 1}, {"exponent", 1.5}};
+  const auto change = [&](const Json& value) {
+    document["cases"] = {{{"name", "k"}, {"set", {{"hinges.*.damper.coefficient", value}}}}};
+    return message_of([&] { return campaign_of(document); });
+  };
+  CHECK(change(2).empty());
+  CHECK_THAT(change("2 N*mm*s/rad"),
+             Catch::Contains("/cases/0/set/hinges.*.damper.coefficient: found "));
+  hinges[1]["damper"] = hinges[0]["damper"];
+  CHECK(change("2 N*mm*s/rad").empty());
+}
