@@ -157,7 +157,8 @@ void add_set_option(CLI::App& command, std::vector<std::string>& changes) {
 }
 
 void add_case_option(CLI::App& command, std::string& name, const std::string& more) {
-  command.add_option("--case", name, "The case, for a campaign with cases" + more)->type_name("NAME");
+  command.add_option("--case", name, "The case, for a campaign with cases" + more)
+      ->type_name("NAME");
 }
 
 } // namespace wingspread
