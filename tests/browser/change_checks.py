@@ -103,11 +103,23 @@ class ChangeChecks:
             self.assertIn("× 1.31 / × 0.97", item.text)
 
     def test_a_margin_study_of_the_page_answers_in_its_place(self):
-        self.opened_with("""W.sets.forEach(set => set.requirements.forEach(one => one.changes = [{ for: "limit", runs: 900, explained: 0.9, levers: [lever()] }]));
-            W.studySets.push({ label: "results/margin", campaign: W.set().campaign, margin: { window: [1.096, 1.58] } });""")
-        text = self.one(".findings .needed").text
-        self.assertRegex(text, r"All requirements pass with the inputs of results/margin scaled from 1\.096 to 1\.58")
-        self.assertEqual(len(self.all(".needed-table")), 0)
+        """Only if it judged every requirement of the set, with its limit and in its case, and runs of another seed confirm it."""
+        of_margin = lambda more: """W.sets.forEach(set => set.requirements.forEach(one => one.changes = [{ for: "limit", runs: 900, explained: 0.9, levers: [lever()] }]));
+            W.studySets.splice(0, 9, { label: "results/margin", campaign: W.set().campaign, margin: { window: [1.096, 1.58], why_none: null, not_confirmed: null,
+                requirements: W.sets.flatMap(set => set.requirements.map(one => ({ text: `${one.text} · ${set.case}` }))) } });
+            const margin = W.studySets[0].margin;""" + more
+        self.opened_with("")
+        shown = lambda more: (self.again_with(of_margin(more)), self.one(".findings .needed").text, len(self.all(".needed-table")))[1:]
+        answer = "All requirements pass with the inputs of results/margin scaled "
+        for window, words in (("[1.096, 1.58]", "from 1.096 to 1.580"), ("[1.096, null]", "by 1.096 and more"), ("[null, 1.146]", "by 1.146 and less")):
+            text, tables = shown(f"margin.window = {window};")
+            self.assertIn(answer + words + ":", text)
+            self.assertEqual(tables, 0)
+        for more in ("margin.requirements.forEach(one => one.text = one.text.replace('≤ 1', '≤ 2'));", "margin.requirements = margin.requirements.filter(one => !one.text.startsWith('D-1'));", "margin.not_confirmed = 'not met: L-1';",
+                     "margin.why_none = 'it is too narrow';", "margin.requirements.forEach(one => one.text = one.text.split(' · ')[0]);", "W.studySets[0].campaign = 'another';"):
+            text, tables = shown(more)
+            self.assertNotIn("All requirements pass", text, more)
+            self.assertGreater(tables, 0, more)
 
     def test_a_change_of_a_latch_that_makes_the_peak_says_so(self):
         """Where the damping's jump is most of the hinge's nominal peak; not for a hinge whose latch has none."""

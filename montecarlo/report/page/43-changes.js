@@ -57,14 +57,21 @@
   }
   const had = (one, value) => (one.scaled ? `× ${times(value)}` : three(value * F.shown(one.unit).factor));
 
-  // A study of `margin` in this report answers better.
+  // A study of `margin` in this report answers better, if it judged every requirement of the set, in its case and with the
+  // same limit, and runs of another seed did not contradict it. Both texts of a requirement are by the same function.
+  function answers({ margin, campaign }, set) {
+    if (!margin || campaign !== set.campaign || margin.why_none || margin.not_confirmed || !(margin.window || []).some(W.isNumber)) return false;
+    const judged = new Set((margin.requirements || []).map((one) => one.text)),
+      ofCase = set.case && set.case !== "nominal" ? ` · ${set.case}` : "";
+    return (set.requirements || []).every((one) => judged.has(one.text + ofCase));
+  }
   function studied(set) {
-    const found = W.studySets.find((one) => one.margin && one.campaign === set.campaign && (one.margin.window || []).some(W.isNumber));
+    const found = W.studySets.find((one) => answers(one, set));
     if (!found) return null;
-    const [low, high] = found.margin.window;
+    const [low, high] = found.margin.window.map((edge) => (W.isNumber(edge) ? F.number(edge, 4) : null));
     return h(
       "p.needed",
-      `All requirements pass with the inputs of ${found.label} scaled ${W.isNumber(low) ? `from ${F.number(low, 4)}` : "below"} ${W.isNumber(high) ? `to ${F.number(high, 4)}` : "upwards"}: `,
+      `All requirements pass with the inputs of ${found.label} scaled ${low && high ? `from ${low} to ${high}` : low ? `by ${low} and more` : `by ${high} and less`}: `,
       h("a", { href: "#why" }, found.margin.of_springs ? "permissible spring strength" : "permissible scale"),
       ".",
     );
