@@ -176,6 +176,35 @@ class FitPageChecks:
         block["unpaired"] = ["one", "two"]
         return block
 
+    def test_tables_targets_and_correlations_are_compared_too(self):
+        """Each by its own name: what a draw acts on, the knots of its tables, the scene's tables by column, each correlation."""
+        self.opened_block("folders", self.folders)
+        change = lambda script: (self.run_script("""window.original = window.original || JSON.stringify({ ...W.sets[0].inputs,
+                tables: ["a", "b", "c"].map(hinge => ({ path: `hinges.${hinge}.spring.measured`, columns: [{ name: "angle", unit: "rad", values: [0, 1] }, { name: "torque", unit: "N·m", values: [2, 1.7] }] })),
+                dispersions: [{ draw: "k", words: "friction of a", law: "normal", apply: "scale", paths: ["hinges.a.friction.coulomb"], tables: [] },
+                              { draw: "t", words: "temperature", law: "normal", apply: "by a table", paths: [], tables: ["a", "b"].map(hinge => ({ words: `friction of ${hinge}`, paths: [`hinges.${hinge}.friction.scale`], apply: "scale", unit: "", at: [-70, 20], value: [2.2, 1] })) }],
+                settings: ["a, b", "b, c"].map(pair => ({ label: `rank correlation ${pair}`, value: 0.5 })) });
+            W.sets.forEach(set => set.inputs = JSON.parse(window.original)); const own = W.sets[1].inputs; """ + script + " W.comparison()"),
+            self.table("Inputs that differ: new against old"))[1]
+        self.assertEqual(change("own.tables.slice(0, 2).forEach(one => one.columns[1].values = [3, 2.7]);"), [["spring measured torque: a, b", "N·m", "2 · 1.7", "3 · 2.7", ""]])
+        self.assertEqual(change("own.dispersions[0].paths = ['hinges.a.friction.viscous'];"), [["dispersion k acts on", "", "hinges.a.friction.coulomb", "hinges.a.friction.viscous", ""]])
+        self.assertEqual(change("own.dispersions[1].tables.shift(); own.dispersions[1].tables[0].value[0] = 2.5;"),
+                         [["dispersion t: friction of a (scale)", "", "−70: 2.2 · 20: 1", "–", ""], ["dispersion t: friction of b (scale)", "", "−70: 2.2 · 20: 1", "−70: 2.5 · 20: 1", ""]])
+        self.assertEqual(change("own.settings[0].value = -0.5;"), [["rank correlation a, b", "", "0.5", "−0.5", "−200 %"]])
+
+    def test_every_pair_of_folders_says_which_inputs_differ(self):
+        """Of three folders each pair; pairs with equal differences share a table; several tables are folded."""
+        self.opened_block("folders", self.folders)
+        differ = lambda: self.run_script("return [...document.querySelectorAll('#comparison details.inputs-that-differ')].map(one => [one.open, one.firstChild.textContent, one.lastChild.textContent])")
+        self.run_script("""const more = (label, inputs) => W.sets.push({ ...W.sets[1], label, inputs }); more("third", { ...W.sets[0].inputs, settings: [] }); more("fourth", W.sets[1].inputs);
+            W.data.comparisons = [[0, 1], [0, 2], [0, 3], [1, 3]].map(sets => ({ ...W.data.comparisons[0], sets })); W.comparison()""")
+        self.assertEqual([row[0] for row in self.table("What is compared")], ["old", "new", "third", "fourth"])
+        found = differ()
+        self.assertEqual([one[:2] for one in found], [[False, "new against old: 10 listed inputs differ"], [False, "third against old: 2 listed inputs differ"], [False, "fourth against new: no listed input differs"]])
+        self.assertEqual(len(self.table("Inputs that differ: new against old; the same for fourth against old")), 10)
+        self.assertEqual([row[0] for row in self.table("Inputs that differ: third against old")], ["method", "rtol"])
+        self.assertEqual(found[2][2], "No input of fourth differs from new.")
+
     def test_what_two_folders_compare(self):
         self.opened_block("folders", self.folders)
         sets = self.run_script("return W.data.sets")
@@ -188,6 +217,8 @@ class FitPageChecks:
             ["hinges a gone", "s", "3", "0", ""], ["hinges b new", "rad", "0", "7", ""], ["dispersion k", "", "normal, scale", "uniform, scale", ""], ["dispersion n", "", "normal", "–", ""],
             ["dispersion o", "", "–", "normal", ""], ["method", "", "auto", "dop853", ""]])
         self.run_script("W.sets[1].inputs = W.sets[0].inputs; W.comparison()")
+        self.assertIn("No listed input of new differs from old. Their campaigns' hashes differ: compare their files campaign.json.", self.one("#comparison").text)
+        self.run_script("W.sets[1].hash = W.sets[0].hash; W.comparison()")
         self.assertIn("No input of new differs from old.", self.one("#comparison").text)
         self.assertIn("Without a partner: one; two.", self.one("#comparison").text)
         comparison = self.run_script("return W.data.comparisons[0]")

@@ -74,10 +74,10 @@ class OwnChecks:
         first = data["comparisons"][0]
         self.assertTrue(first["folders"])
         self.assertEqual([data["sets"][at]["case"] for at in first["sets"]], ["cold", "cold"])
-        labels = [data["sets"][at]["label"] for at in first["sets"]]
         folders = [pages.made("satellite", 40), pages.made("satellite", 40, "satellite_changed", *self.CHANGE)]
         self.assertEqual(list(dict.fromkeys(one["made_by"] for one in data["sets"])), [f"wingspread run {folder}/campaign.json --seed 5 --runs 40 --out again{nth}" for nth, folder in zip(("", "2"), folders)])
-        rows = self.table(f"Inputs that differ: {labels[1]} against {labels[0]}")
+        pairs = [[data["sets"][at]["label"] for at in reversed(one["sets"])] for one in data["comparisons"] if one["folders"]]
+        rows = self.table(f"Inputs that differ: {' against '.join(pairs[0])}; the same for {' and '.join(' against '.join(pair) for pair in pairs[1:])}")
         self.assertEqual(len(rows), 1, rows)  # eight hinges changed alike
         self.assertIn("latch stiffness: left_root, left_inner", rows[0][0])
         self.check(rows[0][2], 260, about="stiffness")

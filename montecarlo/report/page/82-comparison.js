@@ -1,4 +1,4 @@
-// The comparison of sets: what differs in the inputs, verdicts side by side, differences of means and outcomes.
+// The comparison of sets: verdicts side by side, differences of means and outcomes.
 (function () {
   "use strict";
   const W = window.wingspread;
@@ -177,74 +177,6 @@
     );
   }
 
-  const textOf = (value) =>
-    typeof value === "number" ? F.given(value) : value === null || value === undefined ? F.none : String(value);
-  // What two folders compare: each with its campaign, then the inputs that differ.
-  function designs(comparison) {
-    const [first, second] = comparison.sets.map((at) => W.sets[at]);
-    const row = (set) => [
-      set.label,
-      set.campaign,
-      h("code", set.folder),
-      F.count(set.runs),
-      set.seed,
-      h("code.hash", String(set.hash).slice(0, 12)),
-    ];
-    return [
-      W.table("What is compared", ["Set", "Wing", "Folder", number("Runs"), "Seed", "Campaign hash"], [first, second].map(row), {
-        showCaption: true,
-      }),
-      inputs(first, second),
-    ];
-  }
-  function inputs(first, second) {
-    const values = (set, list, key, value) =>
-      new Map((((set.inputs || {})[list] || []).map((one) => [one[key], value(one)])));
-    const kinds = [
-      ["scene", "path", (one) => [isNaN(one.case_value ?? NaN) ? one.value : one.case_value, one.unit, one.label]],
-      ["dispersions", "draw", (one) => [`${one.law}${one.apply ? `, ${one.apply}` : ""}`, "", `dispersion ${one.draw}`]],
-      ["settings", "label", (one) => [one.value, "", one.label]],
-    ];
-    // Equal changes of several bodies or hinges are one row.
-    const together = function (rows) {
-      const groups = new Map();
-      for (const row of rows) {
-        const key = JSON.stringify([row.kind, ...row.cells.slice(1)]);
-        groups.set(key, [...(groups.get(key) || []), row]);
-      }
-      return [...groups.values()].map(function (group) {
-        const [label, ...cells] = group[0].cells;
-        return [group.length > 1 ? `${group[0].what}: ${group.map((row) => row.owner).join(", ")}` : label, ...cells];
-      });
-    };
-    const rows = kinds.flatMap(function ([list, key, value]) {
-      const [a, b] = [first, second].map((set) => values(set, list, key, value));
-      const found = [...new Set([...a.keys(), ...b.keys()])]
-        .filter((name) => textOf((a.get(name) || [])[0]) !== textOf((b.get(name) || [])[0]))
-        .map(function (name) {
-          const [x, y] = [(a.get(name) || [])[0], (b.get(name) || [])[0]],
-            [, unit, label] = a.get(name) || b.get(name);
-          const change =
-            typeof x === "number" && typeof y === "number" && x !== 0 ? (100 * (y - x)) / Math.abs(x) : null;
-          const cells = [
-              label,
-              F.unit(unit),
-              list === "scene" ? textOf(x ?? 0) : textOf(x),
-              list === "scene" ? textOf(y ?? 0) : textOf(y),
-              W.isNumber(change) ? `${change > 0 ? "+" : ""}${F.number(change, 3)} %` : "",
-            ],
-            [, owner, ...field] = name.split(".");
-          return { cells, kind: list === "scene" ? field.join(".") : name, owner, what: field.join(" ").replace(/_/g, " ") };
-        });
-      return together(found);
-    });
-    const columns = ["Input", "Unit", number(first.label), number(second.label), number("Change")],
-      title = `Inputs that differ: ${second.label} against ${first.label}`;
-    return rows.length
-      ? W.table(title, columns, rows, { showCaption: true, class: "tall" })
-      : h("p", `No input of ${second.label} differs from ${first.label}.`);
-  }
-
   W.comparison = function () {
     const comparisons = W.data.comparisons || [],
       section = document.getElementById("comparison"),
@@ -253,7 +185,7 @@
     if (section.hidden) return;
     W.fill(
       W.section("comparison"),
-      folders.length ? designs(folders[0]) : null,
+      folders.length ? W.designs(folders) : null,
       comparisons.length
         ? [
             h(
