@@ -218,6 +218,28 @@ class ChangeChecks:
             tables: [{ words: "friction of all hinges", paths: ["hinges.*.friction.scale"], apply: "scale", unit: "", at: [-70, 20, 70], value: [2.2, 1, 0.9], of_median: [2.05, 1, 0.92][at] }] })); W.inputs()""")
         self.assertEqual(self.table("What temperature changes, at its median"), [["friction of all hinges", "× 2.05", "× 1.00", "× 0.920", "−70: 2.2 · 20: 1 · 70: 0.9"]])
 
+    def test_tables_of_a_draw_are_found_by_what_they_act_on(self):
+        """A folder's draw may have fewer tables, in another order, and other values."""
+        self.open(pages.made_up("cases"))
+        self.run_script("""const table = (hinge, value, of_median, apply = "scale") => ({ words: `friction of ${hinge}`, paths: [`hinges.${hinge}.friction.scale`], apply, unit: "", at: [-70, 20], value, of_median });
+            W.sets.forEach((set, at) => set.inputs.dispersions.push({ draw: "temperature", words: "temperature", paths: [], law: "normal", low: 0, high: 1, median: 20,
+                tables: [[table("root", [2, 1], 1), table("tip", [3, 1], 1.5)], [table("tip", [4, 1], 2)], [table("tip", [3, 1], 1.5), table("root", [2, 1], 1, "set")]][at] })); W.inputs()""")
+        self.assertEqual(self.table("What temperature changes, at its median"), [
+            ["friction of root", "× 1.00", "–", "–", "cold: −70: 2 · 20: 1ambient and hot: –"],
+            ["friction of tip", "× 1.50", "× 2.00", "× 1.50", "cold and hot: −70: 3 · 20: 1ambient: −70: 4 · 20: 1"],
+            ["friction of root", "–", "–", "1.00", "cold and ambient: –hot: −70: 2 · 20: 1"]])
+        self.assertNotIn("could not be drawn", self.one("#inputs").text)
+
+    def test_folders_with_other_nominal_values_show_their_own(self):
+        """A scene lists no zeros: a set that lacks the parameter has 0, or no such parameter."""
+        self.open(pages.made_up("cases"))
+        shown = lambda *nominals: (self.run_script("""W.sets.forEach((set, at) => set.inputs.scene = [{ path: "same", label: "same", value: 1, unit: "", case_value: null },
+            ...(arguments[0][at] === null ? [] : [{ path: "hinges.root.latch.damping", label: "damping", value: arguments[0][at], unit: "", case_value: at ? null : 50 }])]); W.inputs()""", nominals),
+            self.table("Changes of the nominal scene by case"))[1]
+        self.assertEqual(shown(100, 500, 100), [["damping", "", "by folder", "50", "500", "100"]])
+        self.assertEqual(shown(100, None, 100), [["damping", "", "by folder", "50", "0 or none", "100"]])
+        self.assertEqual(shown(0, None, 0), [["damping", "", "0", "50", "as nominal", "as nominal"]])
+
     def test_an_order_has_its_gaps(self):
         self.open(pages.made_up("plain"))
         self.run_script("""W.set().orders.forEach((one, at) => one.gaps = at ? [] : [{ before: "root", after: "mid", least: 0.0312, median: 0.41 }, { before: "mid", after: "tip", least: 0.2, median: 1.25 }]); W.outcomes()""")

@@ -68,6 +68,13 @@ class DrawingChecks:
         self.assertIsNone(dict(entries)["#inputs"])
         self.driver.execute_script("dispatchEvent(new Event('afterprint'))")
 
+    def test_an_address_with_a_stray_percent_sign_draws_the_page(self):
+        self.driver.get("about:blank")
+        self.driver.get(pages.made_up("plain").as_uri() + "#100%")
+        pages.settle(self.driver)
+        self.assertTrue(self.all(".contents li"))
+        self.assertFalse(self.all(".contents .page"))
+
     def bullet_axis(self, at, one, edge, far, share):
         """Each number of the axis stands at its mark, in the displayed unit, which follows the last number."""
         marks, texts = self.run_script("""const svg = document.querySelectorAll('svg.bullet')[arguments[0]];

@@ -57,7 +57,8 @@ class JudgementChecks:
         self.assertEqual(self.run_script("return document.querySelector('.headline').className"), "headline open")
         self.open(pages.made_up("cases"))
         head = lambda *given: self.told("#verdicts .headline", *([stated("ABC"[at], verdict) for at, verdict in enumerate(verdicts)] for verdicts in given))[0]
-        for given, text in (((["passed"] * 2,) * 3, "✓ pass All 2 requirements pass in every case"), ((["failed", "passed"], ["passed"] * 2, ["passed"] * 2), "✕ fail 1 of 2 requirements fails in cold: A cold: 1 fails, 1 passes; ambient and hot: 2 pass"),
+        for given, text in (((["passed"] * 2,) * 3, "✓ pass All 2 requirements pass in every case"), ((["passed"] * 2, ["passed"], []), "✓ pass All 2 requirements pass in every case that states them cold: 2 pass; ambient: 1 passes; hot: no requirements"),
+                            ((["passed"], ["passed"], []), "✓ pass The requirement passes in every case that states it cold and ambient: 1 passes; hot: no requirements"), ((["failed", "passed"], ["passed"] * 2, ["passed"] * 2), "✕ fail 1 of 2 requirements fails in cold: A cold: 1 fails, 1 passes; ambient and hot: 2 pass"),
                             ((["passed", "failed"], ["failed", "passed"], []), "✕ fail Each of 2 requirements fails in at least one case cold and ambient: 1 fails, 1 passes; hot: no requirements"),
                             ((["open", "passed"], ["passed"] * 2, ["open", "passed"]), "? undecided 1 of 2 requirements is undecided, for too few runs: A cold and hot: 1 undecided, 1 passes; ambient: 2 pass")):
             self.assertEqual(head(*given), text)
@@ -222,9 +223,11 @@ class JudgementChecks:
         self.assertEqual(summaries(), [[True, "Scene: 2 parameters"], [True, "Dispersions: 2"]])
         self.run_script("const set = W.set(); set.inputs.scene = d3.range(81).map(at => ({ path: `p${at}`, label: `p${at}`, value: at, unit: '', case_value: null })); set.inputs.dispersions = d3.range(61).map(at => ({ draw: `d${at}`, law: '', low: 0, high: 1, paths: [] })); W.inputs()")
         self.assertEqual(summaries(), [[False, "Scene: 81 parameters"], [False, "Dispersions: 61"]])
-        self.run_script("W.sets.forEach(set => { set.inputs.scene.length = 1; set.inputs.scene[0].case_value = null; set.inputs.dispersions = []; }); W.inputs()")
+        self.run_script("W.sets.forEach(set => { set.inputs.scene.length = 1; set.inputs.scene[0].case_value = null; }); W.sets[0].inputs.dispersions[0].law_before_case = 'uniform'; W.inputs()")
+        self.assertIn("No case changes a listed parameter of the scene; the cases' distributions differ (below).", self.one("#inputs").text)
+        self.run_script("W.sets.forEach(set => set.inputs.dispersions = []); W.inputs()")
         text = self.one("#inputs").text
-        self.assertTrue("No case changes the scene; the cases' distributions differ" in text and "The campaign has no dispersions." in text, text)
+        self.assertTrue("No case changes a listed parameter of the scene." in text and "The campaign has no dispersions." in text, text)
         rows = self.run_script("return Object.entries(W.data.glossary)")
         self.assertEqual(self.table("Meaning, unit and sign of every name"), [[name, one["unit"].replace("rad", "deg").replace(" ", "·"), one["text"]] for name, one in rows])
         traced = [["SYS-1", "L-1: root peak moment ≤ 215 N·m, 99 % at 90 %", "specification 4.2", "strength of the root fitting"]]

@@ -109,13 +109,13 @@ class SequencePageChecks:
         for changed, words in (({"event": "released", "after": 2, "delay": 0}, "when the hold of tip lets go"), ({"event": "released", "after": 2, "delay": 0.125}, "0.125 s after the hold of tip lets go"),
                                ({"event": "time", "time": 2.5, "delay": 0.5}, "at 2.5 s, and 0.5 s"), ({"event": "latched", "after": 1, "delay": 0.2}, "0.2 s after mid latches"), ({"fails": 1}, "never"), ({"fails": 0}, "0.2 s after mid latches"),
                                ({"event": "passed", "after": 1, "angle": 0.5, "delay": 0}, "when mid has turned by 28.6479 deg")):
-            self.run_script("Object.assign(W.set().envelopes.sequence[0].release, arguments[0]); W.wing()", changed)
+            self.run_script("W.sets.forEach(set => Object.assign(set.envelopes.sequence[0].release, arguments[0])); W.wing()", changed)
             self.assertEqual(told("root"), KINDS["released"] + words)
         self.angles("rad")
         self.assertEqual(told("root"), KINDS["released"] + "when mid has turned by 0.5 rad")
         dispersion = {"draw": "signal", "paths": ["hinges.mid.release.time"], "apply": "set", "law": "", "low": 0, "high": 1, "median": 1}
         for change, words in (({}, "at signal"), ({"apply": "add"}, "at 0.75 s"), ({"paths": ["hinges.root.release.time"]}, "at 0.75 s")):
-            self.run_script("const all = W.set().inputs.dispersions; W.own = W.own ?? [...all]; all.splice(0, all.length, ...W.own, arguments[0]); W.wing()", {**dispersion, **change})
+            self.run_script("W.own = W.own ?? W.sets.map(set => [...set.inputs.dispersions]); W.sets.forEach((set, at) => set.inputs.dispersions = [...W.own[at], arguments[0]]); W.wing()", {**dispersion, **change})
             self.assertEqual(told("mid"), KINDS["released"] + words)
         self.run_script("W.sets.length = 1; W.wing()")
         self.assertEqual(heads(), ["Hinge", "Event", "Median s", "First … last s", "Runs"])
@@ -129,6 +129,25 @@ class SequencePageChecks:
             else:
                 self.check(row[2], one["times"][3], about=row[1])
                 self.check(row[3], one["times"][0], one["times"][6], about=row[1])
+
+    def test_hinges_of_several_folders_are_found_by_name(self):
+        """Sets with the same hinges stand side by side, in whatever order they list them; a set with others has its own table."""
+        first, second = self.opened_sequence()
+        caption = "Median time of each event, first and last"
+        before = self.table(caption)
+        self.run_script("""const [, other] = W.sets; other.wing.hinges.reverse(); other.envelopes.sequence.reverse();
+            other.envelopes.sequence.forEach(one => one.release && one.release.after >= 0 && (one.release.after = 2 - one.release.after)); W.wing()""")
+        self.assertEqual(self.table(caption), before)
+        hold = lambda: next(row[1] for row in self.table(caption) if row[:1] == ["mid"] and row[1].startswith("hold"))
+        self.run_script("W.sets[1].envelopes.sequence[1].release.time = 0.5; W.wing()")
+        self.assertEqual(hold(), "hold lets gocold: at 0.75 shot: at 0.5 s")
+        self.run_script("W.sets[1].envelopes.sequence[1].release = null; W.wing()")
+        self.assertEqual(hold(), "hold lets gocold: at 0.75 shot: no hold")
+        self.run_script("W.sets[1].wing.hinges[0].name = 'outer'; W.wing()")
+        rows = self.table(caption)
+        self.assertEqual((len(rows[0]), {row[0] for row in rows}), (5, {"root", "mid", "tip"}))  # of one set: median, range, runs
+        self.run_script("W.choose('set', 1)")
+        self.assertEqual({row[0] for row in self.table(caption)}, {"root", "mid", "outer"})
 
     def test_without_an_event_the_latch_times_are_strips(self):
         """Of a wing whose latches cannot miss and which has no hold."""

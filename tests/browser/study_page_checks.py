@@ -38,6 +38,12 @@ class StudyPageChecks:
         for part in ("root peak moment > 15 N·m, case hot: ", "(90 % bounds "):
             self.assertIn(part, told(beyond=beyond, case="hot", confidence=0.9))
         self.assertIn("root latch rate < 5 deg/s: ", told(beyond={"output": "root.latch_rate", "above": False, "limit": 0.08726646259971647, "unit": "rad/s"}))
+        title = lambda **more: (told(**more), self.run_script("const own = W.set().rare; W.set().rare = { ...own, beyond: arguments[0] }; W.why(); W.set().rare = own", more["beyond"]), pages.settle(self.driver),
+                                self.run_script("return [...document.querySelectorAll('figure.rare svg text')].map(one => one.textContent).find(one => /^probability of/.test(one))"))[3]
+        self.assertEqual(title(beyond=beyond), "probability of exceeding it")
+        self.assertEqual(title(beyond={**beyond, "above": False}), "probability of falling below it")
+        self.assertTrue(told(bias=0.1381478, reached=True).endswith("). Bias: such estimates are too large by about 13.8 % on average."))
+        self.assertNotIn("Bias", told(bias=0.1381478, reached=False) + told(bias=0, reached=True) + told(bias=None, reached=True))
         words, *_ = rare(reached=False)
         self.assertIn("The event was not reached", words)
         levels = [{"threshold": None, "probability": 1}, {"threshold": 1, "probability": 0.5}, {"threshold": 2, "probability": 0}]

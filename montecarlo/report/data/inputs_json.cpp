@@ -141,7 +141,7 @@ Json settings_json(const Campaign& campaign) {
   const Sampling& sampling = campaign.sampling;
   const StatisticsSpec& statistics = campaign.statistics;
   Json json = Json::array();
-  const auto add = [&](const char* label, const std::string& value) {
+  const auto add = [&](const std::string& label, const std::string& value) {
     json.push_back({{"label", label}, {"value", value}});
   };
   add("method", how.method);
@@ -157,9 +157,11 @@ Json settings_json(const Campaign& campaign) {
   if (has_replicates(sampling)) add("replicates", std::to_string(sampling.replicates));
   add("confidence of bounds", fmt::format("{:g} %", 100 * statistics.confidence));
   add("quantiles", fmt::format("{:g}", fmt::join(statistics.quantiles, ", ")));
-  for (const RankCorrelation& wanted : campaign.wanted_correlations)
-    add("rank correlation", fmt::format("{} with {}: {:g}", campaign.dispersions[wanted.first].name,
-                                        campaign.dispersions[wanted.second].name, wanted.spearman));
+  for (const RankCorrelation& wanted : campaign.wanted_correlations) {
+    const auto& [one, other] = std::minmax(campaign.dispersions[wanted.first].name,
+                                           campaign.dispersions[wanted.second].name);
+    add(fmt::format("rank correlation {}, {}", one, other), fmt::format("{:g}", wanted.spearman));
+  }
   return json;
 }
 

@@ -114,6 +114,7 @@
     // Enough runs, and a pass but for peaks that t_end cut: more runs decide nothing.
     const cut = deciding.filter((each) => each.allowed !== null && each.cut > 0).length;
     const why = [cut < deciding.length ? "too few runs" : null, cut ? "peaks that t_end cut" : null].filter(Boolean).join(" or ");
+    const everywhere = W.sets.every((set) => new Set((set.requirements || []).map(keyOf)).size === total);
     const text = {
       failed:
         counts.failed === total
@@ -123,7 +124,7 @@
         counts.open === total
           ? `${all} is undecided: ${why}`
           : `${counts.open} of ${total} requirements ${one(counts.open, "are", "is")} undecided, for ${why}${named}`,
-      passed: `${all} ${one(total, "pass", "passes")}${several ? " in every case" : ""}`,
+      passed: `${all} ${one(total, "pass", "passes")}${several ? (everywhere ? " in every case" : ` in every case that states ${one(total, "it", "them")}`) : ""}`,
     }[worst];
     return h(
       "p",
@@ -131,7 +132,7 @@
       W.badge(worst),
       " ",
       text,
-      several && worst !== "passed"
+      several && (worst !== "passed" || !everywhere)
         ? h("small", ` ${bySet(rows)}`)
         : counts[worst] < total
           ? h("small", ` ${tallyText({ ...counts, [worst]: 0 })}`)

@@ -13,6 +13,9 @@
   const LANE = 17; // px
   const MEDIAN = 3; // place among the quantiles: 0, 5, 25, 50, 75, 95, 100 %
   const of = (set) => (set.envelopes || {}).sequence || null;
+  // Folders may have the same hinges in another order.
+  const placeOf = (set, name) => set.wing.hinges.findIndex((hinge) => hinge.name === name);
+  const at = (set, name) => of(set)[placeOf(set, name)];
   const seconds = (time, digits = 4) => `${F.number(time, digits)} s`;
 
   // The nominal release in words: "0.2 s after left_mid latches".
@@ -148,17 +151,24 @@
     });
   }
 
-  // Median and range of each event, the cases side by side.
+  // The hold of a hinge in words, by set where the sets differ.
+  function holds(sets, name) {
+    const groups = [...d3.group(sets, (one) => (at(one, name).release ? releaseOf(one, placeOf(one, name)) : "no hold"))];
+    return groups.map(([words, own]) => h("small", groups.length > 1 ? `${W.verdicts.listed(own.map((one) => one.label))}: ${words}` : words));
+  }
+  // Median and range of each event, the sets with the same hinges side by side.
   function table(set) {
-    const sets = W.sets.filter((one) => of(one) && one.wing.hinges.length === set.wing.hinges.length);
-    const happened = (hinge, key) => sets.some((one) => of(one)[hinge][key].count);
-    const rows = lanesOf(set).flatMap(({ hinge, name }) =>
-      KINDS.filter(([key]) => happened(hinge, key) || (key === "released" && of(set)[hinge].release)).map(
+    const namesOf = (one) => one.wing.hinges.map((hinge) => hinge.name),
+      sets = W.sets.filter((one) => of(one) && String(namesOf(one).sort()) === String(namesOf(set).sort())),
+      names = [...new Set([set, ...sets].flatMap((one) => lanesOf(one).map((row) => row.name)))];
+    const happened = (name, key) => sets.some((one) => at(one, name)[key].count || (key === "released" && at(one, name).release));
+    const rows = names.flatMap((name) =>
+      KINDS.filter(([key]) => happened(name, key)).map(
         ([key, text]) => [
           name,
-          key === "released" ? h("span.double", text, h("small", releaseOf(set, hinge))) : text,
+          key === "released" ? h("span.double", text, holds(sets, name)) : text,
           ...sets.flatMap(function (one) {
-            const event = of(one)[hinge][key],
+            const event = at(one, name)[key],
               runs = one.envelopes.runs,
               often = `${F.count(event.runs)} of ${F.runs(runs)}${event.count > event.runs ? `, ${F.count(event.count)} times` : ""}`;
             const spread = event.count ? (event.times[6] - event.times[0]) / 10 : 0,

@@ -283,7 +283,7 @@
                 decades = d3.range(0, Math.ceil(-Math.log10(y.domain()[0]))).map((k) => 10 ** -k);
               M.axes(svg, box, x, y, {
                 xText: unit ? `threshold (${unit})` : "threshold",
-                yText: "probability of exceeding it",
+                yText: `probability of ${beyond && !beyond.above ? "falling below" : "exceeding"} it`,
                 yValues: decades,
                 yFormat: (value) => `10${F.superscript(Math.round(Math.log10(value)))}`,
               });
@@ -294,15 +294,16 @@
               return box.bottom + 40;
             },
           });
-    const reached =
-      rare.reached === false && strata.length === 0 && rare.probability > 0
-        ? " The event was not reached: this is the estimated probability of the last level, which contains the event. Estimated upper bound, not guaranteed."
-        : "";
+    const bias = rare.reached && rare.bias > 0 ? ` Bias: such estimates are too large by about ${F.fixed(100 * rare.bias, 1)} % on average.` : "",
+      reached =
+        rare.reached === false && strata.length === 0 && rare.probability > 0
+          ? " The event was not reached: this is the estimated probability of the last level, which contains the event. Estimated upper bound, not guaranteed."
+          : "";
     return [
       h(
         "p",
         h("b", `${event}${rare.case ? `, case ${rare.case}` : ""}: ${F.number(rare.probability, 3)}`),
-        ` (${bounds} ${F.number(rare.lower, 3)} … ${F.number(rare.upper, 3)}).${reached}`,
+        ` (${bounds} ${F.number(rare.lower, 3)} … ${F.number(rare.upper, 3)}).${bias}${reached}`,
       ),
       ...(rare.warnings || []).map((text) => h("p", h("b", "Warning: "), text + ".")),
       strata.length

@@ -15,22 +15,25 @@
 
   function changed() {
     const sets = W.sets.filter((set) => set.inputs && (set.inputs.scene || []).some(isChanged));
+    const lawsDiffer = W.sets.some((set) => ((set.inputs || {}).dispersions || []).some((one) => one.law_before_case));
     if (!sets.length)
       return W.sets.some((set) => set.case)
-        ? h("p", "No case changes the scene; the cases' distributions differ (below).")
+        ? h("p", `No case changes a listed parameter of the scene${lawsDiffer ? "; the cases' distributions differ (below)" : ""}.`)
         : null;
     const paths = [...new Set(sets.flatMap((set) => set.inputs.scene.filter(isChanged).map((one) => one.path)))];
     const find = (set, path) => (set.inputs.scene || []).find((one) => one.path === path);
+    // Folders may have different nominal values: then each set shows its own. The list of a scene has no zeros.
     const rows = paths.map(function (path) {
-      const first = sets.map((set) => find(set, path)).find(Boolean);
+      const found = W.sets.map((set) => set.inputs && find(set, path)),
+        first = found.find(Boolean),
+        nominals = new Set(found.map((one) => either(one ? one.value : 0)));
       return [
         h("span", first.label),
         F.unit(first.unit),
-        either(first.value),
-        ...W.sets.map((set) => {
-          const one = set.inputs && find(set, path);
-          return one && isChanged(one) ? h("b", either(one.case_value)) : "as nominal";
-        }),
+        nominals.size > 1 ? "by folder" : either(first.value),
+        ...found.map((one) =>
+          one && isChanged(one) ? h("b", either(one.case_value)) : nominals.size > 1 ? (one ? either(one.value) : "0 or none") : "as nominal",
+        ),
       ];
     });
     return [
@@ -58,12 +61,21 @@
       : null;
   }
 
+  // The knots of a draw's table, by set where they differ.
+  function knots(tables, sets) {
+    const text = (table) => (table ? table.at.map((x, k) => `${F.given(x)}: ${F.given(table.value[k])}`).join(" · ") : F.none),
+      groups = [...d3.group(sets, (_, at) => text(tables[at]))];
+    return groups.length === 1 ? groups[0][0] : h("span.double", groups.map(([words, own]) => h("small", `${W.verdicts.listed(own.map((set) => set.label))}: ${words}`)));
+  }
   // What a draw does through its tables, at its median in each case: "friction of all hinges: × 1.97 in cold, × 1 in ambient".
+  // The tables of two folders are the same table if they act on the same parameters in the same way.
   function tables(set) {
     const drawn = (one) => ((one.inputs || {}).dispersions || []).filter((each) => (each.tables || []).length);
     return drawn(set).map(function (one) {
       const sets = W.sets.filter((each) => drawn(each).some((other) => other.draw === one.draw)),
         own = (each) => drawn(each).find((other) => other.draw === one.draw),
+        keyOf = (table) => `${table.apply} ${table.paths.join(" ")}`,
+        all = [...new Map([one, ...sets.map(own)].flatMap((each) => each.tables.map((table) => [keyOf(table), table]))).values()],
         sign = { scale: "× ", add: "+ ", set: "" };
       return W.table(
         `What ${one.words || one.draw} changes, at its median`,
@@ -72,11 +84,14 @@
           ...sets.map((each) => number(sets.length > 1 ? `${each.label}: ${F.number(own(each).median, 3)}` : `at ${F.number(own(each).median, 3)}`)),
           "Table",
         ],
-        one.tables.map((table, at) => [
-          h("span", { title: table.paths.join(", ") }, table.words, table.unit ? ` (${F.unit(table.unit)})` : null),
-          ...sets.map((each) => `${sign[table.apply]}${F.number(own(each).tables[at].of_median, 3)}`),
-          h("span.law", table.at.map((x, k) => `${F.given(x)}: ${F.given(table.value[k])}`).join(" · ")),
-        ]),
+        all.map(function (table) {
+          const found = sets.map((each) => own(each).tables.find((other) => keyOf(other) === keyOf(table)));
+          return [
+            h("span", { title: table.paths.join(", ") }, table.words, table.unit ? ` (${F.unit(table.unit)})` : null),
+            ...found.map((each) => (each ? `${sign[table.apply]}${F.number(each.of_median, 3)}` : F.none)),
+            h("span.law", knots(found, sets)),
+          ];
+        }),
         { showCaption: true, class: "drive-tables" },
       );
     });

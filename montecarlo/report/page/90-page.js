@@ -91,8 +91,12 @@
   // Chromium cannot tell the number of a page to its contents (it lacks target-counter): studies/plots/print_report.py
   // prints twice, and the second time gives them in the page's address, "#pages=verdicts:1,outputs:3".
   function pageNumbers() {
-    const given = /^#pages=(.*)$/.exec(decodeURIComponent(location.hash));
-    return new Map(given ? given[1].split(",").map((entry) => entry.split(":")) : []);
+    try {
+      const given = /^#pages=(.*)$/.exec(decodeURIComponent(location.hash));
+      return new Map(given ? given[1].split(",").map((entry) => entry.split(":")) : []);
+    } catch {
+      return new Map(); // the address has a % that begins no code, and so no numbers of pages
+    }
   }
   function contents() {
     const numbers = pageNumbers();

@@ -297,6 +297,7 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
                  {"lower", study.at("lower")},
                  {"upper", study.at("upper")},
                  {"reached", study.at("reached")},
+                 {"bias", study.value("bias", Json(nullptr))},
                  {"levels", repeats.empty() ? Json::array() : levels_json(repeats.front())},
                  {"warnings", study.value("warnings", Json::array())},
                  {"strata", strata_json(study)},
