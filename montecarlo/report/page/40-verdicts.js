@@ -124,7 +124,7 @@
         counts.open === total
           ? `${all} is undecided: ${why}`
           : `${counts.open} of ${total} requirements ${one(counts.open, "are", "is")} undecided, for ${why}${named}`,
-      passed: `${all} ${one(total, "pass", "passes")}${several ? (everywhere ? " in every case" : ` in every case that states ${one(total, "it", "them")}`) : ""}`,
+      passed: `${all} ${one(total, "pass", "passes")}${several ? (everywhere ? " in every case" : ` in every case that states ${one(total, "them", "it")}`) : ""}`,
     }[worst];
     return h(
       "p",
