@@ -107,6 +107,10 @@ class FindingChecks:
         label, unit = self.run_script("const one = W.sets[0].inputs.scene.find(one => typeof one.value === 'number' && one.unit); return [one.label, W.format.unit(one.unit)]")
         self.assertEqual(told("""if (at === 1) Object.assign(set.inputs.scene.find(one => typeof one.value === 'number' && one.unit), { case_value: 12.5 })"""),
                          f"The cases change: {label} 12.5 {unit} in {labels[1]}.")
+        # a scene lists no zeros: only the case that sets another value has the parameter
+        self.assertEqual(told("""if (at === 1) set.inputs.scene.push({ path: "hinges.root.harness.offset", label: "root harness offset", value: 0, unit: "N m", case_value: 0.25 })"""),
+                         f"The cases change: root harness offset 0.250 N·m in {labels[1]}.")
+        self.run_script("W.sets[1].inputs.scene.pop()")
         # what changes nothing is not named: a factor of 1, 0 that is added, the nominal value that is set
         neutral = {"scale": (1, "× "), "add": (0, "+ "), "set": (5, "")}
         for apply, (still, sign) in neutral.items():

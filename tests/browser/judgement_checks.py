@@ -209,6 +209,13 @@ class JudgementChecks:
             folds = self.run_script("const set = W.set(); W.pair = W.pair ?? set.scatters[0]; set.scatters = d3.range(arguments[0]).map(() => W.pair); W.why(); return [document.querySelectorAll('#why .content > .grid.pairs figure.scatter').length, ...[...document.querySelectorAll('#why details.later > summary')].map(one => one.textContent)]", count)
             self.assertEqual(folds, [4] + ([text] if text else []))
 
+    def test_a_requirement_has_its_unit_where_the_page_leaves_its_output_out(self):
+        self.open(pages.made_up("plain"))
+        text = self.run_script("""const one = W.set().requirements.find(each => each.name === "R-2"); Object.assign(one, { unit: "rad/s", limit: 0.6981317007977318 });
+            const set = W.set(); set.outputs = set.outputs.filter(each => each.name !== one.output); return [W.verdicts.wordsOf(one, set), W.verdicts.valueText(0.5, one, set)]""")
+        self.assertIn("≤ 40 deg/s, 99 % at 90 %", text[0])
+        self.assertTrue(text[1].endswith(" deg/s"), text[1])
+
     def test_inputs_of_each_case(self):
         self.open(pages.made_up("cases"))
         self.run_script("""W.sets.forEach((set, at) => { set.inputs.scene = [{ path: 'a.b', label: 'stowed', value: 0.5, unit: 'rad', case_value: [0.25, null, 'off'][at] }, { path: 'c', label: 'mass', value: 2, unit: 'kg m^2', case_value: null }];

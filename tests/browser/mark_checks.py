@@ -67,6 +67,15 @@ class MarkChecks:
     def angles(self, unit):
         self.run_script("const s = document.getElementById('angles'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", unit)
 
+    def test_the_distribution_function_of_discrete_values_has_steps(self):
+        """However many runs its knots stand for; lines join knots that are not all distinct values."""
+        self.open(pages.made_up("plain"))
+        draw = lambda steps: (self.run_script("""Object.assign(W.output().curve, { x: [1, 2, 3], p: [0.4, 0.5, 1], lower: [0.3, 0.4, 0.9], upper: [0.5, 0.6, 1], steps: arguments[0] });
+            W.output().histogram.edges = W.output().histogram.edges.map((_, at, all) => 1 + 2 * at / (all.length - 1)); W.outputs()""", steps), pages.settle(self.driver), pairs(self.paths("distribution", ".curve")[0])[0])[2]
+        upright_or_level = lambda points: all(abs(a[0] - b[0]) < 0.01 or abs(a[1] - b[1]) < 0.01 for a, b in zip(points, points[1:]))
+        self.assertTrue(upright_or_level(draw(True)))
+        self.assertFalse(upright_or_level(draw(False)))
+
     def test_the_chosen_outputs_lines_and_bars(self):
         self.open(pages.made_up("plain"))
         one_set = self.run_script("return W.set()")

@@ -105,6 +105,6 @@ def output(name, family, hinge, unit, column, nominal, index, orders):
             "quantiles": [{"p": q, "value": quantile(ordered, q), "lower": quantile(ordered, q) - half if n > 100 else None,
                            "upper": quantile(ordered, q) + half if n > 100 else None} for q in (0.01, 0.5, 0.99)],
             "histogram": histogram(values, [order for _, order in kept], orders),
-            "curve": {"x": [ordered[k] for k in knots], "p": p, "lower": [max(0, v - band) for v in p],
+            "curve": {"steps": len(knots) == n, "x": [ordered[k] for k in knots], "p": p, "lower": [max(0, v - band) for v in p],
                       "upper": [min(1, v + band) for v in p], "band": "Dvoretzky-Kiefer-Wolfowitz, 95 %"},
             "convergence": convergence(values, std) if std else None}

@@ -282,8 +282,8 @@ class NumberChecks(Numbers):
         shares = [0, 1, 0.5, *(s for k in range(1, 13) for s in (10.0**-k, 3.7 * 10.0**-k, 1 - 10.0**-k, 1 - 3.7 * 10.0**-k))]
         texts = self.run_script("return arguments[0].map(share => W.format.share(share))", shares)
         for share, text in zip(shares, texts):
-            if share < 1 - 1e-6 or share == 1:  # beyond it six decimals are all that is printed
-                self.check(text, share, share=True, about="share")
+            self.check(text, share, share=True, about="share")
+            self.assertEqual(text in ("0 %", "100 %"), share in (0, 1), text)
         ends = [(low, high) for low in shares for high in shares if low < high and high - low < 1 and min(s for s in (low, high, 1 - low, 1 - high) if s) > 2e-6]
         for (low, high), text in zip(ends, self.run_script("return arguments[0].map(([low, high]) => W.format.shareBounds(low, high))", ends)):
             self.check(text, *([low] if low else []), *([high] if high < 1 else []), share=True, about="bounds")
@@ -291,7 +291,7 @@ class NumberChecks(Numbers):
         for digits, (value, want) in ((v[0], v[1:]) for v in ((4, 99999, "99,999"), (4, 1234, "1234"), (4, -12345, "−12,345"), (4, 123456.7, "123,457"), (2, 0, "0"), (4, 1e8, "1 × 10⁸"),
                                                               (4, 99999999, "99,999,999"), (4, 1e-4, "0.0001000"), (4, 9.9e-5, "9.9 × 10⁻⁵"))):
             self.assertEqual(self.run_script("return W.format.number(arguments[0], arguments[1])", value, digits), want)
-        for value, spread, want in ((12.3456, 0.5, "12.35"), (12.3456, 20, "12"), (0.012345, 0.0005, "0.01235"), (1e9, 1, "1 × 10⁹"), (2.5, 1e-9, "2.500"), (-0.004, 0.5, "0.00")):
+        for value, spread, want in ((12.3456, 0.5, "12.35"), (12.3456, 20, "12"), (0.012345, 0.0005, "0.01235"), (1e9, 1, "1 × 10⁹"), (2.5, 1e-9, "2.5000000000"), (2.5, 1e-14, "2.500"), (-0.004, 0.5, "0.00")):
             self.assertEqual(self.run_script("return W.format.sized(arguments[0], arguments[1])", value, spread), want)
         for value, want in ((0.1 + 0.2, "0.3"), (12345.678, "12,345.68"), (1e7, "1 × 10⁷"), (9e-5, "9 × 10⁻⁵"), (-0.25, "−0.25"), (0, "0"), (None, "–")):
             self.assertEqual(self.run_script("return W.format.given(arguments[0])", value), want)

@@ -42,8 +42,13 @@ class ShapeChecks:
                                ("F.order('no latch')", "no hinge latched"), ("F.order('others')", "other orders"), ("F.runs(1)", "1 run"), ("F.runs(1234)", "1,234 runs"), ("F.counted(2, 'hinge or group', 'many')", "2 many"), ("F.count(null)", "–"), ("F.count(1234567)", "1,234,567"),
                                ("F.axis('a', '')", "a"), ("F.axis('a', 'm')", "a (m)"), ("F.nameOf('left_wing.peak_rate')", "left wing peak rate"), ("F.nameOf('root.latch_time')", "root latch time"), ("F.unitOf('root.latch_time')", "s"), ("F.unitOf('none')", ""), ("F.superscript(-120)", "⁻¹²⁰"),
                                ("F.name({ name: 'a_b.peak_rate', hinge: 'a_b' })", "a_b peak rate"), ("F.name({ name: 'a_b.peak_rate', hinge: null })", "a b peak rate"), ("String(F.grain({ std: 5 }))", "0.5"), ("String(F.grain({ std: 0 }))", "null"), ("String(F.decimals(0.034, 1))", "3"), ("String(F.decimals(0, 123.4))", "1"),
-                               ("String(F.decimals(null, 0))", "0"), ("String(F.decimals(250, 1))", "0"), ("F.shareBounds(null, null)", "no bounds"), ("F.shareBounds(0, 0.25)", "below 25.0 %"), ("F.shareBounds(0.5, 1)", "above 50.0 %"), ("F.shareBounds(0.991, 0.9995)", "99.100 % – 99.950 %")):
+                               ("String(F.decimals(null, 0))", "0"), ("String(F.decimals(250, 1))", "0"), ("F.shareBounds(null, null)", "no bounds"), ("F.shareBounds(0, 0.25)", "below 25.0 %"), ("F.shareBounds(0.5, 1)", "above 50.0 %"), ("F.shareBounds(0.991, 0.9995)", "99.100 % – 99.950 %"),
+                               ("F.share(0.999999925)", "99.9999925 %"), ("F.share(1 - 1 / 4e7)", "99.9999975 %"), ("F.shareBounds(0.9999997808181891, 0.9999999845331966)", "99.9999781 % – 99.9999985 %"), ("F.shareBounds(0.9999997808, 1)", "above 99.999978 %"), ("F.share(7.5e-8)", "7.5 × 10⁻⁶ %"),
+                               ("F.tick(2.5)", "2.5"), ("F.tick(2.5000001, 1e-7)", "2.5000001"), ("F.tick(1050000, 50000)", "1.05 × 10⁶"), ("F.tick(1e6, 50000)", "10⁶".replace("10⁶", "1 × 10⁶")), ("F.tick(0, 1e-9)", "0"), ("F.tick(12.5, 0.5)", "12.5"),
+                               ("F.sized(2.5000000012, 1e-10)", "2.50000000120"), ("F.sized(2.5, 1e-16)", "2.500"), ("F.sized(1000000003, 1)", "1.0000000030 × 10⁹".replace("0030", "003")), ("F.sized(1.5e-7, 1e-8)", "1.5 × 10⁻⁷")):
             self.assertEqual(self.run_script(f"const F = W.format; return {script}"), wanted, script)
+        self.run_script("W.set().wing.hinges = [{ name: 'others' }]")
+        self.assertEqual(self.run_script("return W.format.order('others')"), "others")
 
     def test_text_is_copied_without_a_clipboard_too(self):
         self.open(pages.made_up("single"))

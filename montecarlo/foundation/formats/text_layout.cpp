@@ -120,8 +120,26 @@ std::string percent(double share, int decimals) {
   return text;
 }
 
+namespace {
+
+/// The decimals, at most 12, that show two digits of a number of per cent; 1 − a share is then near the rounding of a
+/// double.
+int decimals_of(double percents) {
+  return std::min(12, 1 - static_cast<int>(std::floor(std::log10(percents))));
+}
+
+} // namespace
+
 std::string percent_range(double lower, double upper) {
-  return fmt::format("{:.3f} – {:.3f} %", 100 * lower, 100 * upper);
+  constexpr double shown = 0.0005; // per cent: three decimals round less away
+  int decimals = 3;
+  for (const double bound : {lower, upper})
+    if (const double distance = 100 * std::min(bound, 1 - bound); distance > 0 && distance < shown)
+      decimals = std::max(decimals, decimals_of(distance));
+  if (decimals == 3) return fmt::format("{:.3f} – {:.3f} %", 100 * lower, 100 * upper);
+  const double scale = std::pow(10, decimals + 2);
+  return fmt::format("{:.{}f} – {:.{}f} %", 100 * std::floor(lower * scale) / scale, decimals,
+                     100 * std::ceil(upper * scale) / scale, decimals);
 }
 
 std::string degrees_text(double radians) {

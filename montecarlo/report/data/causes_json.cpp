@@ -5,6 +5,7 @@
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
+#include "montecarlo/report/data/output_json.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/results/results_folder/parts.hpp"
 
@@ -247,18 +248,18 @@ Json unjudged_json(const PageSource& source) {
 Json correlations_json(const PageSource& source, const PageDetail& detail) {
   const Results& results = source.results;
   const std::size_t draws = std::min(results.draws.size(), detail.correlated_draws);
-  const std::size_t outputs = std::min(results.outputs.size(), detail.outputs);
+  const std::vector<std::size_t> outputs = shown_outputs(source, detail);
   if (source.summary.correlations.empty() || source.summary.runs < fewest_runs) return nullptr;
   Json json{{"draws", Json::array()},
             {"outputs", Json::array()},
             {"spearman", Json::array()},
             {"pearson", Json::array()}};
-  for (std::size_t o = 0; o < outputs; ++o) json["outputs"].push_back(results.outputs[o].name);
+  for (const std::size_t o : outputs) json["outputs"].push_back(results.outputs[o].name);
   const std::size_t row = results.outputs.size() + 1; // + 1: `deployed`
   for (std::size_t d = 0; d < draws; ++d) {
     json["draws"].push_back(results.draws[d].name);
     Json spearman = Json::array(), pearson = Json::array();
-    for (std::size_t o = 0; o < outputs; ++o) {
+    for (const std::size_t o : outputs) {
       const Correlation& value = source.summary.correlations[d * row + o].value;
       spearman.push_back(page_number(value.spearman, 3));
       pearson.push_back(page_number(value.pearson, 3));
@@ -284,9 +285,14 @@ Json effects_json(const PageSource& source, const PageDetail& detail) {
   const RankSensitivity all =
       rank_sensitivity(runs, source.stored.campaign.statistics.confidence, made);
   Json effects = Json::array();
-  const std::size_t shown = std::min(all.outputs.size(), detail.outputs);
-  for (const OutputRanks& output : std::span(all.outputs).first(shown))
-    add_effects(all, output, detail.effects, effects);
+  const std::vector<Column>& columns = source.results.outputs;
+  const std::vector<std::size_t> shown = shown_outputs(source, detail);
+  for (const OutputRanks& output : all.outputs) {
+    const auto column = std::ranges::find(columns, output.output, &Column::name);
+    const auto place = static_cast<std::size_t>(column - columns.begin()); // the end: `deployed`
+    if (place == columns.size() || std::ranges::binary_search(shown, place))
+      add_effects(all, output, detail.effects, effects);
+  }
   if (effects.empty()) return nullptr;
   return {{"kind", "rank"},
           {"runs", all.runs},

@@ -33,6 +33,24 @@ private:
   std::size_t next_ = 0;
 };
 
+/// The distinct values, smallest first, or as many of them as asked for.
+std::vector<double> first_distinct(std::span<const double> sorted, std::size_t most) {
+  std::vector<double> distinct;
+  for (auto next = sorted.begin(); next != sorted.end() && distinct.size() < most;
+       next = std::upper_bound(next, sorted.end(), distinct.back()))
+    distinct.push_back(*next);
+  return distinct;
+}
+
+/// The distinct values at curve_ranks.
+std::vector<double> values_at_ranks(std::span<const double> sorted, std::size_t most) {
+  std::vector<double> values;
+  for (const long rank : curve_ranks(std::ssize(sorted), most))
+    values.push_back(sorted[static_cast<std::size_t>(rank - 1)]);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
 } // namespace
 
 std::vector<long> curve_ranks(long n, std::size_t most) {
@@ -53,38 +71,44 @@ std::vector<long> curve_ranks(long n, std::size_t most) {
   return ranks;
 }
 
-std::vector<CurveKnot> distribution_curve(std::span<const double> sorted,
-                                          std::span<const ReplicateValue> replicated,
-                                          int replicates, double confidence, std::size_t most) {
-  std::vector<CurveKnot> knots;
-  if (sorted.empty()) return knots;
+DistributionCurve distribution_curve(std::span<const double> sorted,
+                                     std::span<const ReplicateValue> replicated, int replicates,
+                                     double confidence, std::size_t most) {
+  DistributionCurve curve;
+  std::vector<double> places = first_distinct(sorted, most + 1);
+  curve.steps = places.size() <= most;
+  if (!curve.steps) places = values_at_ranks(sorted, most);
   const auto n = static_cast<double>(sorted.size());
   const double width = band_width(n, confidence);
   ReplicateCounts counts(replicated, replicates);
-  for (const long rank : curve_ranks(std::ssize(sorted), most)) {
-    const double x = sorted[static_cast<std::size_t>(rank - 1)];
-    if (!knots.empty() && knots.back().x == x) continue;
+  for (const double x : places) {
     const auto below = std::ranges::upper_bound(sorted, x) - sorted.begin();
     const double p = static_cast<double>(below) / n;
-    knots.push_back({x, p,
-                     replicates > 0 ? counts.bounds_at(x, confidence)
-                                    : Bounds{std::max(0.0, p - width), std::min(1.0, p + width)}});
+    curve.knots.push_back({x, p,
+                           replicates > 0
+                               ? counts.bounds_at(x, confidence)
+                               : Bounds{std::max(0.0, p - width), std::min(1.0, p + width)}});
   }
-  return knots;
+  return curve;
 }
 
-std::vector<CurveKnot> distribution_curve(const RankedPopulation& values, double confidence,
-                                          std::size_t most) {
-  std::vector<CurveKnot> knots;
-  if (values.count() == 0) return knots;
+DistributionCurve distribution_curve(const RankedPopulation& values, double confidence,
+                                     std::size_t most) {
+  if (values.count() <= 2 * static_cast<long>(kept_extremes)) { // each of them is known
+    std::vector<double> sorted;
+    for (long rank = 1; rank <= values.count(); ++rank) sorted.push_back(values.at(rank).value);
+    return distribution_curve(sorted, {}, 0, confidence, most);
+  }
+  DistributionCurve curve{{}, false};
   const auto n = static_cast<double>(values.count());
   const double width = band_width(n, confidence);
   for (const long rank : curve_ranks(values.count(), most)) {
     const double x = values.at(rank).value, p = static_cast<double>(rank) / n;
-    if (!knots.empty() && knots.back().x == x) knots.pop_back(); // the last of equal values counts
-    knots.push_back({x, p, {std::max(0.0, p - width), std::min(1.0, p + width)}});
+    if (!curve.knots.empty() && curve.knots.back().x == x)
+      curve.knots.pop_back(); // the last of equal values counts
+    curve.knots.push_back({x, p, {std::max(0.0, p - width), std::min(1.0, p + width)}});
   }
-  return knots;
+  return curve;
 }
 
 std::string band_name(int replicates, double confidence) {

@@ -23,6 +23,12 @@ struct CurveKnot {
   Bounds band{};
 };
 
+struct DistributionCurve {
+  std::vector<CurveKnot> knots; ///< ascending; none without values
+  bool steps =
+      true; ///< whether the knots are all distinct values: the function is constant between them
+};
+
 /// The ranks, 1 to n, of the knots of a curve of n values. Half of them are evenly spaced. Towards each end a quarter
 /// forms a geometric series, because requirements concern the tails. Ascending, distinct.
 /// @pre n ≥ 1, most ≥ 5
@@ -30,15 +36,16 @@ struct CurveKnot {
 
 /// @param sorted the values, smallest first
 /// @param replicated the same values with their replicates; empty for independent draws
-/// @return at most `most` knots; none without values
-[[nodiscard]] std::vector<CurveKnot> distribution_curve(std::span<const double> sorted,
-                                                        std::span<const ReplicateValue> replicated,
-                                                        int replicates, double confidence,
-                                                        std::size_t most);
+/// @return at most `most` knots: all distinct values if there are no more, else those at curve_ranks
+[[nodiscard]] DistributionCurve distribution_curve(std::span<const double> sorted,
+                                                   std::span<const ReplicateValue> replicated,
+                                                   int replicates, double confidence,
+                                                   std::size_t most);
 
-/// The curve of streaming statistics, for independent draws. Each knot is off by at most a bin.
-[[nodiscard]] std::vector<CurveKnot> distribution_curve(const RankedPopulation& values,
-                                                        double confidence, std::size_t most);
+/// The curve of streaming statistics, for independent draws. Each knot is off by at most a bin. It has steps where all
+/// values are kept.
+[[nodiscard]] DistributionCurve distribution_curve(const RankedPopulation& values,
+                                                   double confidence, std::size_t most);
 
 /// The name of the band: "Dvoretzky-Kiefer-Wolfowitz, 95 %".
 [[nodiscard]] std::string band_name(int replicates, double confidence);

@@ -11,30 +11,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace wingspread {
 namespace {
 
+/// The digits that show three digits of the spread of an output's values: at least those of the page.
+int digits_of(const Moments& m) {
+  const double largest = std::max(std::abs(m.min), std::abs(m.max));
+  if (!(m.std > 0 && largest > 0)) return page_digits;
+  return std::clamp(3 + static_cast<int>(std::ceil(std::log10(largest / m.std))), page_digits, 17);
+}
+
 Json moments_json(const OutputSummary& output) {
   const Moments& m = output.moments;
+  const int digits = digits_of(m);
   return {{"count", m.count},
           {"missing", output.missing},
-          {"nominal", output.nominal ? page_number(*output.nominal) : Json(nullptr)},
-          {"mean", page_number(m.mean)},
+          {"nominal", output.nominal ? page_number(*output.nominal, digits) : Json(nullptr)},
+          {"mean", page_number(m.mean, digits)},
           {"mean_error", page_number(output.mean_error)},
           {"std", page_number(m.std)},
-          {"min", page_number(m.min)},
-          {"max", page_number(m.max)},
+          {"min", page_number(m.min, digits)},
+          {"max", page_number(m.max, digits)},
           {"skewness", page_number(m.skewness)},
           {"kurtosis", page_number(m.kurtosis)}};
 }
 
 Json quantiles_json(const Summary& summary, const OutputSummary& output) {
   Json json = Json::array();
-  const auto add = [](Json& to, const QuantileValue& quantile) {
-    to["value"] = page_number(quantile.value);
-    add_bounds(to, quantile.bounds);
+  const int digits = digits_of(output.moments);
+  const auto add = [digits](Json& to, const QuantileValue& quantile) {
+    to["value"] = page_number(quantile.value, digits);
+    add_bounds(to, quantile.bounds, digits);
   };
   // The page says "above 3" where one bound is there; the note is why it has none.
   const auto has_none = [](const QuantileValue& quantile) {
@@ -77,14 +87,17 @@ Json histogram_json(const PageSource& source, std::size_t index, std::span<const
           {"by_order", source.orders->counts(shown, source.results.outputs[index].values)}};
 }
 
-Json curve_json(const PageSource& source, const std::vector<CurveKnot>& knots) {
+Json curve_json(const PageSource& source, const OutputSummary& output,
+                const DistributionCurve& curve) {
+  const int digits = digits_of(output.moments);
   Json json{{"x", Json::array()},
             {"p", Json::array()},
             {"lower", Json::array()},
-            {"upper", Json::array()}};
-  for (const CurveKnot& knot : knots) {
-    json["x"].push_back(page_number(knot.x));
-    json["p"].push_back(page_number(knot.p));
+            {"upper", Json::array()},
+            {"steps", curve.steps}};
+  for (const CurveKnot& knot : curve.knots) {
+    json["x"].push_back(page_number(knot.x, digits));
+    json["p"].push_back(page_share(knot.p));
     json["lower"].push_back(page_number(knot.band.lower));
     json["upper"].push_back(page_number(knot.band.upper));
   }
@@ -116,7 +129,7 @@ Json tolerance_json(const Summary& summary, const OutputSummary& output) {
     json.push_back(
         {{"text", fmt::format("{:g} % at {:g} %, {}", 100 * spec.probability, 100 * spec.confidence,
                               side_names[static_cast<std::size_t>(spec.side)])}});
-    add_bounds(json.back(), limits);
+    add_bounds(json.back(), limits, digits_of(output.moments));
     if (std::string why = why_no_limit(summary, estimate); !why.empty())
       json.back()["note"] = std::move(why);
   }
@@ -141,9 +154,10 @@ void add_pictures(const PageSource& source, std::size_t index, const PageDetail&
       sort_with_convergence(column, p, source.confidence, source.replication,
                             detail.convergence_points, source.summary.outputs[index].missing_end);
   json["histogram"] = histogram_json(source, index, sorted_column.sorted, detail.bins);
-  json["curve"] = curve_json(
-      source, distribution_curve(sorted_column.sorted, sorted_column.replicated,
-                                 source.replication.replicates, source.confidence, detail.knots));
+  json["curve"] = curve_json(source, source.summary.outputs[index],
+                             distribution_curve(sorted_column.sorted, sorted_column.replicated,
+                                                source.replication.replicates, source.confidence,
+                                                detail.knots));
   json["convergence"] = convergence_json(sorted_column.convergence);
   column.values.release();
 }
@@ -153,7 +167,8 @@ void add_streaming_pictures(const PageSource& source, std::size_t index, const P
                             Json& json) {
   const RankedPopulation values(source.streaming->outputs()[index].values);
   json["histogram"] = histogram_json(source, index, {}, detail.bins);
-  json["curve"] = curve_json(source, distribution_curve(values, source.confidence, detail.knots));
+  json["curve"] = curve_json(source, source.summary.outputs[index],
+                             distribution_curve(values, source.confidence, detail.knots));
   json["convergence"] = nullptr;
 }
 
@@ -175,12 +190,26 @@ Json output_json(const PageSource& source, std::size_t index, const PageDetail& 
 
 } // namespace
 
+std::vector<std::size_t> shown_outputs(const PageSource& source, const PageDetail& detail) {
+  std::vector<std::size_t> shown(source.results.outputs.size());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
+  if (shown.size() <= detail.outputs) return shown;
+  std::ranges::stable_partition(shown, [&](std::size_t i) {
+    return std::ranges::any_of(source.summary.requirements, [&](const Verdict& verdict) {
+      return verdict.requirement.output == source.results.outputs[i].name;
+    });
+  });
+  shown.resize(detail.outputs);
+  std::ranges::sort(shown);
+  return shown;
+}
+
 Json outputs_json(const PageSource& source, const PageDetail& detail, int threads) {
-  const std::size_t count = std::min(source.results.outputs.size(), detail.outputs);
+  const std::vector<std::size_t> shown = shown_outputs(source, detail);
   const std::size_t bytes = (source.replication.replicates > 0 ? 64 : 16) * source.results.size();
-  std::vector<Json> blocks(count);
-  for_each_task(threads_within_memory(threads, bytes), count,
-                [&](std::size_t i) { blocks[i] = output_json(source, i, detail); });
+  std::vector<Json> blocks(shown.size());
+  for_each_task(threads_within_memory(threads, bytes), shown.size(),
+                [&](std::size_t i) { blocks[i] = output_json(source, shown[i], detail); });
   return blocks;
 }
 

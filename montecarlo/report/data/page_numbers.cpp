@@ -14,9 +14,21 @@ Json page_numbers(std::span<const double> values, int digits) {
   return json;
 }
 
-void add_bounds(Json& json, const Bounds& bounds) {
-  json["lower"] = page_number(bounds.lower);
-  json["upper"] = page_number(bounds.upper);
+Json page_share(double share) {
+  constexpr double near =
+      1e-3; // to 1: seven digits of the share would be fewer than four of its distance
+  constexpr int all = 16; // at 1 the digits of a double
+  return page_number(share, share < 1 && 1 - share < near ? all : page_digits);
+}
+
+void add_share_bounds(Json& json, const Bounds& bounds) {
+  json["lower"] = bounds.lower ? page_share(*bounds.lower) : Json(nullptr);
+  json["upper"] = bounds.upper ? page_share(*bounds.upper) : Json(nullptr);
+}
+
+void add_bounds(Json& json, const Bounds& bounds, int digits) {
+  json["lower"] = bounds.lower ? page_number(*bounds.lower, digits) : Json(nullptr);
+  json["upper"] = bounds.upper ? page_number(*bounds.upper, digits) : Json(nullptr);
 }
 
 std::string page_text(const Json& json) {

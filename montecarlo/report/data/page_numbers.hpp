@@ -22,8 +22,13 @@ inline constexpr int page_digits = 7;
 [[nodiscard]] Json page_number(const std::optional<double>& value);
 [[nodiscard]] Json page_numbers(std::span<const double> values, int digits = page_digits);
 
+/// A share with seven digits of its distance to 0 or 1, whichever is less; null if not finite.
+[[nodiscard]] Json page_share(double share);
+/// Adds the bounds of a share as "lower" and "upper"; null for a missing one.
+void add_share_bounds(Json& json, const Bounds& bounds);
+
 /// Adds the rounded bounds as "lower" and "upper"; null for a missing one.
-void add_bounds(Json& json, const Bounds& bounds);
+void add_bounds(Json& json, const Bounds& bounds, int digits = page_digits);
 
 /// JSON text to embed in HTML: one line, each `<` escaped.
 [[nodiscard]] std::string page_text(const Json& json);

@@ -1,6 +1,7 @@
 #include "montecarlo/report/data/set_json.hpp"
 
 #include "montecarlo/engine/runs/campaign_check.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/report/data/causes_json.hpp"
 #include "montecarlo/report/data/envelopes_json.hpp"
@@ -81,8 +82,8 @@ Json statuses_json(const Summary& summary) {
   for (const StatusShare& share : summary.statuses) {
     json.push_back({{"status", to_string(share.status)},
                     {"count", share.count},
-                    {"rate", page_number(share.rate)}});
-    add_bounds(json.back(), share.bounds);
+                    {"rate", page_share(share.rate)}});
+    add_share_bounds(json.back(), share.bounds);
     if (std::string why = why_no_bound(summary, share); !why.empty())
       json.back()["note"] = std::move(why);
   }
@@ -196,6 +197,7 @@ Json asked_json(const Requirement& requirement) {
   return {{"text", to_string(requirement)},
           {"name", requirement.name},
           {"output", requirement.output},
+          {"unit", parse_output_name(requirement.output).unit},
           {"kind", !limited          ? "status"
                    : requirement.max ? "<="
                                      : ">="},
@@ -216,8 +218,8 @@ Json requirement_json(const Verdict& verdict, const PageSource& source) {
   Json json = asked_json(verdict.requirement);
   json.update({{"verdict", verdict_words[static_cast<std::size_t>(verdict.decision)]},
                {"disproved", verdict.disproved},
-               {"observed", page_number(verdict.share)},
-               {"guaranteed", page_number(verdict.guaranteed_share)},
+               {"observed", page_share(verdict.share)},
+               {"guaranteed", page_share(verdict.guaranteed_share)},
                {"observed_value", page_number(verdict.observed)},
                {"guaranteed_value", page_number(verdict.guaranteed)},
                {"sure", page_number(verdict.confidence_alone)},
@@ -246,9 +248,9 @@ std::vector<std::string> all_warnings(const PageSource& source, const PageDetail
     lines.push_back("the requirements are those that `wingspread analyze` was given, not the "
                     "campaign's");
   if (const std::size_t all = source.results.outputs.size(); all > detail.outputs)
-    lines.push_back(fmt::format("the page shows the first {} of {} outputs; {} has all",
-                                detail.outputs, all,
-                                (source.stored.folder / summary_file).string()));
+    lines.push_back(
+        fmt::format("the page shows {} of {} outputs, first those with a requirement; {} has all",
+                    detail.outputs, all, (source.stored.folder / summary_file).string()));
   return lines;
 }
 

@@ -58,14 +58,14 @@
     if (!W.isNumber(value)) return F.none;
     if (value === 0 || value === 1) return `${100 * value} %`;
     if (Math.min(value, 1 - value) < 1e-6)
-      return value < 0.5 ? `${F.number(100 * value, 2)} %` : `${F.fixed(100 * value, 6)} %`;
+      return value < 0.5 ? `${F.number(100 * value, 2)} %` : `${F.fixed(100 * value, Math.max(shareDecimals(value), decimals || 0))} %`;
     return `${F.fixed(100 * value, decimals === undefined ? shareDecimals(value) : decimals)} %`;
   };
   F.shareBounds = function (lower, upper) {
     if (!W.isNumber(lower) && !W.isNumber(upper)) return "no bounds";
     if (lower === 0) return `below ${F.share(upper)}`;
     if (upper === 1) return `above ${F.share(lower)}`;
-    const decimals = Math.min(6, Math.max(shareDecimals(lower), shareDecimals(upper)));
+    const decimals = Math.min(12, Math.max(shareDecimals(lower), shareDecimals(upper)));
     return `${F.share(lower, decimals)} – ${F.share(upper, decimals)}`;
   };
 
@@ -100,9 +100,13 @@
     if (W.isNumber(spread) && spread > 0) return F.sized(value * factor, spread * factor);
     return !unit && Number.isInteger(value) ? F.given(value) : F.number(value * factor, 5); // a count that never varies
   };
+  // A spread below 1e-12 of the value is rounding noise.
   F.sized = function (value, spread) {
-    const decimals = F.decimals(spread, value);
-    return decimals > 7 || Math.abs(value) >= 1e8 ? F.number(value, 4) : F.fixed(value, decimals);
+    const size = Math.abs(value),
+      decimals = F.decimals(spread, value);
+    if (decimals <= 7 && size < 1e8) return F.fixed(value, decimals);
+    if (!(spread > 1e-12 * size)) return F.number(value, 4);
+    return size >= 1e8 || size < 1e-4 ? F.number(value, Math.max(4, Math.floor(Math.log10(size)) + 1 + decimals)) : F.fixed(value, decimals);
   };
   F.withUnit = (value, unit, spread) =>
     W.isNumber(value) ? `${F.value(value, unit, spread)} ${F.shown(unit).unit}`.trim() : F.none;
@@ -121,13 +125,23 @@
   function words(text) {
     return text.replace(/\bovertravel$/, "overtravel (beyond stowed)").replace(/_/g, " ").replace(/\./g, " ");
   }
+  // A wing of one hinge has one order: its name, which may be "others".
+  const isHinge = (name) =>
+    W.sets.some((set) => [((set.wing || {}).hinges || []).map((one) => one.name), ...(set.wing_orders || []).map((wing) => wing.hinges)].some((names) => names.length === 1 && names[0] === name));
   F.order = (order) =>
-    order === "no latch" ? "no hinge latched" : order === "others" ? "other orders" : order.replace(/>/g, " › ");
+    order === "no latch" ? "no hinge latched" : order === "others" && !isHinge(order) ? "other orders" : order.replace(/>/g, " › ");
 
-  F.tick = function (value) {
+  // A number beside its axis, with the digits that tell ticks a step apart.
+  F.tick = function (value, step) {
     if (value === 0) return "0";
+    const size = Math.floor(Math.log10(Math.abs(value))),
+      digits = Math.min(15, step > 0 ? size - Math.floor(Math.log10(step) + 1e-9) + 1 : 0);
     return Math.abs(value) >= 1e6 || Math.abs(value) < 1e-4
-      ? power(value.toExponential(1).replace(".0e", "e"))
-      : grouped(String(Number(value.toPrecision(6))));
+      ? power(value.toExponential(Math.max(1, digits - 1)).replace(/\.?0+e/, "e"))
+      : grouped(String(Number(value.toPrecision(Math.max(6, digits)))));
+  };
+  F.ticks = function (values) {
+    const step = d3.min(d3.pairs(values), ([a, b]) => Math.abs(b - a));
+    return (value) => F.tick(value, step);
   };
 })();

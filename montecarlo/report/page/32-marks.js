@@ -160,31 +160,25 @@
   const SHAPES = "Circle Triangle Square Diamond Cross Star Wye".split(" ").map((name) => d3[`symbol${name}`]);
   M.shape = (at) => SHAPES[((at % 7) + 7) % 7];
 
+  const ticksOf = (scale, count) => (scale.ticks ? scale.ticks(count) : scale.domain());
   // Axes of a box { left, right, top, bottom }: x below, y at the left, light lines across.
   M.axes = function (svg, box, x, y, options = {}) {
     const wide = box.right - box.left,
       tall = box.bottom - box.top;
     if (x) {
-      const axis = d3
-        .axisBottom(x)
-        .tickSizeOuter(0)
-        .tickSizeInner(5)
-        .ticks(options.xTicks || Math.max(2, Math.min(10, wide / 80)));
+      const count = options.xTicks || Math.max(2, Math.min(10, wide / 80)),
+        axis = d3.axisBottom(x).tickSizeOuter(0).tickSizeInner(5).ticks(count);
       if (options.xValues) axis.tickValues(options.xValues);
-      axis.tickFormat(options.xFormat || W.format.tick);
+      axis.tickFormat(options.xFormat || W.format.ticks(options.xValues || ticksOf(x, count)));
       M.put(svg, "g.axis.x", { transform: `translate(0,${box.bottom})` }).call(axis);
       if (options.xText)
         M.put(svg, "text.axis-text", { x: box.right, y: box.bottom + 33, "text-anchor": "end", text: options.xText });
     }
     if (y) {
-      const axis = d3
-        .axisLeft(y)
-        .tickSizeOuter(0)
-        .tickSizeInner(-wide)
-        .tickPadding(6)
-        .ticks(options.yTicks || Math.max(2, Math.min(8, tall / 40)));
+      const count = options.yTicks || Math.max(2, Math.min(8, tall / 40)),
+        axis = d3.axisLeft(y).tickSizeOuter(0).tickSizeInner(-wide).tickPadding(6).ticks(count);
       if (options.yValues) axis.tickValues(options.yValues);
-      axis.tickFormat(options.yFormat || W.format.tick);
+      axis.tickFormat(options.yFormat || W.format.ticks(options.yValues || ticksOf(y, count)));
       M.put(svg, "g.axis.y", { transform: `translate(${box.left},0)` }).call(axis);
       if (options.yText)
         M.put(svg, "text.axis-text", {
@@ -196,7 +190,8 @@
   };
   // The width of the y axis's numbers, px.
   M.leftFor = function (y, format, count) {
-    const texts = (y.ticks ? y.ticks(count || 6) : y.domain()).map(format || W.format.tick);
+    const ticks = ticksOf(y, count || 6),
+      texts = ticks.map(format || W.format.ticks(ticks));
     return Math.ceil(Math.max(18, ...texts.map((text) => M.textWidth(text, 11.5)))) + 12;
   };
 

@@ -41,7 +41,7 @@
     const [low, high] = x.domain();
     const scaled = shown && x.copy().domain([low * shown.factor, high * shown.factor]);
     const ticks = shown
-      ? scaled.ticks(3).map((value) => ({ at: scaled(value), text: F.tick(value) }))
+      ? scaled.ticks(3).map((value, _, all) => ({ at: scaled(value), text: F.ticks(all)(value) }))
       : [0.5, 0.9, 0.99, 0.999, 0.9999]
           .filter((share) => nines(share) >= low && nines(share) <= high)
           .map((share) => ({ at: x(nines(share)), text: F.tick(100 * share) }));

@@ -160,6 +160,7 @@
   }
 
   function unitOf(requirement, set) {
+    if (typeof requirement.unit === "string") return requirement.unit;
     const output = W.outputsOf(set).find((one) => one.name === requirement.output);
     return output ? output.unit : "";
   }

@@ -277,8 +277,8 @@
       const curve = one.output.curve,
         values = scaled(curve.x, view),
         colour = several ? M.colour(one.at) : null;
-      // The curve has a step per run if it contains every run. If its knots stand for many runs, straight lines join them.
-      const form = one.output.count > curve.x.length ? d3.curveLinear : d3.curveStepAfter;
+      // The function has steps if its knots are all distinct values. If they stand for many, straight lines join them.
+      const form = curve.steps ? d3.curveStepAfter : d3.curveLinear;
       const flat = (level, ends) => (paper ? [] : ends.map((value) => [value, level]));
       M.put(svg, "path.curve-band", {
         d: M.band(x, height).curve(form)(values.map((value, at) => [value, curve.lower[at], curve.upper[at]])),

@@ -77,11 +77,12 @@
       (one.tables || []).forEach((table, at) => add(table.words, W.wordsOfDraw(sets[0], one.draw), table.apply, same.map((each) => ((each.tables || [])[at] || {}).of_median), null, table.apply === "scale" ? "" : table.unit));
       if (!(one.tables || []).length) add(W.wordsOfDraw(sets[0], one.draw), null, one.apply, same.map((each) => each.median), one.median, one.apply === "scale" ? "" : one.unit);
     }
-    for (const one of (sets[0].inputs || {}).scene || []) {
-      const values = sets.map((set) => {
-        const own = ((set.inputs || {}).scene || []).find((each) => each.path === one.path) || {};
-        return W.isNumber(own.case_value) ? own.case_value : own.value;
-      });
+    // The list of a scene has no zeros.
+    const sceneOf = (set) => (set.inputs || {}).scene || [];
+    for (const path of new Set(sets.flatMap((set) => sceneOf(set).map((one) => one.path)))) {
+      const own = sets.map((set) => sceneOf(set).find((each) => each.path === path)),
+        one = own.find(Boolean),
+        values = own.map((each) => (each ? (W.isNumber(each.case_value) ? each.case_value : each.value) : 0));
       if (values.every(W.isNumber)) add(one.label, null, "set", values, one.value, one.unit);
     }
     return d3.sort(found, (one) => -one.size);

@@ -18,6 +18,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -73,17 +75,8 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
   note_analyses(std::span(sources.runs).subspan(before));
   for (const CaseSpec& spec : whole.campaign.cases)
     if (std::ranges::find(made, spec.name, &CaseSpec::name) == made.end())
-      sources.unmade.push_back(
-          {several ? name + " · " + spec.name : spec.name, whole.runs().size()});
-}
-
-/// Replaces equal labels by the paths of their sets.
-void label_by_path(PageSources& sources) {
-  std::vector<std::string> labels;
-  for (const auto& source : sources.runs) labels.push_back(source->label);
-  for (const auto& source : sources.runs)
-    if (std::ranges::count(labels, source->label) > 1)
-      source->label = source->stored.folder.string();
+      sources.unmade.push_back({several ? name + " · " + spec.name : spec.name, whole.runs().size(),
+                                folder / spec.name});
 }
 
 PageExtent extent_of(const PageSources& sources) {
@@ -122,12 +115,34 @@ std::string title_of(const PageSources& sources) {
 
 } // namespace
 
+void label_by_path(PageSources& sources) {
+  std::map<std::string, std::size_t> times;
+  for (const auto& source : sources.runs) ++times[source->label];
+  for (const UnmadeCase& each : sources.unmade) ++times[each.label];
+  for (const Json& set : sources.studies) ++times[set.at("label").get<std::string>()];
+  std::set<std::size_t> arguments;
+  for (const auto& source : sources.runs)
+    if (times[source->label] > 1) arguments.insert(source->argument);
+  for (const UnmadeCase& each : sources.unmade)
+    if (times[each.label] > 1) arguments.insert(each.argument);
+  for (const auto& source : sources.runs)
+    if (arguments.contains(source->argument)) source->label = source->stored.folder.string();
+  for (UnmadeCase& each : sources.unmade)
+    if (arguments.contains(each.argument)) each.label = each.folder.string();
+  for (Json& set : sources.studies) { // "margin · joint": its folder, then its search
+    const std::string label = set["label"], folder = set["folder"];
+    if (times[label] > 1) set["label"] = folder + label.substr(name_of_folder(folder).size());
+  }
+}
+
 PageSources read_page_sources(std::span<const std::filesystem::path> folders, int threads) {
   PageSources sources;
   for (std::size_t argument = 0; argument < folders.size(); ++argument) {
-    const std::size_t before = sources.runs.size();
+    const std::size_t before = sources.runs.size(), unmade = sources.unmade.size();
     read_folder(folders[argument], folders.size() > 1, threads, sources);
     for (std::size_t k = before; k < sources.runs.size(); ++k) sources.runs[k]->argument = argument;
+    for (std::size_t k = unmade; k < sources.unmade.size(); ++k)
+      sources.unmade[k].argument = argument;
   }
   const std::size_t sets = sources.runs.size() + sources.studies.size();
   if (sets == 0 || sets > most_sets)

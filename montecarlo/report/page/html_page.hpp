@@ -13,7 +13,9 @@ namespace wingspread {
 /// A case of a campaign without a results folder, e.g. of an interrupted run.
 struct UnmadeCase {
   std::string label;
-  long planned; ///< its number of runs
+  long planned;                   ///< its number of runs
+  std::filesystem::path folder{}; ///< that the case would have
+  std::size_t argument = 0;       ///< place of its folder among the command's
 };
 
 struct PageSources {
@@ -27,6 +29,9 @@ struct PageSources {
 /// @throws SpecError for any other folder, for a broken one, and for more than 12 sets
 [[nodiscard]] PageSources read_page_sources(std::span<const std::filesystem::path> folders,
                                             int threads);
+
+/// Replaces labels by paths where two are equal: those of all sets of the same argument of the command.
+void label_by_path(PageSources& sources);
 
 /// The sets and cases that lack runs: "62 of 500 runs of case cold, none of hot"; empty if every planned run is there.
 [[nodiscard]] std::string incomplete_text(const PageSources& sources);

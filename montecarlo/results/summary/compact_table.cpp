@@ -45,7 +45,7 @@ std::string compact_outcomes(CompactCases cases) {
     const std::string name = spaced(to_string(statuses[i]));
     if (statuses[i] == Status::deployed || std::ranges::any_of(cases, has))
       text += compact_line("  " + name, cases, [i](const CaseSummary& each) {
-        return percent(each.summary.statuses[i].rate);
+        return share_text(each.summary.statuses[i].rate);
       });
     else
       none.push_back(name);

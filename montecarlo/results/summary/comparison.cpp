@@ -20,6 +20,16 @@
 #include <tuple>
 
 namespace wingspread {
+
+std::string share_text(double share) {
+  constexpr double shown = 5e-6; // three decimals of a per cent round less away
+  const double distance = std::min(share, 1 - share);
+  if (!(distance > 0 && distance < shown)) return percent(share);
+  constexpr int most = 12; // the distance is then near the rounding of a double
+  return percent(share,
+                 std::min(most, 1 - static_cast<int>(std::floor(std::log10(100 * distance)))));
+}
+
 namespace {
 
 constexpr int name_width = 46, case_width = 13;
@@ -92,8 +102,9 @@ std::string outcome_lines(Cases cases) {
   text += line("  runs", cases,
                [](const CaseSummary& each) { return std::to_string(each.summary.runs); });
   for (std::size_t i = 0; i < statuses.size(); ++i)
-    text += line("  " + spaced(to_string(statuses[i])), cases,
-                 [i](const CaseSummary& each) { return percent(each.summary.statuses[i].rate); });
+    text += line("  " + spaced(to_string(statuses[i])), cases, [i](const CaseSummary& each) {
+      return share_text(each.summary.statuses[i].rate);
+    });
   text += line("  the nominal wing", cases, [](const CaseSummary& each) {
     return each.summary.nominal ? spaced(to_string(each.summary.nominal->status)) : "–";
   });

@@ -39,4 +39,8 @@ struct CaseSummary {
 [[nodiscard]] std::string cases_table(const std::vector<CaseSummary>& cases, std::string_view title,
                                       std::string_view folder);
 
+/// A share of runs in per cent. One that three decimals would write as 0 or 100 has two digits of its distance from it:
+/// "0.0000075 %", "99.9999925 %".
+[[nodiscard]] std::string share_text(double share);
+
 } // namespace wingspread

@@ -34,8 +34,9 @@ double share_of(long count, long runs) {
 }
 
 std::string outcome_line(std::string_view name, const StatusShare& share) {
-  return fmt::format("  {:<48}{:>10}{:>12}{:>26}\n", name, share.count, percent(share.rate),
-                     percent_bounds(share.bounds));
+  return fmt::format("  {:<48}{:>10}{}{}\n", name, share.count,
+                     right_aligned(share_text(share.rate), 12),
+                     right_aligned(percent_bounds(share.bounds), 26));
 }
 
 /// @param all a line for every status; else one for those that no run has
@@ -92,8 +93,8 @@ std::string stalled_at(const Summary& summary) {
 std::string latch_orders(const Summary& summary, bool all) {
   std::string text = fmt::format("\n{:<50}{:>10}{:>12}\n", "LATCH ORDER", "runs", "share");
   const auto line = [&](std::string_view order, long count) {
-    text += fmt::format("{}{:>10}{:>12}\n", in_column(fmt::format("  {}", order), 50), count,
-                        percent(share_of(count, summary.runs)));
+    text += fmt::format("{}{:>10}{}\n", in_column(fmt::format("  {}", order), 50), count,
+                        right_aligned(share_text(share_of(count, summary.runs)), 12));
   };
   const std::size_t shown =
       all ? summary.latch_orders.size() : std::min(summary.latch_orders.size(), most_lines);

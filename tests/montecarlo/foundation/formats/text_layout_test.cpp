@@ -93,6 +93,12 @@ TEST_CASE("shares in percent, and counted things", "[text_layout]") {
   CHECK(percent(1) == "100.000 %");
   CHECK(percent(std::numeric_limits<double>::quiet_NaN()) == "–");
   CHECK(percent_range(0.005, 0.5) == "0.500 – 50.000 %");
+  CHECK(percent_range(0, 1) == "0.000 – 100.000 %");
+  // bounds near 0 or 1 show their distance, and are rounded outwards: they hold the share between them
+  CHECK(percent_range(0.9999997808181891, 0.9999999845331966) == "99.9999780 – 99.9999985 %");
+  CHECK(percent_range(1.5466803339449127e-08, 2.1918181097213618e-07) == "0.0000015 – 0.0000220 %");
+  CHECK(percent_range(0, 9.222198210040114e-08) == "0.0000000 – 0.0000093 %");
+  CHECK(percent_range(0.99999907, 1) == "99.999907 – 100.000000 %");
   CHECK(spaced("timed_out") == "timed out");
   CHECK(counted(1, "body", "bodies") == "1 body");
   CHECK(counted(0, "body", "bodies") == "0 bodies");

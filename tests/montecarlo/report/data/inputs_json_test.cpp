@@ -74,7 +74,8 @@ TEST_CASE("the settings are those of the runs; a step only where the method has 
   CHECK(setting("step") == "0.002 s");
 }
 
-TEST_CASE("each rank correlation has a label of its own, whatever the order of its names", "[page]") {
+TEST_CASE("each rank correlation has a label of its own, whatever the order of its names",
+          "[page]") {
   Json json = quick_campaign(5);
   json["correlations"] = parse_json(
       R"([ { "between": ["root_spring", "mass.panel_2"], "spearman": 0.5 }, { "between": ["mass.panel_2", "mass.panel_1"], "spearman": -0.25 } ])");
@@ -82,8 +83,8 @@ TEST_CASE("each rank correlation has a label of its own, whatever the order of i
   const Json inputs = inputs_json(*source, {});
   CHECK(entry(inputs["settings"], "label", "rank correlation mass.panel_2, root_spring")["value"] ==
         "0.5");
-  CHECK(entry(inputs["settings"], "label", "rank correlation mass.panel_1, mass.panel_2")["value"] ==
-        "-0.25");
+  CHECK(entry(inputs["settings"], "label",
+              "rank correlation mass.panel_1, mass.panel_2")["value"] == "-0.25");
 }
 
 TEST_CASE("inputs have words for dispersions, and what a draw does through its tables in each case",

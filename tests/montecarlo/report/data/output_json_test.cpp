@@ -1,3 +1,4 @@
+#include "montecarlo/report/data/causes_json.hpp"
 #include "montecarlo/report/data/output_json.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "tests/montecarlo/report/data/page_support.hpp"
@@ -89,6 +90,59 @@ TEST_CASE("edges of values that differ in their last digits differ on the page",
       outputs_json(*source, {}, 1)[0]["histogram"]["edges"].get<std::vector<double>>();
   REQUIRE(edges.size() > 2);
   CHECK(std::ranges::adjacent_find(edges, std::ranges::greater_equal{}) == edges.end());
+}
+
+TEST_CASE("values of a tiny spread have the digits that tell them apart", "[page]") {
+  const auto source = made(quick_campaign(20));
+  Column& column = source->results.outputs.front();
+  for (std::size_t k = 0; k < column.values.size(); ++k)
+    column.values[k] = 2.5 + 1e-10 * static_cast<double>(k);
+  source->summary = stored_summary(source->stored, source->results, 1);
+  const Json output = outputs_json(*source, {}, 1)[0];
+  CHECK(output["max"].get<double>() - output["min"].get<double>() == Approx(1.9e-9).epsilon(0.01));
+  CHECK(output["mean"].get<double>() - 2.5 == Approx(0.95e-9).epsilon(0.01));
+  const auto x = output["curve"]["x"].get<std::vector<double>>();
+  CHECK(x.size() == 20);
+  CHECK(std::ranges::adjacent_find(x, std::ranges::greater_equal{}) == x.end());
+  CHECK(output["curve"]["steps"] == true);
+  CHECK(output["quantiles"][0]["value"] < output["quantiles"].back()["value"]);
+}
+
+TEST_CASE("of too many outputs those with a requirement are shown first, in the columns' order",
+          "[page]") {
+  Json json = quick_campaign(20);
+  json["requirements"] = parse_json(
+      R"([ { "output": "tip.latch_rate", "min": -9, "probability": 0.2, "confidence": 0.5 },
+           { "output": "mid.latch_time", "max": 9, "probability": 0.2, "confidence": 0.5 } ])");
+  const auto source = made(json);
+  PageDetail detail;
+  detail.outputs = 3;
+  std::vector<std::string> names;
+  for (const std::size_t i : shown_outputs(*source, detail))
+    names.push_back(source->results.outputs[i].name);
+  std::vector<std::string> expected{source->results.outputs.front().name, "mid.latch_time",
+                                    "tip.latch_rate"};
+  REQUIRE(expected[0] != expected[1]);
+  CHECK(names == expected);
+  const Json outputs = outputs_json(*source, detail, 2);
+  REQUIRE(outputs.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) CHECK(outputs[k]["name"] == expected[k]);
+  CHECK(outputs[2]["limits"] == Json{0});
+  const Json correlations = correlations_json(*source, detail);
+  CHECK(correlations["outputs"] == Json(expected));
+  REQUIRE(correlations["spearman"][0].size() == 3);
+  const std::size_t row = source->results.outputs.size() + 1;
+  for (std::size_t d = 0; d < correlations["draws"].size(); ++d)
+    for (std::size_t k = 0; k < 3; ++k)
+      CHECK(correlations["spearman"][d][k] ==
+            page_number(source->summary.correlations[d * row + shown_outputs(*source, detail)[k]]
+                            .value.spearman,
+                        3));
+  const Json effects = effects_json(*source, detail);
+  for (const Json& effect : effects["effects"])
+    CHECK(std::ranges::find(expected, effect["output"].get<std::string>()) != expected.end());
+  CHECK(std::ranges::any_of(effects["effects"],
+                            [](const Json& one) { return one["output"] == "tip.latch_rate"; }));
 }
 
 TEST_CASE("a histogram has no more bins than the page has room for", "[page]") {

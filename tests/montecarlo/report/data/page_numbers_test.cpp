@@ -19,6 +19,18 @@ TEST_CASE("numbers of the page have the digits asked for, and no more", "[page]"
   CHECK(page_text(page_numbers(std::vector{0.1 + 0.2, std::nan("")})) == "[0.3,null]");
 }
 
+TEST_CASE("a share has the digits of its distance to 1", "[page]") {
+  CHECK(page_share(1.0 / 3) == 0.3333333);
+  CHECK(page_share(0.99) == 0.99);
+  CHECK(page_share(1 - 1e-8) == 1 - 1e-8);
+  CHECK(page_share(2.5e-8) == 2.5e-8);
+  CHECK(page_share(1) == 1.0);
+  CHECK(page_share(std::nan("")).is_null());
+  Json bounds;
+  add_share_bounds(bounds, {1 - 3e-9, {}});
+  CHECK((bounds["lower"] == 1 - 3e-9 && bounds["upper"].is_null()));
+}
+
 TEST_CASE("nothing in the block of data can end it or begin a comment", "[page]") {
   const Json json{{"reason", "</script><!-- <b> \x80 \u2028"}};
   const std::string text = page_text(json);

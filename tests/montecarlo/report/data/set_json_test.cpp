@@ -81,13 +81,34 @@ TEST_CASE("a set counts the orders of latching, and warns of outputs that the pa
   few.outputs = source->results.outputs.size() - 1;
   const Json fewer = set_json(*source, few, 1);
   REQUIRE(fewer["warnings"].size() == warned + 1);
-  CHECK(fewer["warnings"].back() == "the page shows the first " + std::to_string(few.outputs) +
-                                        " of " + std::to_string(few.outputs + 1) +
-                                        " outputs; results/set/summary.json has all");
+  CHECK(fewer["warnings"].back() == "the page shows " + std::to_string(few.outputs) + " of " +
+                                        std::to_string(few.outputs + 1) +
+                                        " outputs, first those with a requirement; "
+                                        "results/set/summary.json has all");
   source->stored.own_requirements.emplace();
   CHECK(set_json(*source, {}, 1)["warnings"].size() == warned + 1);
   for (const char* elsewhere : {"static_margins", "margin", "rare"})
     CHECK(json[elsewhere].is_null());
+}
+
+TEST_CASE("a share near 1 keeps its distance, and a requirement has the unit of its output",
+          "[page]") {
+  Json json = quick_campaign(20);
+  json["requirements"] = parse_json(
+      R"([ { "output": "tip.latch_rate", "min": -9, "probability": 0.2, "confidence": 0.5 },
+           { "output": "deployed", "probability": 0.2, "confidence": 0.5 } ])");
+  const auto source = made(json);
+  StatusShare& deployed = source->summary.statuses.front();
+  deployed.rate = 0.999999925;
+  deployed.bounds = {0.9999997808181891, 0.9999999845331966};
+  source->summary.requirements[1].share = 1 - 1 / 4e7;
+  const Json set = set_json(*source, {}, 1);
+  CHECK(set["statuses"][0]["rate"] == 0.999999925);
+  CHECK(set["statuses"][0]["lower"] == 0.9999997808181891);
+  CHECK(set["statuses"][0]["upper"] == 0.9999999845331966);
+  CHECK(set["requirements"][1]["observed"] == 1 - 1 / 4e7);
+  CHECK(set["requirements"][0]["unit"] == "rad/s");
+  CHECK(set["requirements"][1]["unit"] == "");
 }
 
 TEST_CASE("the gaps of an order are those of the rows, in four digits", "[page]") {

@@ -231,6 +231,35 @@ TEST_CASE("every output that a campaign can have is in the glossary", "[page]") 
   }
 }
 
+TEST_CASE("equal labels give way to paths, for all sets of an argument alike", "[page]") {
+  PageSources sources;
+  const auto add = [&](std::size_t argument, const char* label, const char* folder) {
+    PageSource& source = *sources.runs.emplace_back(std::make_unique<PageSource>());
+    source.label = label;
+    source.argument = argument;
+    source.stored.folder = folder;
+  };
+  add(0, "results · cold", "A/results/cold");
+  add(1, "results · cold", "B/results/cold");
+  add(1, "results · extra", "B/results/extra"); // no other set has this label
+  add(2, "seed7 · cold", "B/seed7/cold");
+  sources.unmade = {{"results · hot", 5, "B/results/hot", 1}, {"seed7 · hot", 5, "B/seed7/hot", 2}};
+  const auto study = [&](const char* label, const char* folder) {
+    sources.studies.push_back({{"label", label}, {"folder", folder}});
+  };
+  study("margin · joint", "A/margin");
+  study("margin · joint", "B/margin/");
+  study("rare", "A/rare");
+  label_by_path(sources);
+  std::vector<std::string> labels;
+  for (const auto& source : sources.runs) labels.push_back(source->label);
+  for (const UnmadeCase& each : sources.unmade) labels.push_back(each.label);
+  for (const Json& set : sources.studies) labels.push_back(set["label"]);
+  CHECK(labels == std::vector<std::string>{"A/results/cold", "B/results/cold", "B/results/extra",
+                                           "seed7 · cold", "B/results/hot", "seed7 · hot",
+                                           "A/margin · joint", "B/margin/ · joint", "rare"});
+}
+
 TEST_CASE("the page says which runs are missing, of which set or case", "[page]") {
   struct Made {
     const char *label, *of_case;

@@ -31,7 +31,7 @@ SobolIndices climbing_indices(std::size_t count) {
 Json rare_study() {
   return parse_json(R"({ "wingspread": { "version": "0", "seed": 3, "hash": "h" },
     "event": "not deployed", "beyond": null, "case": "cold", "confidence": 0.9,
-    "probability": 2e-5, "lower": 1e-5, "upper": 4e-5, "reached": true,
+    "probability": 2e-5, "lower": 1e-5, "upper": 4e-5, "reached": true, "bias": 0.125,
     "repeats": [ { "levels": [ { "share": 0.5, "threshold": 3.5 }, { "share": 0.125, "threshold": 0 } ] },
                  { "levels": [] } ],
     "strata": [
@@ -104,8 +104,8 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
   const Json set = set_of(study), &rare = set["rare"];
   CHECK((set["label"] == "r" && set["seed"] == "3" && set["hash"] == "h"));
   CHECK((set["margin"].is_null() && set["sensitivity"].is_null() && set["wing"].is_null()));
-  for (const char* key :
-       {"beyond", "case", "confidence", "probability", "lower", "upper", "reached", "warnings"}) {
+  for (const char* key : {"beyond", "case", "confidence", "probability", "lower", "upper",
+                          "reached", "bias", "warnings"}) {
     CAPTURE(key);
     CHECK(rare[key] == study[key]);
   }

@@ -34,6 +34,15 @@ CaseSummary decided(const std::string& name, Decision decision, std::optional<do
 
 } // namespace
 
+TEST_CASE("a share beside 0 or 100 % shows its distance", "[comparison]") {
+  CHECK(share_text(7.5e-8) == "0.0000075 %");
+  CHECK(share_text(0.999999925) == "99.9999925 %");
+  CHECK(share_text(0) == "0.000 %");
+  CHECK(share_text(1) == "100.000 %");
+  CHECK(share_text(0.5) == "50.000 %");
+  CHECK(share_text(2e-5) == "0.002 %");
+}
+
 TEST_CASE("the worst case fails, or has the least margin", "[comparison]") {
   const CaseSummary pass = decided("a", Decision::pass, 1),
                     tight = decided("b", Decision::pass, 0.1),
