@@ -78,7 +78,8 @@ TEST_CASE("each rank correlation has a label of its own, whatever the order of i
           "[page]") {
   Json json = quick_campaign(5);
   json["correlations"] = parse_json(
-      R"([ { "between": ["root_spring", "mass.panel_2"], "spearman": 0.5 }, { "between": ["mass.panel_2", "mass.panel_1"], "spearman": -0.25 } ])");
+      R"([ { "between": ["root_spring", "mass.panel_2"], "spearman": 0.5 },
+           { "between": ["mass.panel_2", "mass.panel_1"], "spearman": -0.25 } ])");
   const auto source = source_of(campaign_of(json), rows_of(RunPlan(campaign_of(json)), {0, 2}));
   const Json inputs = inputs_json(*source, {});
   CHECK(entry(inputs["settings"], "label", "rank correlation mass.panel_2, root_spring")["value"] ==
