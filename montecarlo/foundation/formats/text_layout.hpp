@@ -41,7 +41,8 @@ inline constexpr int table_width = 100;
 /// "0.500 %" of 0.005; "–" of NaN. A share below 1 has as many decimals as tell it from 100 %.
 [[nodiscard]] std::string percent(double share, int decimals = 3);
 
-/// "0.500 – 0.700 %" of 0.005 and 0.007.
+/// "0.500 – 0.700 %" of 0.005 and 0.007. Where three decimals do not tell a bound from 0 or 100 %, it has more and is
+/// rounded outwards.
 [[nodiscard]] std::string percent_range(double lower, double upper);
 
 /// Four digits of an angle in degrees: "90" of π/2.
