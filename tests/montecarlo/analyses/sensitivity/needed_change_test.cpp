@@ -294,6 +294,37 @@ TEST_CASE("of draws that move together that one is counted beyond which most win
   }
 }
 
+// Beyond the change lie more runs by b, which varies more: more of them stall, but a smaller share.
+TEST_CASE("of draws that move together that one counts of which the larger share stalls",
+          "[needed]") {
+  const auto output = [](double a, double b, double) { return 3 * a + 3 * b; };
+  InventedRuns sample(4000, 4, output);
+  for (std::size_t i = 0; i < sample.a.size(); ++i)
+    if ((i % 15 == 0 && sample.a[i] < 0.95) || (i % 40 == 7 && sample.b[i] < 0.95))
+      sample.status[i] = Status::stalled;
+  for (const MovedDraws& moved : {both_scaled, MovedDraws{{1, 0}, true}}) {
+    const auto found =
+        needed_of(NeededFor::limit, limited(6.5, 0.9), sample.results(), {moved}).front();
+    REQUIRE((found && found->known));
+    const auto beyond = [&](const std::vector<double>& draws) {
+      double sum = 0, deployed = 0;
+      for (std::size_t i = 0; i < draws.size(); ++i)
+        if (sample.status[i] == Status::deployed) sum += draws[i], ++deployed;
+      std::pair<long, long> counts{0, 0}; // runs, those that stalled
+      for (std::size_t i = 0; i < draws.size(); ++i)
+        if (draws[i] <= found->change * sum / deployed)
+          ++counts.first, counts.second += sample.status[i] == Status::stalled ? 1 : 0;
+      return counts;
+    };
+    const auto [runs, stalled] = beyond(sample.a);
+    const auto [more_runs, more_stalled] = beyond(sample.b);
+    REQUIRE(more_stalled > stalled);
+    REQUIRE(stalled * more_runs > more_stalled * runs);
+    CHECK(found->beyond_runs == runs);
+    CHECK(found->beyond_undeployed == stalled);
+  }
+}
+
 TEST_CASE("too few runs never promise a change", "[needed]") {
   // of 300 runs none may break 99 % at 90 %, so no number of seen ones is few enough
   const InventedRuns sample(300, 9, [](double a, double, double z) { return a + 0.1 * z; });
