@@ -2,10 +2,14 @@
 
 #include "distributions/continuous_law.hpp"
 #include "distributions/copula.hpp"
+#include "distributions/math_policy.hpp"
 #include "distributions/step_law.hpp"
 
-#include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/special_functions/owens_t.hpp>
+
 #include <cmath>
+#include <numbers>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -13,81 +17,102 @@
 namespace wingspread {
 namespace {
 
-double normal_below(double z) { return std::erfc(-z / std::sqrt(2.0)) / 2; }
-
-/// The steps of a law's distribution function; none of a continuous law.
-struct TieSteps {
-  std::vector<double> ends;   ///< the distribution function at each value, ascending to 1
-  std::vector<double> scores; ///< Φ⁻¹ of the ends
-
-  [[nodiscard]] bool empty() const { return ends.empty(); }
-  [[nodiscard]] double begin(std::size_t k) const { return k == 0 ? 0 : ends[k - 1]; }
-  [[nodiscard]] double middle(std::size_t k) const { return (begin(k) + ends[k]) / 2; }
-
-  [[nodiscard]] double variance() const {
-    double cubes = 0;
-    for (std::size_t k = 0; k < ends.size(); ++k) cubes += std::pow(ends[k] - begin(k), 3);
-    return (1 - cubes) / 12;
-  }
-  /// E[R | the other's score z].
-  [[nodiscard]] double mean_rank(double r, double z) const {
-    if (empty()) return normal_below(r * z / std::sqrt(2 - r * r));
-    double sum = 0, below = 0;
-    for (std::size_t k = 0; k < ends.size(); ++k) {
-      const double up_to =
-          k + 1 == ends.size() ? 1 : normal_below((scores[k] - r * z) / std::sqrt(1 - r * r));
-      sum += middle(k) * (up_to - below);
-      below = up_to;
-    }
-    return sum;
-  }
+/// A law's mid-rank as a function of its normal score z. A law without jumps is continuous: its rank is Φ(z).
+struct MidRank {
+  struct Jump {
+    double score;  ///< s_k
+    double height; ///< w_k
+  };
+  std::vector<Jump> jumps;
+  double variance = 1.0 / 12;
 };
 
-TieSteps steps_of(const StepLaw& law) {
-  // Ties of more values than these have no effect that matters; heuristic.
-  constexpr std::size_t most = 200;
-  TieSteps steps;
-  for (std::size_t k = 0; k < law.values.size(); ++k)
-    if (k + 1 == law.values.size() || law.values[k + 1] != law.values[k])
-      steps.ends.push_back(law.below[k]);
-  if (steps.ends.size() > most) return {};
-  for (const double end : steps.ends)
-    steps.scores.push_back(end < 1 ? inverse(Normal{}, tails_of_uniform(end)) : 0);
-  return steps;
+/// The distribution function's tails at each value but the last, of equal values at the last of them. Of a law with many
+/// values, neighbours that together weigh little are one step: only great steps matter for (1).
+std::vector<Tails> steps_of(const StepLaw& law) {
+  constexpr std::size_t many = 200;
+  constexpr double little = 1.0 / many; // changes V by at most a 40,000th
+  std::vector<Tails> ends;
+  double begin = 0; // of the last step
+  for (std::size_t k = 0; k < law.values.size(); ++k) {
+    if (k + 1 < law.values.size() && law.values[k + 1] == law.values[k]) continue;
+    const Tails end{law.below[k], law.above[k]};
+    if (law.values.size() > many && !ends.empty() && end.below - begin <= little) {
+      ends.back() = end;
+      continue;
+    }
+    begin = ends.empty() ? 0 : ends.back().below;
+    ends.push_back(end);
+  }
+  ends.pop_back();
+  return ends;
 }
 
-TieSteps steps_of(const Distribution& distribution) {
+MidRank mid_rank(const StepLaw& law) {
+  const std::vector<Tails> ends = steps_of(law);
+  MidRank rank;
+  double cubes = 0, begin = 0;
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const double after = k + 1 < ends.size() ? ends[k].above - ends[k + 1].above : ends[k].above;
+    const double weight = ends[k].below - begin;
+    rank.jumps.push_back({inverse(Normal{}, ends[k]), (weight + after) / 2});
+    cubes += std::pow(weight, 3);
+    begin = ends[k].below;
+  }
+  cubes += std::pow(ends.empty() ? 1 : ends.back().above, 3);
+  rank.variance = (1 - cubes) / 12;
+  return rank;
+}
+
+MidRank mid_rank(const Distribution& distribution) {
   return std::visit(
-      []<class L>(const L& law) -> TieSteps {
+      []<class L>(const L& law) -> MidRank {
         if constexpr (std::is_same_v<L, Discrete> || std::is_same_v<L, Empirical> ||
                       std::is_same_v<L, Constant>)
-          return steps_of(step_law(law));
+          return mid_rank(step_law(law));
         else
           return {};
       },
       distribution.law);
 }
 
+/// (3). @pre |r| ≤ 1
+double covariance_of_steps(double s, double t, double r) {
+  const auto density = [&](double angle) {
+    const double sine = std::sin(angle), cosine = std::cos(angle);
+    return std::exp(-(s * s + t * t - 2 * s * t * sine) / (2 * cosine * cosine));
+  };
+  return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(density, 0.0, std::asin(r),
+                                                                       8, 1e-5) /
+         (2 * std::numbers::pi);
+}
+
+/// Of a law with jumps and a continuous one: (2).
+double covariance(const MidRank& stepped, double r) {
+  double sum = 0;
+  for (const auto& [score, height] : stepped.jumps)
+    sum += height * boost::math::owens_t(score, r / std::sqrt(2 - r * r), MathPolicy());
+  return sum;
+}
+
+double covariance(const MidRank& first, const MidRank& second, double r) {
+  double sum = 0;
+  for (const auto& [s, w] : first.jumps)
+    for (const auto& [t, v] : second.jumps) sum += w * v * covariance_of_steps(s, t, r);
+  return sum;
+}
+
 } // namespace
 
 double reached_correlation(const Distribution& first, const Distribution& second, double spearman) {
-  constexpr int points = 400; // of the middle rule; heuristic
-  const TieSteps one = steps_of(first), other = steps_of(second);
-  const double scale = std::sqrt(one.variance() * other.variance());
+  const MidRank one = mid_rank(first), other = mid_rank(second);
+  const double scale = std::sqrt(one.variance * other.variance);
   if (!(scale > 0)) return 0;
+  if (one.jumps.empty() && other.jumps.empty()) return spearman;
   const double r = normal_correlation(spearman);
-  double sum = 0;
-  const std::size_t parts = std::max<std::size_t>(other.ends.size(), 1);
-  for (std::size_t k = 0; k < parts; ++k) {
-    const double from = other.empty() ? 0 : other.begin(k), to = other.empty() ? 1 : other.ends[k];
-    const int count = std::max(8, static_cast<int>(points * (to - from)));
-    for (int i = 0; i < count; ++i) {
-      const double u = from + (to - from) * (i + 0.5) / count;
-      const double rank = other.empty() ? u : other.middle(k);
-      sum += (to - from) / count * rank * one.mean_rank(r, inverse(Normal{}, tails_of_uniform(u)));
-    }
-  }
-  return (sum - 0.25) / scale;
+  if (one.jumps.empty()) return covariance(other, r) / scale;
+  if (other.jumps.empty()) return covariance(one, r) / scale;
+  return covariance(one, other, r) / scale;
 }
 
 } // namespace wingspread

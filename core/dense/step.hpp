@@ -43,14 +43,7 @@ template <class T> struct Step {
     return derivative(way(k, freedoms), h);
   }
 
-  /// Component k of the state at t + s·h by cubic Hermite interpolation, for the states of smoothed latches.
-  [[nodiscard]] T cubic(int k, const T& s) const {
-    const T r = T(1) - s;
-    return r * r * (x[k] * fused(T(2), s, T(1)) + s * h * dxdt[k]) +
-           s * s * (x1[k] * fused(T(2), r, T(1)) - r * h * dxdt1[k]);
-  }
-
-  /// The whole state at t + s·h: `coordinate` and `rate`.
+  /// Angles and rates at t + s·h: `coordinate` and `rate`. The states of smoothed latches: latch_states.hpp.
   void interpolate(const Layout& at, const T& s, State<T>& out) const {
     const int n = at.freedoms();
     for (int k = 0; k < n; ++k) {
@@ -67,8 +60,6 @@ template <class T> struct Step {
       out[k] = fused(s, fused(s, fused(s, tail, T(0.5) * a), v), x[k]);
       out[k + n] = fused(s / h, fused(s, slope, a), x[k + n]);
     }
-    if (at.smoothed)
-      for (int i = 1; i <= at.bodies; ++i) out[at.latch(i)] = cubic(at.latch(i), s);
   }
 
 private:

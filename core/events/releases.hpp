@@ -28,7 +28,7 @@ public:
         if (is_due_at_start(i)) due_[i] = terms(i).time + terms(i).delay;
     for (int i = 1; i < size(); ++i) {
       const ReleaseTerms<T>& hold = terms(i);
-      if (!hold.present || !(due_[i] > T(0))) continue;
+      if (!hold.present || !(due_[i] > reached_at(T(0)))) continue;
       if (hold.is_elastic)
         system_.restrain(i, true);
       else
@@ -62,7 +62,7 @@ public:
   /// The hinge that moves, for the hold of hinge i.
   [[nodiscard]] int seen_by(int i) const { return terms(i).after; }
 
-  /// Lets go the holds that are due at the start of a step. @param due the hinge whose hold sees its angle; 0: none
+  /// Lets go the holds that are due at the start of a step, by reached_at. @param due the hinge whose hold sees its angle; 0: none
   /// @param record  of all latches so far; releases are appended
   /// @return whether any hold let go
   bool release_due(int due, const Step<T>& step, LatchRecord& record) {
@@ -73,7 +73,7 @@ public:
       for (int i = 1; i < size(); ++i) {
         if (!is_held(i)) continue;
         schedule(i, due, step, record);
-        if (!(due_[i] <= step.t)) continue;
+        if (!(due_[i] <= reached_at(step.t))) continue;
         if (system_.is_restrained(i))
           system_.restrain(i, false);
         else
@@ -142,7 +142,7 @@ private:
     const ReleaseTerms<T>& hold = terms(i);
     if (!hold.present || hold.fails != T(0)) return false;
     return hold.event == Release::Event::time ||
-           (hold.event == Release::Event::released && !(due_[hold.after] > T(0)));
+           (hold.event == Release::Event::released && !(due_[hold.after] > reached_at(T(0))));
   }
   /// Whether the hold of hinge i, which is held, never lets go. If what it waits for does not happen while that hinge is
   /// held, that hinge's hold decides.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/dense/curved_search.hpp"
-#include "core/dense/step.hpp"
+#include "core/dense/latch_states.hpp"
 #include "core/events/standstill.hpp"
 #include "core/events/stuck_load.hpp"
 #include "core/mechanics/system.hpp"
@@ -100,7 +100,7 @@ public:
       const T limit = system.static_limit(step.x, i);
       if (!system.is_locked(i) || !may_exceed(i, limit)) continue;
       const auto excess_at = [&](const T& s) {
-        step.interpolate(system.layout(), s, x);
+        interpolate(system, step, s, x);
         system(x, dxdt, step.t + s * step.h);
         return excess(system, x, i);
       };

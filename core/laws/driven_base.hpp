@@ -22,6 +22,12 @@ namespace wingspread {
 
 inline constexpr double never = 1e300; ///< s
 
+/// The latest time that counts as reached at t, s: no step is short enough to end there. Knots, releases and the end of a
+/// run all go by it, so that those a rounding apart (0.1 s + 0.2 s is not 0.3 s) come at once.
+template <class T> [[nodiscard]] T reached_at(const T& t) {
+  return t + larger(T(T(8 * epsilon_of<T>) * t), T(1e-12));
+}
+
 template <class T> struct DrivenPiece {
   int number;                     ///< of the table's pieces
   T from;                         ///< s
@@ -159,13 +165,11 @@ template <class T> [[nodiscard]] DrivenPiece<T> driven_piece(const BaseTerms<T>&
   return piece;
 }
 
-/// Index of the piece that holds t. A knot counts as reached if no step is short enough to end at it.
+/// Index of the piece that holds t, by reached_at.
 /// @param before index of an earlier time's piece, where the search starts
 template <class T>
 [[nodiscard]] int number_of_piece(const BaseTable& table, const T& t, int before = 0) {
-  const T epsilon =
-      std::numeric_limits<T>::epsilon(); // not constexpr: a quad's is computed at run time
-  const T reached = t + larger(T(T(8) * epsilon * t), T(1e-12));
+  const T reached = reached_at(t);
   int k = before;
   while (k + 1 < std::ssize(table.pieces()) && T(table.pieces()[k + 1].from) <= reached) ++k;
   return k;

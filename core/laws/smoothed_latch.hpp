@@ -29,6 +29,15 @@ template <class T>
   return smooth_step(hinge.sense * (angle - hinge.latched) / epsilon);
 }
 
+/// ḟ = S̈, 1/s.
+template <class T>
+[[nodiscard]] T engagement_acceleration(const HingeTerms<T>& hinge, const T& angle, const T& rate,
+                                        const T& epsilon) {
+  const T u = hinge.sense * (angle - hinge.latched) / epsilon;
+  const T v = smaller(larger(u, T(0)), T(1));
+  return T(6) * v * (T(1) - v) * hinge.sense * rate / epsilon;
+}
+
 /// d + k c |y|: the damping at full weight, N·m·s/rad.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T smoothed_latch_damping(const HingeTerms<T>& hinge,

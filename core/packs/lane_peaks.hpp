@@ -254,7 +254,7 @@ private:
     constexpr auto& places = StepInterpolant<P>::first_places;
     for (std::size_t k = 0; k < places.size(); ++k) {
       const P s(places[k]);
-      step.interpolate(system.layout(), s, x_);
+      interpolate(system, step, s, x_);
       system(x_, dxdt_, step.t + s * step.h);
       for (LockedLoad& load : locked_)
         load.inside[k] = abs(load.of_hold ? system.locking_moment(x_, load.hinge)
@@ -302,7 +302,7 @@ private:
     if (!samples_made_) sampled_ = P(0.0);
     samples_made_ = true;
     const P s = P(static_cast<double>(k)) / P(4.0);
-    step.interpolate(system.layout(), s, x_);
+    interpolate(system, step, s, x_);
     system(x_, dxdt_, step.t + s * step.h);
     samples_.keep(system, k);
     sampled_ = sampled_ + select(open, P(1.0), P(0.0));

@@ -1,7 +1,7 @@
 /// The largest reaction force of every hinge, inside steps as well as at their ends.
 #pragma once
 
-#include "core/dense/step.hpp"
+#include "core/dense/latch_states.hpp"
 #include "core/number/planar.hpp"
 #include "core/peaks/force_samples.hpp"
 #include "core/peaks/maximum.hpp"
@@ -108,7 +108,7 @@ private:
 
   static void evaluate(AnySystem& system, const Step<T>& step, const T& s, State<T>& x,
                        State<T>& dxdt) {
-    step.interpolate(system.layout(), s, x);
+    interpolate(system, step, s, x);
     system(x, dxdt, step.t + s * step.h);
   }
 

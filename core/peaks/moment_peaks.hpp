@@ -8,7 +8,7 @@
 /// All ranges and changes come from core/laws.
 #pragma once
 
-#include "core/dense/step.hpp"
+#include "core/dense/latch_states.hpp"
 #include "core/dense/step_interpolant.hpp"
 #include "core/events/stuck_load.hpp"
 #include "core/mechanics/system.hpp"
@@ -25,8 +25,8 @@ template <class T, class AnySystem> class MomentOverStep {
 public:
   MomentOverStep(const AnySystem& system, const Step<T>& step, int i)
       : system_(system), hinge_(system.wing().hinges[i]), step_(step), i_(i),
-        latch_state_(system.layout().latch(i)), epsilon_(system.epsilon()),
-        smoothed_(system.layout().smoothed && hinge_.has_latch) {
+        epsilon_(system.epsilon()), smoothed_(system.layout().smoothed && hinge_.has_latch) {
+    if (smoothed_) latch_state_ = latch_state(system, step, i);
     own_.angle = angle_of(i);
     own_.rate = depends_on_rate() ? rate_of(i) : Quintic<T>{};
     linear_ = linear_moment(system.work().laws[i], own_.angle, own_.rate);
@@ -90,7 +90,7 @@ public:
       m = m + regularized_friction_moment(hinge_, value(own_.rate, s));
     if (smoothed_)
       m = m + smoothed_latch_moment(hinge_, value(own_.angle, s), value(own_.rate, s),
-                                    step_.cubic(latch_state_, s), epsilon_);
+                                    value(latch_state_, s), epsilon_);
     if (!system_.wing().is_real()) return m;
     if (!system_.wing().real.empty())
       m = m + system_.moment_of_laws(i_, value(own_.angle, s), value(own_.rate, s));
@@ -155,7 +155,7 @@ private:
   const HingeTerms<T>& hinge_;
   const Step<T>& step_;
   int i_;
-  int latch_state_;
+  Quintic<T> latch_state_; ///< if smoothed
   T epsilon_;
   bool smoothed_;
   Path own_;                            ///< its rate only where depends_on_rate

@@ -70,7 +70,7 @@ public:
       if (run_.system.work().locked > 0 && !run_.goal.sample_motion_only)
         run_.evaluate_at(s); // moments on stuck hinges follow from accelerations
       else if (!(s < T(1) && by_method(s)))
-        step.interpolate(run_.at, s, run_.x);
+        interpolate(run_.system, step, s, run_.x);
       show(run_.x, T(t));
     }
     run_.system.writable_workspace().evaluations = evaluations;

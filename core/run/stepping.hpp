@@ -265,7 +265,8 @@ public:
                    [&](auto& stepper) { stepper.accepted(verdict_, static_cast<double>(step.h)); });
     const T end = end_of_stretch();
     step.t = last_ && !at_event ? end : T(step.t + step.h);
-    if (end - step.t <= T(8 * epsilon_of<T>) * step.t) step.t = end;
+    for (const T& next : {end, T(run_.how.t_end)})
+      if (next <= reached_at(step.t)) step.t = larger(step.t, next);
     std::swap(step.x, step.x1);
     std::swap(step.dxdt, step.dxdt1);
   }

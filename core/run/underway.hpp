@@ -1,7 +1,7 @@
 /// The data that all parts of a run share: the wing, the goal, and the step under way.
 #pragma once
 
-#include "core/dense/step.hpp"
+#include "core/dense/latch_states.hpp"
 #include "core/mechanics/system.hpp"
 #include "core/outcome.hpp"
 
@@ -19,7 +19,7 @@ template <class T, class AnySystem> struct Underway {
 
   /// Evaluates at the fraction s of the step, by dense output. @return the state there
   const State<T>& evaluate_at(const T& s) {
-    step.interpolate(at, s, x);
+    interpolate(system, step, s, x);
     system(x, dxdt, step.t + s * step.h);
     return x;
   }

@@ -136,7 +136,9 @@ private:
             {"confirmation",
              {{"seed", report_.result.confirmation_seed},
               {"passes", is_confirmed(search_)},
-              {"joint_confidence", confirmation_confidence(report_.campaign, report_.result)},
+              {"joint_confidence", is_confirmed(search_) ? Json(confirmation_confidence(
+                                                               report_.campaign, report_.result))
+                                                         : Json()},
               {"verdicts", verdicts(*search_.confirmation)}}}};
   }
 
@@ -195,13 +197,14 @@ Json definitions() {
       {"strain", "of the requirement that is worst off: runs that break it over n (1 - p)"},
       {"given_up",
        "against the present springs (scale 1): requirements that more runs break or whose "
-       "observed value is nearer to its limit, and static margins that are lower"},
+       "quantile over the runs with a value is nearer to its limit, and static margins that are "
+       "lower"},
       {"passed_over",
        "a scale of less strain that is not advised: static margins would be negative"},
       {"joint_confidence",
        "at least this for all requirements in all cases together, each verdict's "
        "own being its requirement's: 1 - the sum of (1 - c), of a window over both "
-       "of its edges"},
+       "of its edges; null of a confirmation that failed"},
       {"runs",
        "go as far as the requirements need: where none is about a peak they end at the last "
        "latch, so that one which fails after it counts as deployed here and as failed in "

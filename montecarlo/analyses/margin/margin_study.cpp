@@ -97,15 +97,21 @@ std::vector<MarginSearch> searches_of(const MarginSpec& spec, const Scene& scene
   return searches;
 }
 
-/// The required quantile over the runs with the output; NaN if no column has the output.
+/// The required quantile over the runs with the output, by the order statistic of a verdict's observed value; NaN if no run
+/// has the output.
 double quantile_over_runs(const Requirement& requirement, const Results& results) {
   const auto column = std::ranges::find(results.outputs, requirement.output, &Column::name);
   std::vector<double> values;
   if (column != results.outputs.end())
     for (const double value : column->values)
       if (!std::isnan(value)) values.push_back(requirement.absolute ? std::abs(value) : value);
-  std::ranges::sort(values);
-  return quantile(values, requirement.min ? 1 - requirement.probability : requirement.probability);
+  if (values.empty()) return std::nan("");
+  if (requirement.min) // the same order statistic, counted from the largest
+    std::ranges::sort(values, std::greater());
+  else
+    std::ranges::sort(values);
+  const long rank = quantile_rank(std::ssize(values), requirement.probability);
+  return values[static_cast<std::size_t>(rank - 1)];
 }
 
 /// Statuses, verdicts and quantiles of a case's runs at one scale.

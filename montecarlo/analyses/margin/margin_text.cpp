@@ -104,11 +104,13 @@ private:
   [[nodiscard]] std::string unseen(const Window& window) const {
     const auto [lower, upper] = widest_gap(search_, window);
     if (!(upper > lower)) return "";
+    const double apart = 100 * (upper / lower - 1); // %
     return paragraph(
         fmt::format("nothing was run between neighbouring scales of the window, up to "
-                    "{:.2g} % apart ({} and {}): what fails only there is not seen. More "
+                    "{} % apart ({} and {}): what fails only there is not seen. More "
                     "\"points\" bring them closer",
-                    100 * (upper / lower - 1), lower, upper),
+                    apart < 10 ? fmt::format("{:.2g}", apart) : fmt::format("{:.0f}", apart), lower,
+                    upper),
         2);
   }
 

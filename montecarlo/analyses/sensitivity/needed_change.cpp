@@ -104,7 +104,7 @@ private:
   };
 
   [[nodiscard]] long share_of(long runs) const {
-    return static_cast<long>((1 - verdict_.requirement.probability) * static_cast<double>(runs));
+    return runs > 0 ? runs - quantile_rank(runs, verdict_.requirement.probability) : 0;
   }
   /// (4): most of these runs that may break so that a new campaign passes with this probability; −1 if none may.
   [[nodiscard]] long seen_at(double probability) const {
@@ -302,9 +302,7 @@ private:
     NeededChange found;
     const double base = moved.scaled ? 1 : 0, tried = t.far.value_or(*t.edge);
     count_beyond(moved, tried, found);
-    found.known = t.far && static_cast<double>(found.beyond_undeployed) <=
-                               (1 - verdict_.requirement.probability) *
-                                   static_cast<double>(found.beyond_runs);
+    found.known = t.far && found.beyond_undeployed <= share_of(found.beyond_runs);
     found.edge = base + *t.edge;
     found.change = found.known ? base + *t.far : found.edge;
     std::optional<double> near = base + *t.near, far;

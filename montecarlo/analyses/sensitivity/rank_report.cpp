@@ -5,6 +5,7 @@
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/statistics/jackknife.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
+#include "montecarlo/results/summary/summary_json.hpp"
 
 #include <fmt/format.h>
 
@@ -21,17 +22,13 @@ std::string bounds_definition(const RankSensitivity& all) {
     return fmt::format(
         "jackknife over {} independent replicates, Fisher's z, Student's t, two-sided",
         all.replicates);
-  std::string text = fmt::format(
+  return fmt::format(
       "spearman: Fisher's z, variance (1 + r^2/2)/(n - 3) or that of the rows' influences on r, "
       "the "
       "larger; prcc: corrected "
       "for the bias of ranks, jackknife over {} parts of the runs, Fisher's z, Student's "
-      "t; two-sided",
-      jackknife_groups);
-  if (all.interim.count() > 1)
-    text += fmt::format(", at a confidence of {:.10g} each, to hold at all of {} analyses",
-                        all.interim.confidence_of_bound(all.confidence), all.interim.count());
-  return text;
+      "t; two-sided{}",
+      jackknife_groups, over_interim_analyses(all.interim, all.confidence));
 }
 
 std::string too_few_runs(const RankSensitivity& all) {

@@ -39,7 +39,8 @@ struct OutputRanks {
 
 struct RankSensitivity {
   long runs = 0;
-  double confidence = 0.95;  ///< of all bounds, over all interim analyses
+  double confidence =
+      0.95; ///< of the campaign: of a bound over all planned analyses, or over all extensions
   InterimAnalyses interim{}; ///< which share the risk of every bound
   int replicates = 0;        ///< replicates behind the bounds; 0: independent draws
   std::vector<std::string> dispersions;

@@ -5,6 +5,7 @@
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/report/data/output_json.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/results/results_folder/parts.hpp"
@@ -215,8 +216,8 @@ Json changes_json(const PageSource& source, const Verdict& verdict) {
   if (verdict.decision != Decision::fail || !source.has_rows() || requirement.static_margin)
     return blocks;
   const BrokenRuns broken = broken_runs(verdict, source.results, 0);
-  const long may = verdict.allowed.value_or(
-      static_cast<long>((1 - requirement.probability) * static_cast<double>(verdict.runs)));
+  const long may =
+      verdict.allowed.value_or(verdict.runs - quantile_rank(verdict.runs, requirement.probability));
   if (broken.not_deployed > may)
     blocks.push_back(block_json(source, verdict, NeededFor::deployment));
   if (broken.beyond > 0) blocks.push_back(block_json(source, verdict, NeededFor::limit));

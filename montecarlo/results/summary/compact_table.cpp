@@ -71,9 +71,20 @@ double quantile_of(const OutputSummary& output, std::size_t index) {
   return output.quantiles[index].all.value;
 }
 
+/// Whether a line in words says all of an output: it is quiet in each case, and a constant is the same in all.
+bool is_quiet_in_all(CompactCases cases, std::size_t output) {
+  const Moments& first = cases.front().summary.outputs[output].moments;
+  return std::ranges::all_of(cases, [&](const CaseSummary& each) {
+    const OutputSummary& found = each.summary.outputs[output];
+    const Moments& own = found.moments;
+    return is_quiet(found) && (found.name.ends_with(".overtravel") ||
+                               (own.count == 0 ? first.count == 0 : own.min == first.min));
+  });
+}
+
 /// The heading names the two quantiles.
 std::string compact_outputs(CompactCases all, CompactCases cases) {
-  const std::vector<OutputSummary>& outputs = cases.front().summary.outputs;
+  const auto& outputs = cases.front().summary.outputs;
   if (outputs.empty()) return "";
   const auto& quantiles = outputs.front().quantiles;
   const std::size_t last = quantiles.empty() ? 0 : quantiles.size() - 1;
@@ -88,8 +99,7 @@ std::string compact_outputs(CompactCases all, CompactCases cases) {
     const auto of = [i](const CaseSummary& each) -> const OutputSummary& {
       return each.summary.outputs[i];
     };
-    if (std::ranges::all_of(all, [&](const CaseSummary& each) { return is_quiet(of(each)); }))
-      continue;
+    if (is_quiet_in_all(all, i)) continue;
     text += compact_line(
         in_column("  " + outputs[i].name, compact_name_width) +
             std::string(parse_output_name(outputs[i].name).unit),
@@ -137,16 +147,14 @@ std::string described_quiet(const std::vector<std::pair<std::string, Reach>>& qu
   std::vector<std::string> hinges, constants;
   double largest = 0;
   for (const auto& [name, reach] : quiet) {
-    const OutputName parts = parse_output_name(name);
+    const auto parts = parse_output_name(name);
     if (parts.quantity == "overtravel") {
-      hinges.push_back(parts.hinge);
-      if (!std::isnan(reach.most)) largest = std::max(largest, reach.most);
+      hinges.push_back(parts.hinge), largest = std::fmax(largest, reach.most);
     } else if (std::isnan(reach.most)) {
       constants.push_back(name + " has no value");
     } else {
-      const std::string unit = parts.unit;
       constants.push_back(
-          fmt::format("{} = {:.5g}{}{}", name, reach.most, unit.empty() ? "" : " ", unit));
+          fmt::format("{} = {:.5g}{}{}", name, reach.most, *parts.unit ? " " : "", parts.unit));
     }
   }
   std::string text;
@@ -308,13 +316,10 @@ bool is_quiet(const OutputSummary& output) {
 std::string quiet_outputs(std::span<const CaseSummary> cases) {
   std::vector<std::pair<std::string, Reach>> quiet;
   for (std::size_t i = 0; i < cases.front().summary.outputs.size(); ++i) {
+    if (!is_quiet_in_all(cases, i)) continue;
     Reach reach;
-    bool all = true;
-    for (const CaseSummary& each : cases) {
-      all = all && is_quiet(each.summary.outputs[i]);
-      reach.add(each.summary.outputs[i]);
-    }
-    if (all) quiet.emplace_back(cases.front().summary.outputs[i].name, reach);
+    for (const CaseSummary& each : cases) reach.add(each.summary.outputs[i]);
+    quiet.emplace_back(cases.front().summary.outputs[i].name, reach);
   }
   return described_quiet(quiet);
 }
@@ -322,7 +327,7 @@ std::string quiet_outputs(std::span<const CaseSummary> cases) {
 std::string quiet_outputs(const std::vector<OutputSummary>& outputs) {
   std::vector<std::pair<std::string, Reach>> quiet;
   for (const OutputSummary& output : outputs)
-    if (is_quiet(output)) quiet.emplace_back(output.name, Reach()), quiet.back().second.add(output);
+    if (is_quiet(output)) quiet.push_back({output.name, Reach()}), quiet.back().second.add(output);
   return described_quiet(quiet);
 }
 

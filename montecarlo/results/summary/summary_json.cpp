@@ -17,23 +17,10 @@
 namespace wingspread {
 namespace {
 
-/// A note on how the confidence is shared among interim analyses; empty if there is only one.
-std::string over_interim_analyses(const Summary& summary) {
-  const InterimAnalyses& interim = summary.interim;
-  if (interim.count() == 1) return "";
-  const double confidence = summary.confidence_of_bound();
-  if (!interim.before.empty())
-    return fmt::format(", at a confidence of {:.10g}: of analysis {} of the same draws, the bounds "
-                       "of all extensions hold together at {:.10g}",
-                       confidence, interim.count(), summary.confidence);
-  return fmt::format(", at a confidence of {:.10g} each, to hold at whichever of {} analyses the "
-                     "campaign stops",
-                     confidence, interim.count());
-}
-
 /// The definitions of bounds, for independent draws and for replicates.
 std::string source_of(const Summary& summary, const char* independent, const char* replicated) {
-  if (summary.replicates == 0) return independent + over_interim_analyses(summary);
+  if (summary.replicates == 0)
+    return independent + over_interim_analyses(summary.interim, summary.confidence);
   if (summary.replicates == 1) return std::string(one_replicate);
   return fmt::format("{} {} independent replicates", replicated, summary.replicates);
 }
@@ -309,6 +296,18 @@ Json share_json(const Summary& summary, std::size_t found) {
 }
 
 } // namespace
+
+std::string over_interim_analyses(const InterimAnalyses& interim, double confidence) {
+  if (interim.count() == 1) return "";
+  const double of_bound = interim.confidence_of_bound(confidence);
+  if (!interim.before.empty())
+    return fmt::format(", at a confidence of {:.10g}: of analysis {} of the same draws, the bounds "
+                       "of all extensions hold together at {:.10g}",
+                       of_bound, interim.count(), confidence);
+  return fmt::format(", at a confidence of {:.10g} each, to hold at whichever of {} analyses the "
+                     "campaign stops",
+                     of_bound, interim.count());
+}
 
 Json accuracy_json(const Summary& summary) {
   if (!summary.accuracy) return nullptr;

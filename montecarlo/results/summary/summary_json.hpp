@@ -20,6 +20,10 @@ inline constexpr std::size_t most_broken = 1000;
 /// @param about campaign and program: the value of "wingspread"
 [[nodiscard]] Json summary_json(const Summary& summary, const Json& about);
 
+/// What a definition of bounds adds where several analyses share the risk: ", at a confidence of 0.975: of analysis 2 …"; or
+/// empty. @param confidence of the campaign
+[[nodiscard]] std::string over_interim_analyses(const InterimAnalyses& interim, double confidence);
+
 /// The value of summary.json's key `accuracy`; null if not measured.
 [[nodiscard]] Json accuracy_json(const Summary& summary);
 

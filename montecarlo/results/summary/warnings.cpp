@@ -113,6 +113,14 @@ std::string cases_text(const SharedWarning& warning, const std::vector<std::size
   return fmt::format("{}{}", every ? "every case: " : "", fmt::join(each, ", "));
 }
 
+/// The requirement with which a warning begins; or empty.
+std::string requirement_of(std::string_view text, const Summary& summary) {
+  for (const Verdict& verdict : summary.requirements)
+    if (std::string name = to_string(verdict.requirement) + ": "; text.starts_with(name))
+      return name;
+  return "";
+}
+
 std::string to_string(const SharedWarning& warning, std::size_t cases) {
   std::string text = warning.words.front();
   std::vector<std::size_t> differing;
@@ -163,8 +171,13 @@ std::vector<std::string> warnings(std::span<const CaseSummary> cases) {
   std::vector<SharedWarning> found;
   for (const CaseSummary& each : cases)
     for (const std::string& text : warnings(each.summary)) {
-      ReasonPattern pattern = pattern_of(text);
-      auto known = std::ranges::find(found, pattern.words, &SharedWarning::words);
+      // The numbers of a requirement say which one it is: cases share the warnings of the same requirement alone.
+      const std::string named = requirement_of(text, each.summary);
+      ReasonPattern pattern = pattern_of(std::string_view(text).substr(named.size()));
+      pattern.words.front().insert(0, named);
+      auto known = std::ranges::find_if(found, [&](const SharedWarning& other) {
+        return other.words == pattern.words && other.cases.back() != each.name;
+      });
       if (known == found.end())
         known = found.insert(found.end(), {std::move(pattern.words), {}, {}});
       known->cases.push_back(each.name);

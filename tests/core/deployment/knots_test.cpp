@@ -2,6 +2,7 @@
 #include "tests/core/deployment/real_runs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -71,4 +72,57 @@ TEST_CASE("two knots close together cost two steps: the next one is as long as t
       CHECK(out.work.steps <= without.work.steps + 2 * pairs);
       CHECK(std::abs(out.final.angles[0] - without.final.angles[0]) < 1e-7);
     }
+}
+
+namespace {
+
+enum class Instant { base_knot, motor_knot, release, other_release, end };
+
+/// Lets something happen at t: the base or the root's motor passes a knot, a hold lets go, the run ends.
+void let_happen(Instant what, double t, Scene& scene, Integration& how) {
+  if (what == Instant::base_knot) {
+    BaseTable::Columns columns{{0, t, 5}, {}, {}, {}};
+    columns.rate = {0, 0.02, 0.02};
+    scene.base.motion = BaseMotion::prescribed;
+    scene.base.table = std::make_shared<const BaseTable>(columns, Interpolation::linear);
+  } else if (what == Instant::motor_knot) {
+    Motor motor{.time = {0, t, 5}, .rates = {0, 0.3, 0.3}, .interpolation = Interpolation::linear};
+    motor.table = std::make_shared<Curve>(motor.time, motor.rates, motor.interpolation);
+    motor.gain = 2, motor.torque_limit = 1e3;
+    scene.hinges[0].motor = motor;
+  } else if (what == Instant::end) {
+    how.t_end = t;
+  } else {
+    scene.hinges[what == Instant::release ? 1 : 2].release =
+        Release{.time = t / 3, .delay = t - t / 3};
+  }
+}
+
+} // namespace
+
+TEST_CASE("instants a rounding apart come at once, whatever happens at them") {
+  const std::vector<Instant> all{Instant::base_knot, Instant::motor_knot, Instant::release,
+                                 Instant::other_release, Instant::end};
+  for (const double at : {0.3, 1e-3, 700.0})
+    for (const Instant first : all)
+      for (const Instant second : all) {
+        if (first == second) continue;
+        const auto outcome = [&](double then) {
+          Scene scene = seed_scene();
+          Integration how = within(1e-9, at + 2);
+          let_happen(first, at, scene, how);
+          let_happen(second, then, scene, how);
+          return Deployment().run(scene, how, to_the_end);
+        };
+        const Outcome expected = outcome(at);
+        const double one_on = std::nextafter(at, 1e3);
+        for (const double then : {one_on, std::nextafter(one_on, 1e3), at + 4e-13}) {
+          const Outcome out = outcome(then);
+          CAPTURE(at, then - at, static_cast<int>(first), static_cast<int>(second), out.reason);
+          REQUIRE(out.status != Status::failed);
+          CHECK(out.releases.size() == expected.releases.size());
+          for (std::size_t k = 0; k < out.final.angles.size(); ++k)
+            CHECK(std::abs(out.final.angles[k] - expected.final.angles[k]) < 1e-6);
+        }
+      }
 }

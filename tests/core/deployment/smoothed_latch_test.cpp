@@ -4,6 +4,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 using namespace wingspread;
 using namespace wingspread::oracle;
 
@@ -97,4 +101,31 @@ TEST_CASE("a run with smoothed latches is refused where a latch needs its event,
     CHECK(out.status == Status::failed);
     CHECK(out.reason == needs_event_latches);
   }
+}
+
+TEST_CASE("the trajectory inside long steps has the moments of smoothed latches") {
+  Goal goal = to_the_end;
+  goal.sample_interval = 2e-3;
+  const auto moments = [&](const char* method, double rtol) {
+    Integration how = within(rtol, 6.3, 1e-4);
+    how.method = method, how.smoothing = 0.02;
+    std::vector<double> found;
+    const Outcome out = Deployment().run(seed_scene(), how, goal, [&](const Sample& sample) {
+      found.insert(found.end(), sample.moments.begin(), sample.moments.end());
+    });
+    REQUIRE(out.status != Status::failed);
+    return found;
+  };
+  const std::vector<double> exact = moments("dopri5", 1e-13);
+  const double size =
+      std::abs(*std::ranges::max_element(exact, {}, [](double m) { return std::abs(m); }));
+  for (const char* method : {"auto", "dop853", "bulirsch_stoer", "fehlberg78", "seulex"})
+    for (const double rtol : {1e-7, 1e-10}) {
+      const std::vector<double> found = moments(method, rtol);
+      REQUIRE(found.size() == exact.size());
+      double worst = 0;
+      for (std::size_t k = 0; k < found.size(); ++k)
+        worst = std::max(worst, std::abs(found[k] - exact[k]) / size);
+      CHECK(worst < 3e-5);
+    }
 }

@@ -21,6 +21,21 @@ TEST_CASE("a smoothed latch engages over its widths") {
   CHECK(smoothed_latch_moment(h, -0.02, -0.3, 0.02, epsilon) == Approx(full));
 }
 
+TEST_CASE("a smoothed latch's engagement quickens as its rate changes") {
+  Draws draws(4);
+  for (int k = 0; k < 100; ++k) {
+    HingeTerms<double> h{};
+    h.latched = draws.uniform(-1, 1), h.sense = draws.sign();
+    const double epsilon = draws.log_uniform(1e-4, 1e-1), rate = draws.uniform(-2, 2), d = 1e-7;
+    const double angle = h.latched + h.sense * epsilon * draws.uniform(-0.2, 1.2);
+    const auto after = [&](double t) { return engagement_rate(h, angle + rate * t, epsilon); };
+    CHECK(engagement_acceleration(h, angle, rate, epsilon) ==
+          Approx((after(d) - after(-d)) / (2 * d))
+              .epsilon(1e-4)
+              .margin(1e-4 * std::abs(rate) / epsilon));
+  }
+}
+
 TEST_CASE("a smoothed latch never exceeds its full load over a step, whose energy's slope it is") {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Draws draws(seed);

@@ -222,6 +222,11 @@ TEST_CASE(
   CHECK(prints(text, "searched from 0.5 to 2, extended to 0.4 … 2 to find the edges"));
   CHECK(prints(text, "40 of 1000 runs break it, 12 allowed t_end cut the peak in 3 of them"));
   CHECK(prints(text, "up to 50 % apart (1 and 1.5)"));
+  MarginResult wide = made_up_window(campaign);
+  auto& seen = wide.searches[0].seen;
+  seen[3.5] = seen.at(1.5);
+  for (const double scale : {1.5, 1.75, 2.0}) seen.erase(scale);
+  CHECK(prints(margin_text({campaign, wide, {}}), "up to 250 % apart (1 and 3.5)"));
   search.seen.at(1.75)[0].verdicts[1].cut = 1;
   CHECK(prints(margin_text({campaign, result, {}}), "t_end cut the peak in 1 of them"));
   search.seen.at(1.75)[0].verdicts[1].cut = 0;
@@ -256,4 +261,18 @@ TEST_CASE(
   CHECK(scales_told(1) == std::vector<double>{1});
   CHECK(scales_told(1.5) == std::vector<double>{1, 1.5});
   CHECK(scales_told(2) == std::vector<double>{1, 2});
+}
+
+TEST_CASE("a confirmation that failed states no confidence", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(runs_of_window));
+  MarginResult result = made_up_window(campaign);
+  MarginSearch& search = result.searches[0];
+  for (const double of : {1.5, 1.75}) {
+    search.confirmation = search.seen.at(of);
+    const Json json = margin_json({campaign, result, {}}, Json::object());
+    const Json& said = json["searches"][0]["recommended"]["confirmation"];
+    CAPTURE(of, said.dump());
+    CHECK(said.at("passes") == (of == 1.5));
+    CHECK(said.at("joint_confidence").is_number() == (of == 1.5));
+  }
 }

@@ -106,6 +106,12 @@ TEST_CASE("the report says what its bounds are") {
   CHECK_THAT(definition(0, 1),
              Catch::Contains("variance (1 + r^2/2)/(n - 3)") && Catch::Contains("16 parts"));
   CHECK_THAT(definition(0, 5), Catch::Contains("0.99 each") && Catch::Contains(" 5 "));
+  RankSensitivity
+      extended; // of an extension: all extensions together, at the confidence that its bounds have
+  extended.interim.before = {100, 200};
+  CHECK_THAT(sensitivity_json(extended, {})["definitions"]["bounds"].get<std::string>(),
+             Catch::Contains("0.9916666667: of analysis 3") &&
+                 Catch::Contains("extensions hold together at 0.95"));
   CHECK_THAT(definition(8, 1), Catch::Contains("8 independent replicates"));
   CHECK(definition(1, 1) == one_replicate);
   RankSensitivity one;

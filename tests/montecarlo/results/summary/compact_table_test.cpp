@@ -51,6 +51,27 @@ TEST_CASE("cases have a line for each output, with its outermost quantiles, and 
         "statistic\n");
 }
 
+TEST_CASE(
+    "an output that is constant in each case, but not the same or not there in all, has its line") {
+  const auto made = [](const char* name, double peak) {
+    Results results(ResultNames{{}, {"root.latch_time", "root.peak_moment"}});
+    for (long run = 0; run < 20; ++run)
+      results.append({run, Status::deployed, {}, {5, peak}, "root", ""});
+    return CaseSummary{name, summarize(results, {})};
+  };
+  const auto table_with = [&](double peak) {
+    return compact_cases_table({made("soft", peak), made("stiff", 100)}, "title", "out");
+  };
+  CHECK_THAT(table_with(100),
+             Catch::Contains("every run: root.latch_time = 5 s, root.peak_moment = 100 N·m\n"));
+  for (const double peak : {50.0, std::nan("")}) {
+    const std::string table = table_with(peak);
+    CAPTURE(table);
+    CHECK_THAT(table, Catch::Contains("every run: root.latch_time = 5 s\n"));
+    CHECK_THAT(table, Catch::Contains("\n  root.peak_moment"));
+  }
+}
+
 TEST_CASE("a nominal wing that does not deploy has its case and its reason") {
   std::vector<CaseSummary> cases{compact_case("hot", 0), compact_case("cold", 4)};
   for (CaseSummary& each : cases) each.summary.nominal = NominalRun{Status::deployed, "root", ""};

@@ -132,6 +132,24 @@ TEST_CASE("a warning of several cases has the number of each") {
                                         Catch::EndsWith(" (every case)"));
 }
 
+TEST_CASE(
+    "two requirements that differ in their limit alone are warned of apart, each with its cases") {
+  const auto of_case = [](const std::string& name, const std::vector<double>& limits) {
+    CaseSummary made{name, summarize(four_runs(), {})};
+    for (const double limit : limits)
+      made.summary.requirements.push_back(
+          judge({"", "root.latch_rate", limit, {}, .5, .5}, four_runs()));
+    return made;
+  };
+  const std::vector<CaseSummary> cases{of_case("cold", {2}), of_case("hot", {1, 2}),
+                                       of_case("warm", {})};
+  const std::vector<std::string> found = warnings(cases);
+  REQUIRE(found.size() == 2);
+  CHECK_THAT(found[0],
+             Catch::StartsWith("root.latch_rate ≤ 2 rad/s") && Catch::EndsWith(" (cold, hot)"));
+  CHECK_THAT(found[1], Catch::StartsWith("root.latch_rate ≤ 1 rad/s") && Catch::EndsWith(" (hot)"));
+}
+
 TEST_CASE("a warning of several cases has the least and the largest number, of any length") {
   std::mt19937_64 random(2);
   for (int k = 0; k < 50; ++k) {
