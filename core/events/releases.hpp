@@ -28,7 +28,7 @@ public:
         if (is_due_at_start(i)) due_[i] = terms(i).time + terms(i).delay;
     for (int i = 1; i < size(); ++i) {
       const ReleaseTerms<T>& hold = terms(i);
-      if (!hold.present || !(due_[i] > reached_at(T(0)))) continue;
+      if (!hold.present || !(due_[i] > T(0))) continue;
       if (hold.is_elastic)
         system_.restrain(i, true);
       else
@@ -142,7 +142,7 @@ private:
     const ReleaseTerms<T>& hold = terms(i);
     if (!hold.present || hold.fails != T(0)) return false;
     return hold.event == Release::Event::time ||
-           (hold.event == Release::Event::released && !(due_[hold.after] > reached_at(T(0))));
+           (hold.event == Release::Event::released && !(due_[hold.after] > T(0)));
   }
   /// Whether the hold of hinge i, which is held, never lets go. If what it waits for does not happen while that hinge is
   /// held, that hinge's hold decides.

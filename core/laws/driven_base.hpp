@@ -22,10 +22,14 @@ namespace wingspread {
 
 inline constexpr double never = 1e300; ///< s
 
-/// The latest time that counts as reached at t, s: no step is short enough to end there. Knots, releases and the end of a
-/// run all go by it, so that those a rounding apart (0.1 s + 0.2 s is not 0.3 s) come at once.
+/// The latest release or end of the run that counts as reached at t, s: no step is short enough to end there. So what is a
+/// rounding apart (0.1 s + 0.2 s is not 0.3 s) comes at once.
 template <class T> [[nodiscard]] T reached_at(const T& t) {
-  return t + larger(T(T(8 * epsilon_of<T>) * t), T(1e-12));
+  return t + T(T(8 * epsilon_of<T>) * t);
+}
+/// The same of a table's knots, which are closer to each other in no wing.
+template <class T> [[nodiscard]] T knots_reached_at(const T& t) {
+  return larger(reached_at(t), T(t + T(1e-12)));
 }
 
 template <class T> struct DrivenPiece {
@@ -165,11 +169,11 @@ template <class T> [[nodiscard]] DrivenPiece<T> driven_piece(const BaseTerms<T>&
   return piece;
 }
 
-/// Index of the piece that holds t, by reached_at.
+/// Index of the piece that holds t, by knots_reached_at.
 /// @param before index of an earlier time's piece, where the search starts
 template <class T>
 [[nodiscard]] int number_of_piece(const BaseTable& table, const T& t, int before = 0) {
-  const T reached = reached_at(t);
+  const T reached = knots_reached_at(t);
   int k = before;
   while (k + 1 < std::ssize(table.pieces()) && T(table.pieces()[k + 1].from) <= reached) ++k;
   return k;

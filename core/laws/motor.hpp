@@ -68,11 +68,11 @@ template <class T> [[nodiscard]] MotorPiece<T> last_motor_piece(const MotorTerms
   return motor_piece(terms, T(0), terms.table ? static_cast<int>(terms.table->knots().size()) : 0);
 }
 
-/// Sets `piece` to the one at t, by reached_at.
+/// Sets `piece` to the one at t, by knots_reached_at.
 /// @return whether the piece changed
 template <class T> bool enter_piece(const MotorTerms<T>& terms, const T& t, MotorPiece<T>& piece) {
   const int before = piece.number;
-  const T reached = reached_at(t);
+  const T reached = knots_reached_at(t);
   while (piece.runs > T(0) && piece.until <= reached)
     piece = motor_piece(terms, T(piece.release), piece.number + 1);
   return piece.number != before;

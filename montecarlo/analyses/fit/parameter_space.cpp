@@ -4,6 +4,7 @@
 #include "distributions/prepared_distribution.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/model/campaign/distribution_json.hpp"
+#include "montecarlo/model/campaign/wanted_correlations.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,31 +18,29 @@ bool is_own(const FitTest& test, std::size_t dispersion) {
   return std::ranges::find(test.own, dispersion) != test.own.end();
 }
 
-/// Replaces `rows` in the campaign's JSON by a dispersion for each column, because other processes rebuild the campaign
-/// from this JSON.
-void without_rows(Campaign& campaign) {
-  const auto law_of = [&](const std::string& name) {
-    return write_distribution(
-        std::ranges::find(campaign.dispersions, name, &Dispersion::name)->distribution);
-  };
+/// Writes each dispersion as an entry of its own, with its law: other processes rebuild the campaign from this JSON, in which
+/// a column of rows and a copy of an `each` have no entry whose law could be changed.
+void write_one_by_one(Campaign& campaign) {
   Json list = Json::array();
-  for (const Json& entry : campaign.resolved.at("dispersions")) {
-    if (!entry.contains("rows")) {
-      list.push_back(entry);
-      continue;
+  for (const Dispersion& dispersion : campaign.dispersions) {
+    const Json& entry = campaign.resolved.at("dispersions").at(entry_of(campaign, dispersion));
+    const Json& effect =
+        entry.contains("rows") ? entry["rows"].at("columns").at(dispersion.name) : entry;
+    Json own{{"name", dispersion.name},
+             {"distribution", write_distribution(dispersion.distribution)}};
+    if (dispersion.through.empty()) {
+      own["to"] = paths_of(campaign.scene, dispersion.targets);
+      own["apply"] = apply_names[static_cast<std::size_t>(dispersion.apply)];
+    } else {
+      own["through"] = effect.at("through");
     }
-    const Json& rows = entry["rows"];
-    for (const auto& [name, effect] : rows.at("columns").items()) {
-      Json column = effect.is_object() ? effect : Json{{"to", effect}};
-      if (column["to"].is_string()) column["to"] = Json::array({column["to"]});
-      if (column["to"].is_null()) column.erase("to");
-      if (!column.contains("through") && !column.contains("apply")) column["apply"] = rows["apply"];
-      column["name"] = name;
-      column["distribution"] = law_of(name);
-      list.push_back(std::move(column));
-    }
+    list.push_back(std::move(own));
   }
   campaign.resolved["dispersions"] = std::move(list);
+  if (!campaign.resolved.contains("correlations")) return;
+  std::vector<RankCorrelation> coefficients = campaign.wanted_correlations;
+  for (RankCorrelation& each : coefficients) each.covariance.reset(); // it was of the laws before
+  campaign.resolved["correlations"] = write_wanted_correlations(coefficients, campaign.dispersions);
 }
 
 /// Number of tests that have a value of their own.
@@ -177,12 +176,8 @@ Campaign with_normal_laws(Campaign campaign, const std::vector<std::size_t>& hel
     const double median = PreparedDistribution(dispersion.distribution).quantile(0.5);
     dispersion.distribution = {Normal{median, std}, std::nullopt};
   }
+  write_one_by_one(campaign);
   for (Dispersion& dispersion : campaign.dispersions) dispersion.rows.clear();
-  without_rows(campaign);
-  for (Json& entry : campaign.resolved.at("dispersions"))
-    for (const std::size_t i : held)
-      if (entry.at("name") == campaign.dispersions[i].name)
-        entry["distribution"] = write_distribution(campaign.dispersions[i].distribution);
   return campaign;
 }
 
@@ -216,14 +211,14 @@ Campaign without_correlations(Campaign campaign) {
 }
 
 Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted) {
+  const auto is_fixed = [&](std::size_t i) { return std::ranges::find(fitted, i) == fitted.end(); };
   for (std::size_t i = 0; i < campaign.dispersions.size(); ++i) {
-    if (std::ranges::find(fitted, i) != fitted.end()) continue;
-    Dispersion& dispersion = campaign.dispersions[i];
-    const double median = PreparedDistribution(dispersion.distribution).quantile(0.5);
-    dispersion.distribution = {Constant{median}, std::nullopt};
-    dispersion.rows.clear(); // no longer a column of rows, but a dispersion that does not vary
+    Distribution& law = campaign.dispersions[i].distribution;
+    if (is_fixed(i)) law = {Constant{PreparedDistribution(law).quantile(0.5)}, std::nullopt};
   }
-  without_rows(campaign);
+  write_one_by_one(campaign);
+  for (std::size_t i = 0; i < campaign.dispersions.size(); ++i)
+    if (is_fixed(i)) campaign.dispersions[i].rows.clear(); // a dispersion that does not vary
   return campaign;
 }
 

@@ -1,7 +1,12 @@
 #include "montecarlo/analyses/fit/parameter_space.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/campaign/distribution_json.hpp"
+#include "montecarlo/model/schema/schema.hpp"
 #include "tests/montecarlo/analyses/fit/fit_support.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <numeric>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -57,4 +62,44 @@ TEST_CASE("offsets and own parameters are each test's own, whichever test has th
     CHECK(lies_at(u[0], named("spring")));
     CHECK(lies_at(u[1], named(t == 1 ? "friction" : "friction of " + test.name)));
   }
+}
+
+// The ranks of an MPI program rebuild a campaign from its JSON.
+TEST_CASE("campaigns with other laws say so in their JSON, whatever entry a draw comes from",
+          "[fit]") {
+  int entries = 0;
+  for (const Json& specimen : campaign_specimens()) {
+    const Campaign campaign = read_campaign(specimen.dump(), "");
+    std::vector<std::size_t> odd, all(campaign.dispersions.size());
+    std::iota(all.begin(), all.end(), 0);
+    for (const std::size_t i : all)
+      if (i % 2) odd.push_back(i);
+    for (const Campaign& changed :
+         {with_normal_laws(campaign, all), with_normal_laws(campaign, odd), fixed_but(campaign, {}),
+          fixed_but(campaign, odd)}) {
+      Json json = changed.resolved;
+      json["wingspread"] = Json::object();
+      const Campaign read = read_campaign(json.dump(), "");
+      REQUIRE(read.dispersions.size() == changed.dispersions.size());
+      for (const std::size_t i : all) {
+        const Dispersion &found = read.dispersions[i], &expected = changed.dispersions[i];
+        CAPTURE(expected.name);
+        CHECK(found.name == expected.name);
+        CHECK(write_distribution(found.distribution) == write_distribution(expected.distribution));
+        CHECK((found.targets == expected.targets && found.apply == expected.apply));
+        REQUIRE(found.through.size() == expected.through.size());
+        for (std::size_t k = 0; k < found.through.size(); ++k)
+          CHECK(found.through[k].targets == expected.through[k].targets);
+        ++entries;
+      }
+      REQUIRE(read.wanted_correlations.size() == changed.wanted_correlations.size());
+      for (std::size_t k = 0; k < read.wanted_correlations.size(); ++k) {
+        const RankCorrelation &found = read.wanted_correlations[k],
+                              &expected = changed.wanted_correlations[k];
+        CHECK((found.first == expected.first && found.second == expected.second));
+        CHECK(found.spearman == Approx(expected.spearman).epsilon(1e-12));
+      }
+    }
+  }
+  CHECK(entries > 100);
 }
