@@ -176,7 +176,7 @@ TEST_CASE("the same folder is exported to the same bytes, in place of what was t
   std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // HDF5's times are whole seconds
   export_hdf5(path, b);
   CHECK(read_text(a) == read_text(b));
-  CHECK_FALSE(std::filesystem::exists(b.string() + ".part"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / ".b.h5.part"));
 }
 
 TEST_CASE("a folder to which rows are being added is exported as far as it was") {
@@ -313,7 +313,7 @@ TEST_CASE("what cannot be exported is refused, and nothing is left of it") {
         "error: " + path +
             ": found no runs.csv in it, expected a results folder with the rows of its runs\n");
   CHECK_FALSE(std::filesystem::exists(file));
-  CHECK_FALSE(std::filesystem::exists(file + ".part"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / ".r.h5.part"));
 }
 
 TEST_CASE("a device without room is the machine's refusal, and nothing is left of the file") {
@@ -334,5 +334,5 @@ TEST_CASE("a device without room is the machine's refusal, and nothing is left o
   CHECK(error == "error: " + file +
                      ": found No space left on device, expected a file that can be written\n");
   CHECK(read_text(file) == "what was there");
-  CHECK_FALSE(std::filesystem::exists(file + ".part"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / ".r.h5.part"));
 }

@@ -150,7 +150,7 @@ class Bench:
         self.do(self.scenario.command, CALLS="rename", ERROR="KILL", AT=2)
         log = self.here / "m" / "looks.log"
         log.write_bytes(log.read_bytes()[:-1000])
-        (log.parent / "margin.csv.part").unlink()
+        (log.parent / ".margin.csv.part").unlink()
 
     def renew(self):
         shutil.rmtree(self.here)

@@ -31,7 +31,8 @@ bool is_special(const std::filesystem::path& path) {
 /// Returns the part's path and records it for the signal handler.
 std::filesystem::path begin_part(const std::filesystem::path& path) {
   if (is_special(path)) return path;
-  const std::string part = path.string() + std::string(part_suffix);
+  const std::string name = '.' + path.filename().string() + std::string(part_suffix);
+  const std::string part = path.parent_path() / name;
   if (part.size() >= part_path.size()) refuse_path(path, ENAMETOOLONG, "a shorter name");
   part_path[part.copy(part_path.data(), part.size())] = '\0';
   part_begun = true;
@@ -68,7 +69,9 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
 void remove_parts(const std::filesystem::path& folder) {
   std::error_code unreadable; // then the loop is empty
   for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable))
-    if (entry.path().filename().string().ends_with(part_suffix)) unlink(entry.path().c_str());
+    if (const std::string name = entry.path().filename();
+        name.starts_with('.') && name.ends_with(part_suffix))
+      unlink(entry.path().c_str());
 }
 
 void make_folder(const std::filesystem::path& path, const char* expected) {

@@ -11,11 +11,11 @@
 
 namespace wingspread {
 
-/// Suffix of a file's name while the file is being written; finish() removes the suffix.
+/// How a file's name ends while the file is being written: .NAME.part; finish() gives it its own name.
 inline constexpr std::string_view part_suffix = ".part";
 
-/// Replaces a file atomically: writes PATH.part, syncs it to the device and renames it. Readers, and a crash, find the
-/// old file or the new one. Without finish() the part is removed. A special file (/dev/stdout) is written directly.
+/// Replaces a file atomically: writes .NAME.part, syncs it to the device and renames it. Readers, and a crash, find
+/// the old file or the new one. Without finish() the part is removed. A special file (/dev/stdout) is written directly.
 /// At most one object at a time, because a signal handler has to find the part.
 class WholeFile {
 public:
@@ -42,7 +42,7 @@ void write_file(const std::filesystem::path& path, std::string_view text);
 /// Removes the part of an unfinished WholeFile. For a signal handler that ends the program.
 void drop_part() noexcept;
 
-/// Removes files with part_suffix, which a killed program left in the folder.
+/// Removes the folder's files .NAME.part, which a killed program left. NAME.part without the dot may be a user's.
 void remove_parts(const std::filesystem::path& folder);
 
 /// Makes the folder and its parents. @throws as refuse_path

@@ -166,7 +166,7 @@ FolderLock::FolderLock(std::filesystem::path folder, For purpose, const char* ex
     close(file_);
     refuse_path(path_, error, expected);
   }
-  remove_parts(folder_);
+  if (purpose == For::writing) remove_parts(folder_);
 }
 
 FolderLock::~FolderLock() {

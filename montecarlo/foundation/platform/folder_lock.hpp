@@ -22,7 +22,7 @@ public:
     reading ///< locks where this process can write; elsewhere takes no lock, but refuses a folder that is locked
   };
 
-  /// Creates the folder if needed, and removes temporary files that a killed program left.
+  /// Creates the folder if needed. For writing, it removes temporary files that a killed program left.
   /// @throws MachineError that names the holder if another process holds the folder; as refuse_path (machine_error.hpp)
   /// @param expected for the message where the folder cannot be written; a command's names its --out
   explicit FolderLock(std::filesystem::path folder, For purpose = For::writing,

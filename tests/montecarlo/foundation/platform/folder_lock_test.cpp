@@ -92,11 +92,16 @@ TEST_CASE("a dead holder's lock does not hold") {
   CHECK_FALSE(std::filesystem::exists(path / lock_file));
 }
 
-TEST_CASE("who takes a folder clears away what a killed program had begun in it") {
+TEST_CASE("who writes to a folder clears away what a killed program had begun in it, and no more") {
   const Folder folder;
-  folder.write("summary.json.part", "{");
+  const std::string begun = ".summary.json.part";
+  folder.write(begun, "{");
   folder.write("summary.json", "{}");
+  folder.write("thesis.part", "chapter 1"); // the user's
+  { const FolderLock lock(folder.path(), FolderLock::For::reading); }
+  CHECK(read_text(folder.path() / begun) == "{");
   { const FolderLock lock(folder.path()); }
-  CHECK_FALSE(std::filesystem::exists(folder.path() / "summary.json.part"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / begun));
   CHECK(read_text(folder.path() / "summary.json") == "{}");
+  CHECK(read_text(folder.path() / "thesis.part") == "chapter 1");
 }

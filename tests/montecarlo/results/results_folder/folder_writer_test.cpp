@@ -218,7 +218,7 @@ TEST_CASE("a folder left before its first row is completed too") {
   (void)run_into(whole, campaign);
   std::filesystem::create_directory(path);
   SECTION("in the middle of campaign.json") {
-    std::ofstream(path / "campaign.json.part") << "{ \"wing";
+    std::ofstream(path / ".campaign.json.part") << "{ \"wing";
   }
   SECTION("before runs.csv") {
     std::filesystem::copy_file(whole / campaign_file, path / campaign_file);
@@ -231,6 +231,9 @@ TEST_CASE("a folder in use is refused, and left as it is") {
   const Folder folder;
   const Campaign campaign = campaign_of(quick_campaign(3));
   const auto path = folder.path() / "r";
+  const std::string theirs = folder.write("notes.part", "what somebody wrote");
+  CHECK_THAT(refusal(folder.path(), campaign, {}), Catch::Contains("a folder with files in it"));
+  CHECK(read_text(theirs) == "what somebody wrote");
   (void)run_into(path, campaign);
   const auto before = contents(path);
   CHECK(refusal(path, campaign, {}) ==
