@@ -51,6 +51,57 @@ TEST_CASE(
   CHECK(sessions.run({"--resume", "--runs", "40"}).code == 1); // nothing to do, and not refused
 }
 
+TEST_CASE("a folder of cases that were extended unevenly goes on by its own campaign.json",
+          "[cases]") {
+  const Sessions sessions;
+  const auto on = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"run", sessions.out + "/campaign.json", "--out", sessions.out,
+                                   "--resume"};
+    words.insert(words.end(), options.begin(), options.end());
+    return run_program(sessions.folder, words);
+  };
+  const auto analyses = [&](const char* of_case) {
+    const Json campaign = parse_json_file(sessions.out + of_case + "/campaign.json");
+    return campaign["sampling"].value("extended_from", Json::array());
+  };
+  SECTION("each case keeps the analyses that it had") {
+    (void)sessions.run({});
+    (void)sessions.run({"--resume", "--runs", "40", "--case", "heavy"});
+    (void)sessions.run({"--resume", "--runs", "50"});
+    CHECK(on({}).code == 1); // 1: `heavy` does not meet its requirement
+    CHECK(on({"--runs", "60"}).code == 1);
+    CHECK(analyses("/heavy") == Json{24, 40, 50});
+    CHECK(analyses("/light") == Json{24, 50});
+    CHECK(analyses("") == Json{24, 40, 50});
+    for (const char* name : {"light", "heavy"})
+      CHECK(sessions.compared()["cases"][name]["runs"] == 60);
+  }
+  SECTION("a case that is made later") {
+    (void)sessions.run({"--case", "heavy"});
+    (void)sessions.run({"--resume", "--runs", "40", "--case", "heavy"});
+    (void)sessions.run({"--resume", "--runs", "40"});
+    CHECK(analyses("/light") == Json::array());
+    CHECK(on({"--runs", "50"}).code == 1);
+    CHECK(analyses("/light") == Json{40});
+  }
+}
+
+TEST_CASE("a case that cannot go on is refused before a run of any case is made", "[cases]") {
+  const Sessions sessions;
+  (void)sessions.run({});
+  const std::string file = sessions.out + "/heavy/campaign.json";
+  std::string text = *read_text(file);
+  const std::string stamp = "\"version\": \"";
+  text.insert(text.find(stamp) + stamp.size(), "9.");
+  std::ofstream(file) << text;
+  const auto before = contents(sessions.out), light = contents(sessions.out + "/light");
+  const Finished refused = sessions.run({"--resume", "--runs", "40"});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.error, HasFacts({file, "/wingspread/version", "found 9."}));
+  CHECK(contents(sessions.out) == before);
+  CHECK(contents(sessions.out + "/light") == light);
+}
+
 TEST_CASE("cases.json stays where a folder is refused", "[cases]") {
   const Sessions sessions;
   (void)sessions.run({});

@@ -78,6 +78,12 @@ CasesFolder::CasesFolder(std::filesystem::path folder, const Campaign& campaign,
         there.campaign.sampling.seed == stored_.campaign.sampling.seed)
       note_extension(stored_.campaign, there.campaign.sampling.extended_from);
     refuse_other_campaign(there, stored_.campaign, stored_.stamp);
+    for (const CaseSpec& spec : made_cases(there)) { // before a run of any case is made
+      const StoredCampaign own = read_stored_campaign(there.folder / spec.name);
+      Campaign ours = campaign_of_case(campaign, spec);
+      note_extension(ours, own.campaign.sampling.extended_from);
+      refuse_other_campaign(own, ours, stamp_of(ours, shard));
+    }
     stored_.stamp = stamp_of(stored_.campaign, shard);
   }
   const std::string text = campaign_text(stored_.campaign, stored_.stamp);

@@ -40,7 +40,7 @@ inline constexpr const char* cases_file = "cases.json";
 /// Locks the whole folder while its cases run.
 class CasesFolder {
 public:
-  /// Opens the folder, or creates it with its campaign.json. Refuses what FolderWriter refuses.
+  /// Opens the folder, or creates it with its campaign.json. Refuses what FolderWriter refuses, cases' folders too.
   CasesFolder(std::filesystem::path folder, const Campaign& campaign,
               const std::optional<Shard>& shard, bool resume);
 

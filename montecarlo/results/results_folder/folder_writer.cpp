@@ -83,7 +83,7 @@ bool is_new_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) return false;
   const auto is_nothing = [](const std::filesystem::directory_entry& entry) {
     const std::string name = entry.path().filename().string();
-    return name.ends_with(part_suffix) || name == lock_file;
+    return (name.starts_with('.') && name.ends_with(part_suffix)) || name == lock_file;
   };
   return std::ranges::all_of(std::filesystem::directory_iterator(folder), is_nothing);
 }
@@ -150,7 +150,8 @@ FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
 void FolderWriter::read_existing_rows(const RunPlan& plan) {
   const StoredCampaign there = read_stored_campaign(stored_.folder);
   const Sampling& before = there.campaign.sampling;
-  if (stored_.campaign.sampling.extended_from.empty() &&
+  // The campaign of all cases names the analyses of each of them: a case has had those of its folder.
+  if ((stored_.campaign.sampling.extended_from.empty() || !stored_.campaign.of_case.empty()) &&
       before.seed == stored_.campaign.sampling.seed)
     note_extension(stored_.campaign, before.extended_from);
   refuse_other_campaign(there, stored_.campaign, stored_.stamp);
