@@ -1,15 +1,29 @@
 #include "montecarlo/results/results_folder/row_writer.hpp"
 
+#include "montecarlo/results/results_folder/row_columns.hpp"
+
 #include <fmt/format.h>
 
 #include <utility>
 
 namespace wingspread {
+namespace {
+
+ResultNames names_of(const Results& results) {
+  ResultNames names;
+  for (const Column& column : results.draws) names.draws.push_back(column.name);
+  for (const Column& column : results.outputs) names.outputs.push_back(column.name);
+  names.peaks_final = results.has_peaks_final;
+  return names;
+}
+
+} // namespace
 
 RowWriter::RowWriter(std::filesystem::path file, const ResultNames& names)
     : file_(std::move(file)), results_(names) {}
 
 void RowWriter::continue_after(ResultsFile&& read, long first) {
+  if (read.complete_bytes > 0) refuse_other_columns(file_, names_of(results_));
   refuse_gaps(read.results, first, file_);
   std::error_code why;
   if (read.unterminated) std::filesystem::resize_file(file_, read.complete_bytes, why);

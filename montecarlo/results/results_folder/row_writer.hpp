@@ -18,7 +18,7 @@ public:
   RowWriter(std::filesystem::path file, const ResultNames& names);
 
   /// Takes the rows read from the file, and cuts off bytes after its last complete row.
-  /// @throws SpecError unless runs follow each other from `first` without a gap
+  /// @throws SpecError unless runs follow each other from `first` without a gap, below the header that open() writes
   void continue_after(ResultsFile&& read, long first);
 
   /// Opens the file; writes the header of a new one. Call once, before the first batch.

@@ -64,6 +64,31 @@ TEST_CASE("rows with a gap are not gone on with, and the file is left as it is")
   CHECK(read_text(file).value() == text);
 }
 
+TEST_CASE("rows are appended only below a header of the same columns in the same order") {
+  const Folder folder;
+  const auto file = folder.path() / "runs.csv";
+  const auto refusal = [&](const char* header, const char* row) {
+    const std::string text = header + std::string("\n") + row + "\n4,deplo";
+    std::ofstream(file, std::ios::binary) << text;
+    std::ifstream in(file, std::ios::binary);
+    ResultsFile read = read_results(in, file.string(), names, UnterminatedRow::drop);
+    CHECK(read.results.size() == 1); // readers accept it
+    RowWriter rows(file, names);
+    const std::string message = message_of([&] { rows.continue_after(std::move(read), 3); });
+    CHECK((message.empty() || read_text(file) == text));
+    return message;
+  };
+  CHECK(refusal("run,status,mass,root.latch_time,latch_order,reason", "3,deployed,1,4.5,root,")
+            .empty());
+  CHECK_THAT(
+      refusal("run,status,root.latch_time,mass,latch_order,reason", "3,deployed,4.5,1,root,"),
+      Catch::Contains("found \"root.latch_time\" as column 3") &&
+          Catch::Contains("expected \"mass\""));
+  CHECK_THAT(refusal("run,status,mass,root.latch_time,latch_order", "3,deployed,1,4.5,root"),
+             Catch::Contains("no further column as column 6") &&
+                 Catch::Contains("expected \"reason\""));
+}
+
 TEST_CASE("rows that cannot be written say which file") {
   const Folder folder;
   RowWriter rows(folder.path() / "nowhere" / "runs.csv", names);
