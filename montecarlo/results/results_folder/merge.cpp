@@ -34,17 +34,21 @@ void find_present(Part& part, const StoredCampaign& whole) {
                             [&](const ResultRow& row) { part.add(row.run); });
 }
 
+bool is_preview(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / campaign_file) &&
+         read_stored_campaign(folder).stamp.preview;
+}
+
 /// @throws SpecError unless `out` is new or empty, an interrupted merge of the same folders, or an earlier preview
 void refuse_other_folder(const std::filesystem::path& out, const std::string& text) {
-  const auto there = read_text(out / campaign_file);
-  if (there != text && !(there && read_stored_campaign(out).stamp.preview))
+  if (read_text(out / campaign_file) != text && !is_preview(out))
     refuse_used_folder(out, "a new or an empty folder for the merged results");
 }
 
 /// Refuses a folder whose statistics are there, because another `analyze` may have made them.
 /// @param last the file that is written last
 void refuse_finished(const std::filesystem::path& out, const char* last) {
-  if (!std::filesystem::exists(out / last) || read_stored_campaign(out).stamp.preview) return;
+  if (!std::filesystem::exists(out / last) || is_preview(out)) return;
   throw SpecError({{out.string(), "", "a finished results folder of this campaign",
                     fmt::format("another --out; `wingspread analyze {}` makes its statistics again",
                                 shell_word(out.string()))}});
@@ -106,7 +110,11 @@ Merging merging_of(const std::vector<std::filesystem::path>& folders, const std:
     parts.push_back({its, folder, stored.stamp, stored.runs()});
     if (parts.size() == 1) whole = std::move(stored);
   }
-  refuse_other_campaigns(parts, campaign_file);
+  if (parts.empty()) // no folder has begun the case
+    whole.campaign = chosen_case(read_stored_campaign(folders.front()).campaign, of_case),
+    whole.stamp = stamp_of(whole.campaign, {});
+  else
+    refuse_other_campaigns(parts, campaign_file);
   refuse_stopping(whole);
   for (Part& part : not_begun) {
     part.own = shard_runs(whole.campaign.sampling.runs, part.stamp.shard);
@@ -125,11 +133,28 @@ Merging merging_of(const std::vector<std::filesystem::path>& folders, const std:
   return merging;
 }
 
-/// Removes the files of an earlier preview, and those computed from them.
-void drop_preview(const std::filesystem::path& folder) {
+/// Removes the files of an earlier preview, and those computed from them, but for campaign.json.
+void drop_files(const std::filesystem::path& folder) {
   for (const char* file : {summary_file, histograms_json_file, histograms_csv_file, runs_file,
-                           "sensitivity.json", "sensitivity.csv", "report.html"})
+                           cases_file, "sensitivity.json", "sensitivity.csv", "report.html"})
     std::filesystem::remove(folder / file);
+}
+
+/// Removes an earlier preview with its cases. Its campaign.json stays until the next one replaces it: if interrupted
+/// before that, the folder is still one that may be replaced.
+void drop_preview(const std::filesystem::path& folder) {
+  if (!is_preview(folder)) return;
+  for (const CaseSpec& spec : made_cases(read_stored_campaign(folder))) {
+    const std::filesystem::path own = folder / spec.name;
+    {
+      const FolderLock lock(own);
+      drop_files(own);
+      std::filesystem::remove(own / campaign_file);
+    }
+    std::error_code not_empty; // somebody else's files stay
+    std::filesystem::remove(own, not_empty);
+  }
+  drop_files(folder);
 }
 
 /// @pre the input was checked
@@ -137,7 +162,7 @@ Summary write_merged(Merging&& merging) {
   auto& [whole, parts, text] = merging;
   const FolderLock lock(whole.folder);
   refuse_other_folder(whole.folder, text);
-  if (read_text(whole.folder / campaign_file) != text) drop_preview(whole.folder);
+  drop_preview(whole.folder);
   write_file(whole.folder / campaign_file, text);
   write_in_order(std::move(parts), RunPlan(whole.campaign).names(), whole.folder / runs_file,
                  [&](const Part& part, const auto& take) {
@@ -167,7 +192,8 @@ std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& f
   PartFaults faults;
   std::vector<Merging> mergings; // all cases are checked before anything is written
   Preview all;
-  for (const CaseSpec& spec : cases_in(folders)) {
+  const std::vector<CaseSpec> begun = cases_in(folders);
+  for (const CaseSpec& spec : begun.empty() ? whole.campaign.cases : begun) {
     mergings.push_back(merging_of(folders, spec.name, out / spec.name, kind, faults));
     const Stamp& stamp = mergings.back().whole.stamp;
     all.of += whole.campaign.sampling.runs;
@@ -182,6 +208,7 @@ std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& f
   refuse_finished(out, cases_file);
   const FolderLock lock(out);
   refuse_other_folder(out, text);
+  drop_preview(out);
   write_file(out / campaign_file, text);
   std::vector<CaseSummary> cases;
   for (Merging& merging : mergings) {

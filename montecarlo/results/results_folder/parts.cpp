@@ -221,21 +221,17 @@ void refuse_other_campaigns(const std::vector<Part>& parts, const char* file) {
 }
 
 void find_doubles(const std::vector<Part>& parts, PartFaults& faults) {
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    RunList twice;
-    std::string other;
-    for (std::size_t q = 0; q < p; ++q)
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (std::size_t q = 0; q < p; ++q) {
+      RunList twice;
       for (const RunRange& here : parts[p].present)
-        for (const RunRange& there : parts[q].present)
-          if (const RunRange both = common(here, there); both.size() > 0) {
-            twice.add(both);
-            other = parts[q].folder.string();
-          }
-    if (!twice.empty())
-      faults.add(Problem{parts[p].folder.string(), "",
-                         fmt::format("runs {}, which {} has too", twice.text(), other),
-                         "each run in one folder: shards of one division, as 1/N to N/N"});
-  }
+        for (const RunRange& there : parts[q].present) twice.add(common(here, there));
+      if (!twice.empty())
+        faults.add(Problem{
+            parts[p].folder.string(), "",
+            fmt::format("runs {}, which {} has too", twice.text(), parts[q].folder.string()),
+            "each run in one folder: shards of one division, as 1/N to N/N"});
+    }
 }
 
 void find_missing(const std::vector<Part>& parts, long runs, const ShardMaker& maker,

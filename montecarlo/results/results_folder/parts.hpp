@@ -90,7 +90,7 @@ void write_in_order(std::vector<Part> parts, const ResultNames& names,
   out.finish();
 }
 
-/// Adds a problem for each folder that repeats runs of an earlier one.
+/// Adds a problem for each two folders that have runs in common.
 void find_doubles(const std::vector<Part>& parts, PartFaults& faults);
 
 /// Adds a problem for each folder that lacks some of its own runs, and one problem for the runs that belong to none of

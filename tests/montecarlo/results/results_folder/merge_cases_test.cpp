@@ -20,6 +20,13 @@ void make(const std::filesystem::path& path, const Campaign& campaign, const Sha
     (void)run_into(path / spec.name, campaign_of_case(campaign, spec), {.shard = shard});
 }
 
+Campaign hot_and_cold(int runs) {
+  Json json = quick_campaign(runs);
+  json["cases"] = parse_json(R"([{ "name": "cold", "scale": { "hinges.*.spring.scale": 0.9 } },
+                                 { "name": "hot", "scale": { "hinges.*.spring.scale": 1.1 } }])");
+  return campaign_of(json);
+}
+
 } // namespace
 
 TEST_CASE("the command for a missing shard makes the cases that the others have, and no more",
@@ -48,4 +55,74 @@ TEST_CASE("the command for a missing shard makes the cases that the others have,
       CHECK(named == (made && names.size() < 3)); // all of them are what is made anyway
     }
   }
+}
+
+TEST_CASE("shards in which no case has begun lack all runs of all cases", "[cases]") {
+  const Folder folder;
+  const Campaign campaign = hot_and_cold(6);
+  const auto a = folder.path() / "part1", b = folder.path() / "part2", out = folder.path() / "out";
+  for (const long index : {1L, 2L})
+    (void)CasesFolder(index == 1 ? a : b, campaign, Shard{index, 2}, false);
+  const auto commands = [&](const std::vector<std::filesystem::path>& folders) {
+    std::vector<std::string> found;
+    try {
+      (void)merge_cases(folders, out);
+    } catch (const MissingRuns& missing) {
+      found = missing.commands();
+      for (const char* name : {"cold", "hot"})
+        CHECK_THAT(missing.what(), Catch::Contains((a / name).string() + ": found no runs 0 to 2"));
+    }
+    CHECK_FALSE(std::filesystem::exists(out));
+    return found;
+  };
+  const std::string run = "wingspread run " + (a / campaign_file).string() + " --out ";
+  const std::string first = run + a.string() + " --shard 1/2 --resume",
+                    second = run + b.string() + " --shard 2/2 --resume";
+  CHECK(commands({a, b}) == std::vector{first, second});
+  CHECK(commands({a}) == std::vector{first, second}); // the folder is there, though it is not given
+  CHECK_THAT(message_of([&] {
+               (void)merge_cases({a, b}, out, MergeKind::preview);
+             }),
+             Catch::Contains("no runs"));
+  CHECK_FALSE(std::filesystem::exists(out));
+}
+
+TEST_CASE("a merge removes all that an earlier preview of cases wrote, before it says it is whole",
+          "[cases]") {
+  const Folder folder;
+  const Campaign campaign = hot_and_cold(6);
+  const auto a = folder.path() / "a", b = folder.path() / "b", out = folder.path() / "out";
+  make(a, campaign, {1, 2}, {});
+  make(b, campaign, {2, 2}, {});
+  (void)merge_cases({a}, out, MergeKind::preview);
+  for (const auto& page : {out / "report.html", out / "hot" / "report.html"})
+    write_file(page, "of the preview");
+  SECTION("an interruption leaves nothing of it beside the new campaign.json") {
+    const auto obstacle = out / "cold" / runs_file; // which a file does not replace
+    std::filesystem::remove(obstacle);
+    std::filesystem::create_directories(obstacle / "x");
+    CHECK_THROWS((void)merge_cases({a, b}, out));
+    std::filesystem::remove_all(obstacle);
+  }
+  SECTION("without an interruption"){}(void)merge_cases({a, b}, out);
+  (void)merge_cases({a, b}, folder.path() / "whole");
+  for (const char* name : {".", "cold", "hot"})
+    CHECK(contents(out / name) == contents(folder.path() / "whole" / name));
+}
+
+TEST_CASE("a case of an earlier preview that is not merged now is removed", "[cases]") {
+  const Folder folder;
+  const Campaign campaign = hot_and_cold(6);
+  const auto a = folder.path() / "a", b = folder.path() / "b", out = folder.path() / "out";
+  make(a, campaign, {1, 2}, {});
+  (void)merge_cases({a}, out, MergeKind::preview);
+  std::filesystem::remove_all(a);
+  make(a, campaign, {1, 2}, {"cold"});
+  make(b, campaign, {2, 2}, {"cold"});
+  const bool has_others = GENERATE(false, true);
+  if (has_others) write_file(out / "hot" / "notes.txt", "the user's");
+  CHECK(merge_cases({a, b}, out).size() == 1);
+  CHECK(made_cases(read_stored_campaign(out)).size() == 1);
+  CHECK(std::filesystem::exists(out / "hot") == has_others);
+  if (has_others) CHECK(contents(out / "hot").size() == 1);
 }

@@ -103,6 +103,12 @@ TEST_CASE("runs that two folders have are named") {
   CHECK(shards.refusal({shards.parts[0], shards.parts[1], shards.parts[1], shards.parts[2]}) ==
         "part2: found runs 3 to 5, which part2 has too, expected each run in one folder: shards of "
         "one division, as 1/N to N/N");
+  const auto whole = shards.folder.path() / "whole";
+  (void)run_into(whole, shards.campaign);
+  std::string all = shards.refusal({shards.parts[0], shards.parts[1], shards.parts[2], whole});
+  for (const char* each : {"runs 0 to 2, which part1", "runs 3 to 5, which part2",
+                           "runs 6 to 9, which part3"}) // each pair of folders by itself
+    CHECK_THAT(all, Catch::Contains("whole: found " + std::string(each) + " has too"));
 }
 
 TEST_CASE("folders of another campaign or version are not merged") {
