@@ -3,6 +3,7 @@
 #include "distributions/prepared_distribution.hpp"
 #include "montecarlo/engine/accuracy/accuracy.hpp"
 #include "montecarlo/engine/runs/row_reader.hpp"
+#include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/input_file.hpp"
 #include "montecarlo/foundation/formats/json_reader.hpp"
@@ -77,18 +78,22 @@ void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, Su
 /// Drops outputs that this program always records, if a file of another tool lacks them and its campaign does not ask
 /// for them.
 void match_recorded(const Json& document, const std::filesystem::path& runs, Campaign& campaign) {
-  std::string header;
+  std::vector<std::string> header;
   if (std::filesystem::exists(runs)) {
     InputFile in(runs);
-    std::getline(in, header);
+    CsvReader reader(in, runs.string());
+    if (reader.next()) header = reader.cells();
   }
   const auto named = document.find("outputs");
-  const auto match = [&](OutputFamily family, std::string_view name) {
-    const bool asked = named != document.end() && std::ranges::find(*named, name) != named->end();
-    if (!asked && header.find(name) == std::string::npos) campaign.outputs.erase(family);
+  const auto match = [&](OutputFamily family, const auto& is_its) {
+    const bool asked =
+        named != document.end() && std::ranges::find(*named, about(family).name) != named->end();
+    if (!asked && std::ranges::none_of(header, is_its)) campaign.outputs.erase(family);
   };
-  match(OutputFamily::overtravel, "overtravel");
-  match(OutputFamily::peaks_final, peaks_final_column);
+  match(OutputFamily::overtravel,
+        [](const std::string& column) { return family_of(column) == OutputFamily::overtravel; });
+  match(OutputFamily::peaks_final,
+        [](const std::string& column) { return column == peaks_final_column; });
   campaign.resolved["outputs"] = write_outputs(campaign.outputs);
 }
 
