@@ -12,11 +12,13 @@ struct Sums {
   double n, x, y, xx, yy, xy;
 };
 
+/// A column's variance as a share of its mean square: where it is less, it may be nothing but rounding errors.
+/// Heuristic: 64 roundings; a smaller number correlates such errors, a larger one takes a column that varies little for
+/// a constant.
+constexpr double nothing = 64 * std::numeric_limits<double>::epsilon();
+
 double pearson_of(const Sums& s) {
   const double of_x = s.xx - s.x * s.x / s.n, of_y = s.yy - s.y * s.y / s.n;
-  // A constant column has only rounding errors in these sums. Heuristic: 64 roundings; a smaller number correlates such
-  // errors, a larger one takes a column that varies little for a constant.
-  constexpr double nothing = 64 * std::numeric_limits<double>::epsilon();
   if (s.n < 2 || !(of_x > nothing * s.xx) || !(of_y > nothing * s.yy)) return undefined;
   return std::clamp((s.xy - s.x * s.y / s.n) / std::sqrt(of_x * of_y), -1.0, 1.0);
 }
@@ -50,6 +52,7 @@ Moments PowerSums::moments(const Scale& scale, double min, double max) const {
   const double a = mean_of(1), b = mean_of(2), c = mean_of(3), d = mean_of(4);
   result.mean = std::clamp(scale.shift + a / scale.per_unit, min, max);
   const double m2 = min == max ? 0 : std::max(0.0, b - a * a);
+  if (min < max && !(m2 > nothing * b)) return result; // the scale does not fit these values
   if (count > 1) result.std = std::sqrt(n / (n - 1) * m2) / scale.per_unit;
   if (m2 == 0) return result;
   const double m3 = c - 3 * a * b + 2 * a * a * a;

@@ -75,15 +75,27 @@ Histogram histogram_of(const RankedPopulation& values, const Bins& bins) {
   return result;
 }
 
+/// An output without a value in the pilot has no shift, and its sums lose the digits by which its mean exceeds its
+/// standard deviation. Its values are rare: as long as all of them are kept, the moments are theirs.
+Moments moments_of(const StreamingStatistics::Output& output) {
+  const Population& values = output.values;
+  const bool any = values.count() > 0;
+  if (any && output.scale == Scale{} && values.count() <= static_cast<long>(kept_extremes)) {
+    std::vector<double> all;
+    for (const RunValue& each : values.lowest().sorted()) all.push_back(each.value);
+    return moments(all);
+  }
+  return output.sums.moments(output.scale, any ? values.min() : undefined,
+                             any ? values.max() : undefined);
+}
+
 OutputSummary output_summary(const std::string& name, const StreamingStatistics::Output& output,
                              long runs, const StatisticsSpec& spec,
                              std::span<const Requirement> requirements) {
   OutputSummary summary{
       name, {}, 0, runs - output.values.count(), {}, {}, missing_rank(requirements, name)};
   const RankedPopulation values(output.values);
-  const bool any = values.count() > 0;
-  summary.moments = output.sums.moments(output.scale, any ? values.min() : undefined,
-                                        any ? values.max() : undefined);
+  summary.moments = moments_of(output);
   summary.mean_error = summary.moments.std / std::sqrt(static_cast<double>(values.count()));
   for (const double p : spec.quantiles)
     summary.quantiles.push_back(estimate_quantile(
