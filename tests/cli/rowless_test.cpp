@@ -125,6 +125,55 @@ TEST_CASE(
   CHECK(contents(out) == whole);
 }
 
+TEST_CASE("an unfinished folder without rows says so, and nobody is told to extend one") {
+  const Rowless made(6'000);
+  REQUIRE(made.run(made.none).code <= 1);
+  const Finished whole = made.program({"analyze", made.none});
+  CHECK_THAT(whole.error, !Catch::Contains("incomplete"));
+  const std::string begun = made.folder.path() / "begun";
+  {
+    const StoredCampaign stored = read_stored_campaign(made.none);
+    const RunPlan plan(stored.campaign);
+    StreamingFolder folder(begun, plan, std::nullopt, false);
+    ThreadEvaluator evaluator({.threads = 1}, never);
+    REQUIRE(folder.begin(evaluator));
+    folder.finish();
+  }
+  const Finished part = made.program({"analyze", begun});
+  CHECK(part.code == 1);
+  CHECK_THAT(part.error, HasFacts({"warning: incomplete: 4096 of 6000 runs"}));
+
+  Json open = quick_campaign(8);
+  open["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.99, "confidence": 0.9 }])");
+  const std::string file = made.folder.write("open.json", open.dump());
+  for (const bool with_rows : {true, false}) {
+    std::vector<std::string> words{"run", file, "--out", made.folder.path() / "open"};
+    words.back() += with_rows ? "_rows" : "";
+    if (!with_rows) words.emplace_back("--no-rows");
+    const Finished undecided = made.program(words);
+    CHECK(undecided.code == 1);
+    CHECK_THAT(undecided.error, HasFacts({"note: each further test"}));
+    CHECK((undecided.error.find("--resume --runs") != std::string::npos) == with_rows);
+  }
+}
+
+TEST_CASE("a shard without rows that was killed early is named by merge with its command") {
+  const Rowless made(40);
+  const std::string a = made.folder.path() / "part1", b = made.folder.path() / "part2",
+                    out = made.folder.path() / "out";
+  REQUIRE(made.run(a, {"--shard", "1/2"}).code == 0);
+  REQUIRE(made.run(b, {"--shard", "2/2"}).code == 0);
+  for (const auto& entry : std::filesystem::directory_iterator(a))
+    if (entry.path().filename() != campaign_file) std::filesystem::remove(entry.path());
+  const Finished missing = made.program({"merge", a, b, "--out", out});
+  CHECK(missing.code == 2);
+  CHECK_THAT(missing.error, HasFacts({a, "no runs 0 to 19", "--no-rows --resume\n"}));
+  CHECK_THAT(missing.error, !Catch::Contains("--preview"));
+  CHECK(run_named(made.folder, missing.error) == std::vector{0});
+  CHECK(made.program({"merge", a, b, "--out", out}).code <= 1);
+}
+
 TEST_CASE("what takes every row refuses a folder without rows; the rest works on it") {
   const Rowless made(300);
   REQUIRE(made.run(made.none).code <= 1);

@@ -77,21 +77,21 @@ int merge(const MergeOptions& options) {
     throw SpecError({{options.folders.front().string(), "", "a shard of a margin study",
                       "a shard of `run` or `sensitivity`; `wingspread margin CAMPAIGN.json --from "
                       "DIR… --out DIR` continues from such shards"}});
+  // a shard killed early has neither rows nor statistics
+  const bool without_rows = std::ranges::any_of(options.folders, is_streaming_folder);
   try {
     if (is_design_folder(options.folders.front())) return merge_into_design(options);
     if (is_cases_folder(options.folders.front())) {
       const auto cases = merge_cases(options.folders, options.out, kind);
       return show_all_cases(read_stored_campaign(options.out), cases, options.display);
     }
-    const Summary summary = is_streaming_folder(options.folders.front())
-                                ? merge_without_rows(options)
-                                : merge_folders(options.folders, options.out, kind);
+    const Summary summary = without_rows ? merge_without_rows(options)
+                                         : merge_folders(options.folders, options.out, kind);
     return show_results(read_stored_campaign(options.out), summary, options.display);
   } catch (const MissingRuns& missing) {
-    const bool with_rows =
-        !is_design_folder(options.folders.front()) && !is_streaming_folder(options.folders.front());
+    const bool has_preview = !without_rows && !is_design_folder(options.folders.front());
     return print_missing(missing,
-                         with_rows ? ", or use --preview to see the runs made so far" : "");
+                         has_preview ? ", or use --preview to see the runs made so far" : "");
   }
 }
 
@@ -124,11 +124,8 @@ StoredCampaign as_asked(StoredCampaign stored, const AnalyzeOptions& options) {
 }
 
 /// Warns that planned runs are missing.
-void print_missing_runs(const StoredCampaign& stored, const Results& results,
-                        const Summary& summary) {
+void print_missing_runs(const StoredCampaign& stored, const Summary& summary) {
   const RunRange planned = stored.runs();
-  if (const auto gaps = gaps_text(stored, results, summary.stopped))
-    return print_message("warning: {}\n", *gaps);
   if (summary.stopped || stored.stamp.preview || summary.runs >= planned.size()) return;
   print_message("warning: incomplete: {} of {} runs{}; requirements are not judged\n", summary.runs,
                 planned.size(),
@@ -140,12 +137,18 @@ void print_missing_runs(const StoredCampaign& stored, const Results& results,
 Summary summarize_again(StoredCampaign& stored, const std::filesystem::path& to) {
   if (to != stored.folder) copy_rows(stored.folder, to);
   stored.folder = to;
-  if (is_streaming_folder(to))
-    return write_streaming_statistics(stored, read_streaming_statistics(stored).statistics,
-                                      stored.campaign.statistics);
+  if (is_streaming_folder(to)) {
+    Summary summary = write_streaming_statistics(
+        stored, read_streaming_statistics(stored).statistics, stored.campaign.statistics);
+    print_missing_runs(stored, summary);
+    return summary;
+  }
   const Results results = read_stored_results(stored).results;
   Summary summary = write_statistics(stored, results);
-  print_missing_runs(stored, results, summary);
+  if (const auto gaps = gaps_text(stored, results, summary.stopped))
+    print_message("warning: {}\n", *gaps);
+  else
+    print_missing_runs(stored, summary);
   return summary;
 }
 

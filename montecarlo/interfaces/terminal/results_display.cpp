@@ -60,7 +60,7 @@ void print_not_met(std::string_view of_case, const Verdict& verdict, std::string
 
 /// Whether `run --resume` can add runs to the campaign's. @pre it has requirements, so its design is random
 bool may_grow(const StoredCampaign& stored) {
-  return !stored.foreign && stored.campaign.until.empty();
+  return !stored.foreign && stored.campaign.until.empty() && !is_streaming_folder(stored.folder);
 }
 
 /// Prints how adding runs affects verdicts that are undecided, or that were judged before.

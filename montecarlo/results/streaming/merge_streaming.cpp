@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/formats/input_file.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/results/results_folder/parts.hpp"
+#include "montecarlo/results/results_folder/row_columns.hpp"
 #include "montecarlo/results/streaming/streaming_folder.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ std::vector<StoredCampaign> complete_shards(const std::vector<std::filesystem::p
   std::vector<StoredCampaign> shards;
   std::vector<Part> parts;
   for (const std::filesystem::path& folder : folders) {
-    if (!is_streaming_folder(folder))
+    if (std::filesystem::exists(folder / runs_file))
       throw SpecError(
           {{folder.string(), "", "a folder with rows", "folders of --no-rows, as the others"}});
     shards.push_back(read_stored_campaign(folder));
@@ -25,6 +26,7 @@ std::vector<StoredCampaign> complete_shards(const std::vector<std::filesystem::p
   }
   refuse_other_campaigns(parts, campaign_file);
   for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!is_streaming_folder(parts[i].folder)) continue; // killed before its first statistics
     const long first = parts[i].own.first,
                made = read_streaming_statistics(shards[i]).statistics.runs();
     if (made > 0) parts[i].present = {{first, first + made}};
@@ -40,9 +42,20 @@ std::vector<StoredCampaign> complete_shards(const std::vector<std::filesystem::p
   return shards;
 }
 
-/// Appends one shard's broken_runs.csv. @return bytes written
+/// @param text of campaign.json
+/// @throws SpecError unless `out` is new or empty, or an interrupted merge of the same shards
+void refuse_other_folder_without_rows(const std::filesystem::path& out, const std::string& text) {
+  const bool has_rows = std::filesystem::exists(out / runs_file),
+             is_finished = std::filesystem::exists(out / extremes_file);
+  if (has_rows || is_finished || read_text(out / campaign_file) != text)
+    refuse_used_folder(out, "a new or an empty folder");
+}
+
+/// Appends the first bytes of one shard's broken_runs.csv. @return bytes written
 std::uint64_t append_broken(const StoredCampaign& part, std::uint64_t bytes, bool with_header,
                             OutputFile& to) {
+  if (bytes > 0)
+    refuse_other_columns(part.folder / broken_runs_file, RunPlan(part.campaign).names());
   InputFile in(part.folder / broken_runs_file);
   std::string line;
   std::uint64_t read = 0, written = 0;
@@ -61,10 +74,13 @@ std::uint64_t append_broken(const StoredCampaign& part, std::uint64_t bytes, boo
 Summary merge_streaming(const std::vector<std::filesystem::path>& folders,
                         const std::filesystem::path& out) {
   const std::vector<StoredCampaign> parts = complete_shards(folders);
-  refuse_used_folder(out, "a new or an empty folder");
-  const FolderLock lock(out);
   const StoredCampaign whole{out, parts.front().campaign, stamp_of(parts.front().campaign, {})};
-  write_file(out / campaign_file, campaign_text(whole.campaign, whole.stamp));
+  const std::string text = campaign_text(whole.campaign, whole.stamp);
+  refuse_other_folder_without_rows(out, text);
+  const FolderLock lock(out);
+  refuse_other_folder_without_rows(out, text);
+  std::filesystem::remove(out / statistics_file); // of an interrupted merge
+  write_file(out / campaign_file, text);
   OutputFile broken(out / broken_runs_file, OutputFile::From::beginning);
   std::optional<StoredStatistics> all;
   for (const StoredCampaign& part : parts) {

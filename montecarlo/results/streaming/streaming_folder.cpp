@@ -3,6 +3,7 @@
 #include "montecarlo/engine/runs/row_reader.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/input_file.hpp"
+#include "montecarlo/results/results_folder/row_columns.hpp"
 #include "montecarlo/results/streaming/streaming_summary.hpp"
 #include "montecarlo/results/summary/judge_campaign.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
@@ -38,6 +39,18 @@ std::vector<std::vector<double>> margins_of(const RunPlan& plan, const Batch& ba
   return margins;
 }
 
+/// The campaign and its shard: the shards of a campaign have the same hash.
+std::string identity_of(const Stamp& stamp) {
+  return stamp.shard ? stamp.hash + ", " + describe(stamp.shard) : stamp.hash;
+}
+
+/// The file's length; 0 if it is missing.
+std::uint64_t bytes_of(const std::filesystem::path& path) {
+  std::error_code missing;
+  const std::uint64_t bytes = std::filesystem::file_size(path, missing);
+  return missing ? 0 : bytes;
+}
+
 [[noreturn]] void refuse(const char* found, const char* expected) {
   throw SpecError({{"", "--no-rows", found, expected}});
 }
@@ -59,7 +72,7 @@ std::string streaming_statistics_text(const StoredCampaign& stored,
                                       std::uint64_t broken_bytes) {
   StateWriter to;
   to.put(magic);
-  to.put(std::string_view(stored.stamp.hash));
+  to.put(std::string_view(identity_of(stored.stamp)));
   to.put(std::string_view(stored.stamp.version));
   to.put(broken_bytes);
   statistics.write(to);
@@ -72,12 +85,19 @@ StoredStatistics read_streaming_statistics(const StoredCampaign& stored) {
   StateReader from({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()},
                    path.string());
   if (from.get_text() != magic) throw from.broken("a format of this version");
-  if (from.get_text() != stored.stamp.hash) throw from.broken("the campaign of campaign.json");
+  if (from.get_text() != identity_of(stored.stamp))
+    throw from.broken("the campaign and shard of campaign.json");
   (void)from.get_text();
   const auto broken_bytes = from.get<std::uint64_t>();
   StoredStatistics read{
       StreamingStatistics(stored.campaign, RunPlan(stored.campaign).names(), from), broken_bytes};
   if (!from.at_end()) throw from.broken("no bytes after the end");
+  const std::filesystem::path broken = stored.folder / broken_runs_file;
+  if (const std::uint64_t there = bytes_of(broken); there < broken_bytes)
+    throw SpecError({{broken.string(), "", fmt::format("{} bytes", there),
+                      fmt::format("at least {}, as {} says: rows were lost, so run it into a new "
+                                  "folder",
+                                  broken_bytes, statistics_file)}});
   return read;
 }
 
@@ -151,11 +171,8 @@ bool StreamingFolder::begin(Evaluator& evaluator) {
 void StreamingFolder::open_broken(std::uint64_t bytes) {
   const std::filesystem::path path = stored_.folder / broken_runs_file;
   std::error_code why;
-  const std::uint64_t there =
-      std::filesystem::exists(path) ? std::filesystem::file_size(path, why) : 0;
-  if (there < bytes)
-    throw SpecError({{path.string(), "", fmt::format("{} bytes", there),
-                      fmt::format("{}, as {} says", bytes, statistics_file)}});
+  const std::uint64_t there = bytes_of(path);
+  if (bytes > 0) refuse_other_columns(path, plan_->names());
   if (there > bytes) std::filesystem::resize_file(path, bytes, why);
   if (why) refuse_path(path, why.value(), "a file that can be written");
   broken_.emplace(path, OutputFile::From::end);

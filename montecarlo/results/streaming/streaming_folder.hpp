@@ -32,7 +32,7 @@ struct StoredStatistics {
   std::uint64_t broken_bytes = 0; ///< length of broken_runs.csv when the statistics were saved
 };
 /// @pre the campaign outlives the result
-/// @throws SpecError if the file is missing, damaged, or another campaign's
+/// @throws SpecError if it is missing, damaged, another campaign's or shard's, or if broken_runs.csv was cut since
 [[nodiscard]] StoredStatistics read_streaming_statistics(const StoredCampaign& stored);
 
 /// The rows of broken_runs.csv that are within its first `bytes`.
@@ -93,7 +93,7 @@ private:
 
 /// Merges the shards of such a campaign into the folder that running it at once would write, byte for byte.
 /// @param folders in any order; each run is in exactly one
-/// @param out     new or empty
+/// @param out     new or empty, or left by an interrupted merge of the same folders
 /// @throws SpecError with every obstacle; nothing is written then
 Summary merge_streaming(const std::vector<std::filesystem::path>& folders,
                         const std::filesystem::path& out);

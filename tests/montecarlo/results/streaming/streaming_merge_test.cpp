@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 using namespace wingspread;
@@ -57,6 +58,51 @@ TEST_CASE("shards without rows are merged only if one version made them of one c
   CHECK(merge_streaming({b, a}, out).runs == 40);
 }
 
+TEST_CASE("shards without rows whose files are not those of their statistics are not merged") {
+  const Folder folder;
+  const auto a = folder.path() / "a", b = folder.path() / "b", out = folder.path() / "out";
+  const Campaign campaign = campaign_of(full_campaign(60));
+  make_shard(a, campaign, {1, 2});
+  make_shard(b, campaign, {2, 2});
+  const auto refusal = [&] {
+    const std::string text = message_of([&] { (void)merge_streaming({a, b}, out); });
+    CHECK_FALSE(std::filesystem::exists(out));
+    return text;
+  };
+  const std::string broken = read_text(a / broken_runs_file).value();
+  REQUIRE(std::ranges::count(broken, '\n') > 3);
+  std::filesystem::resize_file(a / broken_runs_file, broken.size() - 1);
+  CHECK_THAT(refusal(), Catch::StartsWith((a / broken_runs_file).string()) &&
+                            Catch::Contains(fmt::format("found {} bytes", broken.size() - 1)) &&
+                            Catch::Contains(std::to_string(broken.size())));
+  CHECK_FALSE(message_of([&] {
+                return read_streaming_statistics(read_stored_campaign(a)).statistics.runs();
+              }).empty()); // as `analyze` and `report` read it
+  std::filesystem::remove(a / broken_runs_file);
+  CHECK_THAT(refusal(), Catch::Contains("found 0 bytes"));
+  write_file(a / broken_runs_file, broken);
+  for (const char* file : {statistics_file, broken_runs_file}) // the other shard's
+    std::filesystem::copy_file(b / file, a / file,
+                               std::filesystem::copy_options::overwrite_existing);
+  CHECK_THAT(refusal(), Catch::StartsWith((a / statistics_file).string()) &&
+                            Catch::Contains("campaign and shard"));
+}
+
+TEST_CASE("shards without rows are merged only below the same header") {
+  const Folder folder;
+  const auto a = folder.path() / "a", b = folder.path() / "b", out = folder.path() / "out";
+  const Campaign campaign = campaign_of(full_campaign(40));
+  make_shard(a, campaign, {1, 2});
+  make_shard(b, campaign, {2, 2});
+  std::string broken = read_text(b / broken_runs_file).value();
+  broken.replace(0, std::string("run,status").size(), "status,run"); // of the same length
+  write_file(b / broken_runs_file, broken);
+  CHECK_THAT(message_of([&] {
+               (void)merge_streaming({a, b}, out);
+             }),
+             Catch::Contains("\"status\" as column 1"));
+}
+
 TEST_CASE("missing shards without rows are named, with the commands that make them") {
   const Folder folder;
   const Campaign campaign = campaign_of(quick_campaign(30));
@@ -94,8 +140,43 @@ TEST_CASE("missing shards without rows are named, with the commands that make th
     REQUIRE(begun.begin(evaluator));
   }
   CHECK(refused({parts[2], parts[0], parts[1]}).commands() == std::vector{command(2, " --resume")});
+  for (const char* file : {statistics_file, broken_runs_file}) // killed before it wrote them
+    std::filesystem::remove(parts[1] / file);
+  CHECK(refused({parts[2], parts[0], parts[1]}).commands() == std::vector{command(2, " --resume")});
   CHECK_THAT(message_of([&] {
                (void)merge_streaming({parts[0], parts[2], parts[0]}, "out");
              }),
              Catch::Contains("runs 0 to 9, which " + parts[0].string() + " has too"));
+}
+
+TEST_CASE("an interrupted merge without rows is repeated, a finished folder is not merged into") {
+  const Folder folder;
+  const auto a = folder.path() / "a", b = folder.path() / "b", out = folder.path() / "out",
+             whole = folder.path() / "whole";
+  const Campaign campaign = campaign_of(full_campaign(40));
+  make_shard(a, campaign, {1, 2});
+  make_shard(b, campaign, {2, 2});
+  (void)merge_streaming({a, b}, whole);
+  const auto expected = contents(whole);
+  std::vector<const char*> written{campaign_file, broken_runs_file, statistics_file, summary_file,
+                                   extremes_file}; // in this order
+  CHECK_THAT(message_of([&] {
+               (void)merge_streaming({a, b}, whole);
+             }),
+             Catch::Contains("a new or an empty folder"));
+  while (written.size() > 1) {
+    written.pop_back();
+    CAPTURE(written.back());
+    std::filesystem::remove_all(out);
+    std::filesystem::create_directory(out);
+    for (const char* file : written) std::filesystem::copy_file(whole / file, out / file);
+    (void)merge_streaming({a, b}, out);
+    CHECK(contents(out) == expected);
+  }
+  std::filesystem::remove(out / extremes_file);
+  write_file(out / runs_file, "run\n"); // of the same campaign, with rows
+  CHECK_THAT(message_of([&] {
+               (void)merge_streaming({a, b}, out);
+             }),
+             Catch::Contains("a new or an empty folder"));
 }
