@@ -110,11 +110,12 @@ Merging merging_of(const std::vector<std::filesystem::path>& folders, const std:
     parts.push_back({its, folder, stored.stamp, stored.runs()});
     if (parts.size() == 1) whole = std::move(stored);
   }
-  if (parts.empty()) // no folder has begun the case
-    whole.campaign = chosen_case(read_stored_campaign(folders.front()).campaign, of_case),
+  if (parts.empty()) { // no folder has begun the case
+    whole.campaign = chosen_case(read_stored_campaign(folders.front()).campaign, of_case);
     whole.stamp = stamp_of(whole.campaign, {});
-  else
+  } else {
     refuse_other_campaigns(parts, campaign_file);
+  }
   refuse_stopping(whole);
   for (Part& part : not_begun) {
     part.own = shard_runs(whole.campaign.sampling.runs, part.stamp.shard);

@@ -19,7 +19,7 @@ void refuse_other_columns(const std::filesystem::path& file, const ResultNames& 
   const auto [its, ours] = std::ranges::mismatch(found, expected);
   if (its == found.end() && ours == expected.end()) return;
   const auto named = [](auto cell, auto end) {
-    return cell == end ? "no further column" : '"' + *cell + '"';
+    return cell == end ? "nothing" : '"' + *cell + '"';
   };
   throw reader.error(
       "", fmt::format("{} as column {}", named(its, found.end()), its - found.begin() + 1),

@@ -94,7 +94,7 @@ TEST_CASE("a dead holder's lock does not hold") {
 
 TEST_CASE("who writes to a folder clears away what a killed program had begun in it, and no more") {
   const Folder folder;
-  const std::string begun = ".summary.json.part";
+  const char* begun = ".summary.json.part";
   folder.write(begun, "{");
   folder.write("summary.json", "{}");
   folder.write("thesis.part", "chapter 1"); // the user's

@@ -85,8 +85,7 @@ TEST_CASE("rows are appended only below a header of the same columns in the same
       Catch::Contains("found \"root.latch_time\" as column 3") &&
           Catch::Contains("expected \"mass\""));
   CHECK_THAT(refusal("run,status,mass,root.latch_time,latch_order", "3,deployed,1,4.5,root"),
-             Catch::Contains("no further column as column 6") &&
-                 Catch::Contains("expected \"reason\""));
+             Catch::Contains("nothing as column 6") && Catch::Contains("expected \"reason\""));
 }
 
 TEST_CASE("rows that cannot be written say which file") {
