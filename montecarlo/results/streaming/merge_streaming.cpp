@@ -27,8 +27,10 @@ std::vector<StoredCampaign> complete_shards(const std::vector<std::filesystem::p
   refuse_other_campaigns(parts, campaign_file);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!is_streaming_folder(parts[i].folder)) continue; // killed before its first statistics
-    const long first = parts[i].own.first,
-               made = read_streaming_statistics(shards[i]).statistics.runs();
+    const StoredStatistics read = read_streaming_statistics(shards[i]);
+    if (read.broken_bytes > 0)
+      refuse_other_columns(parts[i].folder / broken_runs_file, RunPlan(shards[i].campaign).names());
+    const long first = parts[i].own.first, made = read.statistics.runs();
     if (made > 0) parts[i].present = {{first, first + made}};
   }
   PartFaults faults;
@@ -54,8 +56,6 @@ void refuse_other_folder_without_rows(const std::filesystem::path& out, const st
 /// Appends the first bytes of one shard's broken_runs.csv. @return bytes written
 std::uint64_t append_broken(const StoredCampaign& part, std::uint64_t bytes, bool with_header,
                             OutputFile& to) {
-  if (bytes > 0)
-    refuse_other_columns(part.folder / broken_runs_file, RunPlan(part.campaign).names());
   InputFile in(part.folder / broken_runs_file);
   std::string line;
   std::uint64_t read = 0, written = 0;

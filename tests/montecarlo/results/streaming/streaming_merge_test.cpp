@@ -101,6 +101,7 @@ TEST_CASE("shards without rows are merged only below the same header") {
                (void)merge_streaming({a, b}, out);
              }),
              Catch::Contains("\"status\" as column 1"));
+  CHECK_FALSE(std::filesystem::exists(out));
 }
 
 TEST_CASE("missing shards without rows are named, with the commands that make them") {
