@@ -139,8 +139,14 @@ std::string without_blanks(std::string text) {
 
 HeaderCell header_cell(const std::string& given) {
   const std::string cell = without_blanks(given);
-  const std::size_t open = cell.find_last_of("[(");
-  if (open == std::string::npos || !(cell.ends_with(']') || cell.ends_with(')'))) return {cell, ""};
+  if (!cell.ends_with(']') && !cell.ends_with(')')) return {cell, ""};
+  std::size_t open = cell.size();
+  for (int depth = 0;
+       open == cell.size() || depth > 0;) { // back to the bracket that the last one closes
+    if (open-- == 0) return {cell, ""};
+    const char c = cell[open];
+    depth += (c == ']' || c == ')') - (c == '[' || c == '(');
+  }
   return {without_blanks(cell.substr(0, open)), cell.substr(open + 1, cell.size() - open - 2)};
 }
 

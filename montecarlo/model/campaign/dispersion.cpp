@@ -184,14 +184,15 @@ Dispersion read_row_column(const JsonCursor& at, const std::string& name, Apply 
   return column;
 }
 
-/// The SI unit of a column's values; empty for factors and for draws that act through tables; nothing if it is not known.
+/// The SI unit of a column's values; empty for factors, for draws that act through tables and for parameters of several units;
+/// nothing if it is not known.
 std::optional<std::string_view> unit_of_column(const Dispersion& column) {
   if (column.apply == Apply::scale || !column.through.empty()) return "";
   if (column.targets.empty()) return std::nullopt;
   const std::string_view first = unit_of(column.targets.front());
   const bool common = std::ranges::all_of(
       column.targets, [&](const SceneParameter& target) { return unit_of(target) == first; });
-  return common ? std::optional(first) : std::nullopt;
+  return common ? first : "";
 }
 
 /// Reads the values of all columns: from the file, or from "values" as a resolved campaign has them.
@@ -279,6 +280,13 @@ std::vector<Dispersion> read_dispersion(const JsonCursor& at, const Scene* scene
   return read;
 }
 
+/// The name of an entry that has several dispersions, each with a name of its own; else empty.
+std::string name_of_several(const JsonCursor& entry) {
+  const Json& json = entry.value();
+  if (!json.contains("rows") && !json.contains("each")) return "";
+  return json.contains("name") && json["name"].is_string() ? json["name"].get<std::string>() : "";
+}
+
 /// Refuses names of other columns and of other dispersions, and names with the random stream of another name.
 void check_names(const std::vector<Sourced>& all) {
   std::map<std::uint64_t, std::string> streams;
@@ -295,10 +303,10 @@ void check_names(const std::vector<Sourced>& all) {
     else if (!is_new)
       refuse(fmt::format("which has the random stream of \"{}\"", same->second), "another name");
   };
-  std::string rows_before; // `rows` of the dispersion before
+  std::string before; // the entry of the dispersion before
   for (const auto& [dispersion, at] : all) {
-    if (dispersion.rows != rows_before) check(dispersion.rows, at);
-    rows_before = dispersion.rows;
+    if (at.pointer() != before) check(name_of_several(at), at);
+    before = at.pointer();
     check(dispersion.name, at);
   }
 }

@@ -119,6 +119,9 @@ std::vector<double> read_column(std::istream& in, const std::string& file,
       throw reader.error("", fmt::format("{} cells", cells.size()),
                          fmt::format("{}, as in the header", header.size()));
     values.push_back(factor * parse_cell(reader, cells[index], column));
+    if (!std::isfinite(values.back()))
+      throw reader.error(column, fmt::format("'{}' in this unit", cells[index]),
+                         "a number that is finite in SI");
   }
   return values;
 }

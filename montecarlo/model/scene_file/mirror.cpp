@@ -1,5 +1,7 @@
 #include "montecarlo/model/scene_file/mirror.hpp"
 
+#include "montecarlo/model/scene_file/scene_tree.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -104,6 +106,10 @@ private:
       for (const auto& owner : all) {
         if (!names_.covers(owner.name)) continue;
         const std::string copy = names_.copy_of(owner.name);
+        if (!may_be_name(copy))
+          free = at_.member("as").refuse(
+              fmt::format("\"{}\", which makes \"{}\"", names_.as, copy),
+              "a pattern for names, not \"base\", without . * / , \" > and control characters");
         if (std::ranges::any_of(all, [&](const auto& other) { return other.name == copy; }))
           free = at_.member("as").refuse(
               fmt::format("\"{}\", which makes a second \"{}\"", names_.as, copy),

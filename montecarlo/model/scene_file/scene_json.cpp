@@ -98,7 +98,10 @@ std::string place_of_stop(const Json& scene, std::string below) {
   const Json& stop = scene[Json::json_pointer(hinge + "stop")];
   if (!stop.is_array()) return hinge + "stop/" + field;
   std::size_t k = 0;
-  while (k < stop.size() && (stop[k].value("side", "stowed") == "latched") != latched) ++k;
+  const auto is_latched = [](const Json& each) {
+    return each.is_object() && each.contains("side") && each["side"] == "latched";
+  };
+  while (k < stop.size() && is_latched(stop[k]) != latched) ++k;
   return fmt::format("{}stop/{}/{}", hinge, k, field);
 }
 

@@ -125,6 +125,8 @@ void refuse_cycle(const JsonCursor& at, const Scene& scene) {
 
 } // namespace
 
+bool may_be_name(std::string_view name) { return is_plain(name) && name != base_name; }
+
 void check_names(const JsonCursor& at, const Scene& scene) {
   check_names_of(at, "bodies", scene.bodies);
   check_names_of(at, "hinges", scene.hinges);

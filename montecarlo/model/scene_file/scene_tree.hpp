@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace wingspread {
@@ -17,6 +18,9 @@ struct HingeEnds {
   std::optional<std::string> child;
   std::optional<std::string> after{};
 };
+
+/// Whether a body or a hinge may have the name: see check_names.
+[[nodiscard]] bool may_be_name(std::string_view name);
 
 /// Notes a problem for each name that is empty, used twice, `base` for a body, or has a reserved character. Reserved
 /// are the separators of parameter paths ("." and "*"), column headers ("," and quotes), latch orders (">") and JSON
