@@ -60,7 +60,7 @@ TEST_CASE("a campaign says what its integration contributes") {
     if (each["output"] == "tip.latch_time") CHECK((each["rms"] > 1e-12 && each["largest"] < 1e-6));
   }
   CHECK_THAT(out, HasFacts({"\nACCURACY  integration errors ≤ ",
-                            "% of a standard error in ≥ 60.7 % of runs "}));
+                            "% of a standard error in ≥ 60.6 % of runs "}));
   CHECK(parse_json_file(setting.folder.path() / "r" / timing_file)["accuracy"]["runs"] == 6);
 }
 

@@ -121,3 +121,60 @@ TEST_CASE("a session with one case ends with the verdicts of all", "[cases]") {
   CHECK(last.code == 1);
   CHECK_THAT(last.error, Catch::Contains("not met: heavy: deployment_time"));
 }
+
+TEST_CASE("analyze and merge know of the runs that a case lacks, as run does", "[cases]") {
+  const Sessions sessions;
+  (void)sessions.run({});
+  (void)sessions.run({"--resume", "--runs", "40", "--case", "heavy"});
+  const std::string before = *read_text(sessions.out + "/cases.json");
+  const std::string merged = sessions.folder.path() / "m";
+  (void)run_program(sessions.folder, {"analyze", sessions.out});
+  CHECK(read_text(sessions.out + "/cases.json") == before);
+  const Finished refused = run_program(sessions.folder, {"merge", sessions.out, "--out", merged});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.error, HasFacts({"/light", "no runs 24 to 39", "--preview", "--resume"}));
+  CHECK_FALSE(std::filesystem::exists(merged));
+  const Finished preview = run_program(
+      sessions.folder, {"merge", sessions.out, "--out", merged, "--preview", "--table"});
+  CHECK(preview.code == 1);
+  CHECK(parse_json_file(merged + "/campaign.json")["wingspread"]["preview"] ==
+        Json{{"runs", 64}, {"of", 80}});
+  CHECK(parse_json_file(merged + "/cases.json")["cases"]["light"]["partial"] == true);
+  CHECK_THAT(lines_of(preview.out).front(), HasFacts({"2 cases", "PREVIEW: 64 of 80 runs"}));
+  // heavy has all its runs and is judged; light is a part of its runs and is not
+  CHECK_THAT(preview.error, Catch::Contains("not met: heavy: deployment_time"));
+  CHECK_THAT(preview.error, !Catch::Contains("light: deployment_time"));
+  CHECK_THAT(preview.error, !Catch::Contains("nor met"));
+  CHECK(run_named(sessions.folder, refused.error) == std::vector<int>{1});
+  CHECK(run_program(sessions.folder, {"merge", sessions.out, "--out", merged}).code == 1);
+  CHECK(contents(merged) == contents(sessions.out));
+}
+
+TEST_CASE("a session with one case keeps what analyze made of another", "[cases]") {
+  const Sessions sessions;
+  (void)sessions.run({});
+  const std::string late = sessions.folder.write("late.json", R"([
+    { "output": "deployed", "probability": 0.5, "confidence": 0.9 },
+    { "output": "deployment_time", "max": 19, "probability": 0.5, "confidence": 0.9 } ])");
+  const std::string heavy = sessions.out + "/heavy";
+  (void)run_program(sessions.folder, {"analyze", heavy, "--requirements", late});
+  const auto before = contents(heavy);
+  CHECK(sessions.run({"--resume", "--case", "light"}).code == 1);
+  CHECK(contents(heavy) == before);
+  CHECK(sessions.compared()["requirements"].size() == 1); // the campaign's own
+}
+
+TEST_CASE("goals to stop at are refused for a campaign that was extended", "[cases]") {
+  const Sessions sessions;
+  (void)sessions.run({});
+  (void)sessions.run({"--resume", "--runs", "40", "--case", "heavy"});
+  const std::string again = sessions.folder.path() / "again";
+  std::vector<std::string> words{
+      "run", sessions.out + "/heavy/campaign.json", "--out", again, "--until", "deployed 50%"};
+  const Finished refused = run_program(sessions.folder, words);
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.error, HasFacts({"--until", "was extended"}));
+  CHECK_FALSE(std::filesystem::exists(again));
+  words.insert(words.end(), {"--seed", "8"}); // other draws, which nobody has analysed
+  CHECK(run_program(sessions.folder, words).code == 1);
+}

@@ -3,6 +3,7 @@
 #include "montecarlo/results/results_folder/version.hpp"
 #include "tests/cli/program.hpp"
 
+#include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 
 #include <regex>
@@ -115,6 +116,47 @@ TEST_CASE("a command line that makes no sense is refused") {
     CHECK(out.empty());
     CHECK(error == expected);
   }
+}
+
+// An option of integers takes one of these numbers, and neither 1.5 nor 0.5.
+TEST_CASE("every whole number is decimal, whatever it begins with") {
+  CLI::App app;
+  Action action;
+  for (const Command& command : all_commands()) command.add(app, action);
+  /// The text from which the option's value is read; nothing if the option refuses it.
+  const auto taken = [](CLI::Option* option,
+                        const std::string& text) -> std::optional<std::vector<std::string>> {
+    option->clear();
+    option->add_result(text);
+    try {
+      option->run_callback();
+    } catch (const CLI::Error&) {
+      return std::nullopt;
+    }
+    return option->reduced_results();
+  };
+  long numbers = 0;
+  for (CLI::App* command : app.get_subcommands(std::function<bool(CLI::App*)>()))
+    for (CLI::Option* option : command->get_options()) {
+      if (option->get_lnames().empty() || option->get_expected_max() != 1 || taken(option, "1.5") ||
+          taken(option, "0.5"))
+        continue;
+      for (const std::string number : {"1", "8", "10", "100"}) {
+        if (taken(option, number) != std::vector{number}) continue;
+        CAPTURE(command->get_name(), option->get_name(), number);
+        CHECK(taken(option, "0" + number).value_or(std::vector{number}) == std::vector{number});
+        CHECK_FALSE(taken(option, "0x" + number));
+        ++numbers;
+      }
+    }
+  CHECK(numbers > 60);
+  const Folder folder;
+  const std::string file = folder.write("c.json", quick_campaign(4).dump());
+  const std::string out = folder.path() / "r";
+  CHECK(run_program(folder, {"run", file, "--out", out, "--runs", "012", "--seed", "0010"}).code ==
+        0);
+  const Json sampling = parse_json_file(out + "/campaign.json")["sampling"];
+  CHECK((sampling["runs"] == 12 && sampling["seed"] == 10));
 }
 
 TEST_CASE("a folder may have the name of a command") {

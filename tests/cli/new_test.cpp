@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <fstream>
+#include <sstream>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -65,6 +66,20 @@ TEST_CASE("numbers of a yoke need a yoke") {
   }
 }
 
+TEST_CASE("a wing with its root hinge only has no spring of other hinges") {
+  const Folder folder;
+  const std::string out = folder.path() / "w";
+  const Finished refused =
+      run_program(folder, {"new", "--out", out, "--panels", "1", "--spring", "77"});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.error, HasFacts({"--spring", "77", "--root-spring"}));
+  CHECK_FALSE(std::filesystem::exists(out));
+  CHECK(run_program(folder, {"new", "--out", out, "--panels", "1", "--root-spring", "0.4",
+                             "--harness", "0.02"})
+            .code == 0);
+  CHECK(parse_json_file(out + "/scene.json")["hinges"][0]["latch"]["stiffness"] == 5000 * 0.4);
+}
+
 TEST_CASE("new refuses a wing that cannot be, and says if one does not deploy") {
   const Folder folder;
   const std::string out = folder.path() / "w";
@@ -84,6 +99,29 @@ TEST_CASE("new refuses a wing that cannot be, and says if one does not deploy") 
   const auto stalls = run_program(folder, {"new", "--harness", "5", "--out", out});
   CHECK(stalls.code == 0);
   CHECK_THAT(stalls.error, HasFacts({"warning: the nominal wing does not deploy"}));
+  const std::string page = read_text(out + "/README.md").value();
+  for (const char* claim : {"twice the", "three times"}) CHECK_THAT(page, !Catch::Contains(claim));
+  CHECK_THAT(page, HasFacts({"a placeholder", "a placeholder", "placeholders"}));
+}
+
+TEST_CASE("the commands on a new wing's page deploy it, however slow it is") {
+  const Folder folder;
+  const std::string out = folder.path() / "slow";
+  REQUIRE(
+      run_program(folder, {"new", "--panels", "2", "--panel-mass", "5000", "--out", out}).code ==
+      0);
+  CHECK(parse_json_file(out + "/campaign.json")["integration"]["t_end"] > 60);
+  long commands = 0;
+  for (const std::string& line : lines_of(read_text(out + "/README.md").value())) {
+    if (!line.starts_with("    wingspread simulate ")) continue;
+    std::istringstream in(line);
+    std::string program, command, file;
+    in >> program >> command >> file;
+    const Finished done = run_program(folder, {command, out + '/' + file, "--json"});
+    CHECK(parse_json(done.out)["status"] == "deployed");
+    ++commands;
+  }
+  CHECK(commands == 1);
 }
 
 TEST_CASE("an example is copied by its name, and runs from its copy") {

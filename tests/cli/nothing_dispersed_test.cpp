@@ -70,6 +70,41 @@ TEST_CASE("runs that are all the same show no probability, and say so everywhere
   }
 }
 
+TEST_CASE("few runs that are all the same are not said to need more of them") {
+  const Folder folder;
+  Json json = undispersed(Json::array());
+  json["sampling"]["runs"] = 5; // 22 would show 90 % at 90 %, were they different ones
+  const std::string file = folder.write("c.json", json.dump());
+  const auto ran = run_program(folder, {"run", file, "--out", folder.path() / "r"});
+  const auto checked = run_program(folder, {"check", file});
+  CHECK_THAT(ran.error, HasFacts({"deployed", "undecided", "all 5 runs are the same"}));
+  for (const std::string& text : {ran.error, checked.out})
+    CHECK_THAT(text, !Catch::Contains("it takes") && !Catch::Contains("--resume"));
+}
+
+TEST_CASE("the note on further tests is printed for any case that they may decide", "[cases]") {
+  const auto law = parse_json(R"({ "type": "normal", "mean": 1, "std": 0.01 })");
+  Json json = undispersed(Json::array({stowed_torque_by(law)}));
+  const DoneCampaign done(json);
+  const Results results = read_stored_results(read_stored_campaign(done.path)).results;
+  auto times = std::ranges::find(results.outputs, "root.latch_time", &Column::name)->values;
+  std::ranges::sort(times);
+  json["requirements"] = Json::array({{{"output", "root.latch_time"},
+                                       {"max", times[35]}, // four of 40 runs break it, one may
+                                       {"probability", 0.9},
+                                       {"confidence", 0.9}}});
+  const auto spread = parse_json(R"({ "name": "spread" })"), fixed = parse_json(R"({
+    "name": "fixed", "distributions": { "s": { "type": "constant", "value": 1 } } })");
+  for (const Json& cases : {Json::array({spread, fixed}), Json::array({fixed, spread})}) {
+    json["cases"] = cases;
+    const std::string name = cases[0]["name"];
+    const std::string file = done.folder.write("c.json", json.dump());
+    const auto ran = done.program({"run", file, "--out", done.folder.path() / name});
+    CAPTURE(name, ran.error);
+    CHECK_THAT(ran.error, HasFacts({"root.latch_time", "note: each further test", "--resume"}));
+  }
+}
+
 TEST_CASE("margin, rare and goals to stop at are refused where nothing is dispersed") {
   const Folder folder;
   const std::string file = folder.write("c.json", undispersed(Json::array()).dump());

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <sstream>
+#include <fstream>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -309,89 +309,4 @@ TEST_CASE("the commands that merge names make what is missing, and then it merge
   CHECK(merged.error.empty());
   (void)run_into(folder.path() / "whole", campaign);
   CHECK(contents(out) == contents(folder.path() / "whole"));
-}
-
-namespace {
-
-/// The value at a parameter's path in a scene's JSON; absent factors are 1, absent offsets 0.
-double value_at(const Json& scene, const std::string& path) {
-  std::istringstream in(path);
-  std::string list, name, key;
-  std::getline(in, list, '.');
-  std::getline(in, name, '.');
-  const auto named =
-      std::ranges::find_if(scene[list], [&](const Json& o) { return o["name"] == name; });
-  const Json* at = &*named;
-  while (std::getline(in, key, '.')) {
-    if (at->is_array()) return at->at(std::stoul(key)).get<double>();
-    if (!at->contains(key)) return key == "scale" ? 1 : 0;
-    at = &at->at(key);
-  }
-  return at->get<double>();
-}
-
-} // namespace
-
-TEST_CASE("replay writes the scene of a run: simulate latches it at the same times") {
-  const Folder folder;
-  const std::string source = std::string(source_folder) + "/studies/campaigns/yoke_wing.json";
-  const std::string out = folder.path() / "r";
-  REQUIRE(
-      run_program(folder, {"run", source, "--out", out, "--runs", "3", "--case", "cold"}).code <=
-      1);
-  const auto applied = lines_of(
-      run_program(folder, {"sample", source, "--runs", "3", "--case", "cold", "--applied"}).out);
-  REQUIRE(applied.size() == 4);
-  for (const char* run : {"0", "2"}) {
-    const std::string file = folder.path() / ("run_" + std::string(run) + ".json");
-    const auto replayed = run_program(
-        folder, {"replay", out, "--case", "cold", "--run", run, "--json", "--scene", file});
-    REQUIRE(replayed.code == 0);
-    const Json there = parse_json(replayed.out);
-    REQUIRE(there["latches"].size() == 5);
-    const Json here =
-        parse_json(run_program(folder, {"simulate", file, "--t-end", "120", "--json"}).out);
-    CHECK(here["latches"] == there["latches"]); // every bit of times and rates
-    CHECK(here["peak_moment"] == there["peak_moment"]);
-    // The CSV of applied parameters has the scene's values: masses, factors of tables, dampers.
-    const Json scene = parse_json_file(file);
-    std::istringstream names(applied[0]), values(applied[1 + std::stoul(run)]);
-    std::string name, value;
-    long compared = 0;
-    while (std::getline(names, name, ',') && std::getline(values, value, ',')) {
-      if (name == "run") continue;
-      CAPTURE(name);
-      CHECK(value_at(scene, name) == std::stod(value));
-      ++compared;
-    }
-    CHECK(compared == 35);
-    CHECK(value_at(scene, "hinges.root.damper.scale") > 1.5); // cold grease
-  }
-}
-
-TEST_CASE("replay names the options with which simulate makes the run of its scene") {
-  const DoneCampaign done(quick_campaign(4));
-  const std::string file = done.folder.path() / "run.json", csv = done.folder.path() / "t.csv";
-  const std::vector<std::string> words{"replay",  done.path, "--run", "2",
-                                       "--scene", file,      "--out", csv};
-  const auto with_dt = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), words.begin(), words.end());
-    return done.program(more);
-  };
-  const auto [code, out, error] = with_dt({"--dt", "0.5"});
-  CHECK(code == 0);
-  CHECK_THAT(out, Catch::Contains("\n  wingspread simulate " + file +
-                                  " --rtol 1e-06 --atol 1e-08 --t-end 20\n"));
-  const auto rows = lines_of(read_text(csv).value());
-  REQUIRE(rows.size() > 4);
-  CHECK(rows[1].starts_with("0,"));
-  CHECK(rows[2].starts_with("0.5,"));
-  CHECK(rows[3].starts_with("1,"));
-  CHECK(with_dt({}).code == 0); // the same scene again loses nothing
-  std::ofstream(file) << "{}";
-  CHECK(with_dt({}).error ==
-        "error: --scene: found \"" + file +
-            "\", an existing file, expected a new file: this one would be lost\n");
-  CHECK(done.program({"replay", done.path, "--run", "2", "--dt", "0.5"}).error ==
-        "error: --dt: found --dt without --out, expected the trajectory's file in --out\n");
 }

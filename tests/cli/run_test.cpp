@@ -245,6 +245,26 @@ TEST_CASE("an interrupted run keeps what is done, and resuming completes it", "[
   CHECK(contents(path) == contents(whole));
 }
 
+TEST_CASE("an interrupted run of cases shows what each has so far", "[parallel]") {
+  Json json = quick_campaign(4000);
+  json["cases"] = parse_json(R"([ { "name": "light" }, { "name": "heavy" } ])");
+  const RunSetting setting(json);
+  for (const bool table : {false, true}) {
+    const std::string out = setting.out + (table ? "t" : "p"), light = out + "/light";
+    std::vector<std::string> words{"run", setting.campaign, "--out", out, "--threads", "2"};
+    if (table) words.emplace_back("--table");
+    const Program program(setting.folder, words);
+    REQUIRE(wait_for_lines(light + "/runs.csv", 50));
+    program.send(SIGINT);
+    const Finished end = program.finish();
+    CHECK(end.code == 130);
+    if (table)
+      CHECK_THAT(lines_of(end.out).front(), HasFacts({"light", "partial, of 4000 runs"}));
+    else
+      CHECK_THAT(end.out, Catch::StartsWith(paths(light)));
+  }
+}
+
 TEST_CASE("a run that was killed can be resumed", "[parallel]") {
   const RunSetting setting(quick_campaign(1000));
   const auto path = setting.folder.path() / "r";

@@ -27,6 +27,45 @@ TEST_CASE("sensitivity of a shard or of an interrupted folder says so") {
         Json{{"done", 10}, {"of", 40}});
 }
 
+TEST_CASE("sensitivity names the case, of a folder and of a campaign") {
+  const Folder folder;
+  Json json = quick_campaign(8);
+  json.erase("correlations");
+  json["cases"] = parse_json(R"([ { "name": "light" }, { "name": "heavy" } ])");
+  const std::string file = folder.write("c.json", json.dump()), out = folder.path() / "r";
+  (void)run_program(folder, {"run", file, "--out", out});
+  CHECK_THAT(run_program(folder, {"sensitivity", out, "--case", "heavy"}).out,
+             Catch::StartsWith("three_panel · heavy · 8 runs"));
+  CHECK_THAT(run_program(folder, {"sensitivity", file, "--case", "heavy", "--samples", "4"}).out,
+             Catch::StartsWith("three_panel · heavy · 4 samples"));
+}
+
+TEST_CASE("merge of a design's shards prints a table where one is asked for, before its warnings") {
+  const Folder folder;
+  Json json = quick_campaign(8);
+  json.erase("correlations");
+  const std::string file = folder.write("c.json", json.dump());
+  std::vector<std::string> words{"merge"};
+  for (const char* part : {"1", "2"}) {
+    words.push_back(folder.path() / part);
+    REQUIRE(run_program(folder, {"sensitivity", file, "--samples", "4", "--shard",
+                                 std::string(part) + "/2", "--out", words.back()})
+                .code == 0);
+  }
+  const auto merged = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--out", folder.path() / out});
+    all.insert(all.end(), more.begin(), more.end());
+    return run_program(folder, all);
+  };
+  const auto paths = lines_of(merged("files", {}).out);
+  CHECK(paths.size() == 4);
+  for (const std::string& path : paths) CHECK(std::filesystem::exists(path));
+  const std::string table = merged("table", {"--table"}).out, all = merged("all", {"--all"}).out;
+  CHECK_THAT(table, HasFacts({"4 samples"}));
+  CHECK(all.size() > table.size());
+}
+
 TEST_CASE("sensitivity of runs that all failed has exit code 3, as analyze has") {
   const Folder folder;
   Json json = quick_campaign(4);

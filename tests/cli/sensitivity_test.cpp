@@ -292,8 +292,8 @@ TEST_CASE("shards of a design are merged to the folder that one process makes, b
   CHECK_FALSE(std::filesystem::exists(at("out")));
   CHECK(make("part1", {"--shard", "1/3", "--resume"}).code == 0);
   CHECK(make("part1", {"--shard", "1/2", "--resume"}).code == 2);
-  const auto merged =
-      run_program(folder, {"merge", at("part3"), at("part2"), at("part1"), "--out", at("out")});
+  const auto merged = run_program(
+      folder, {"merge", at("part3"), at("part2"), at("part1"), "--out", at("out"), "--table"});
   CHECK(merged.code == 0);
   CHECK(merged.out == whole.out);
   CHECK(contents(at("out")) == contents(at("whole")));

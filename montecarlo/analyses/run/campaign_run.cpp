@@ -140,8 +140,8 @@ CampaignResults run_cases(const RunRequest& request, const RunCallbacks& callbac
       return results;
   folder.note_extensions();
   for (const auto& [stored, summary] : results.folders)
-    results.cases.push_back(case_summary(stored, summary));
-  results.cases = complete_cases(folder.stored(), std::move(results.cases));
+    results.cases.push_back(case_summary(folder.stored(), stored.campaign.of_case, summary));
+  results.cases = complete_cases(folder.stored(), std::move(results.cases), request.pool.threads);
   write_cases_file(folder.stored(), results.cases, request.out);
   results.whole = folder.stored();
   return results;

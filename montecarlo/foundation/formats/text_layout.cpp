@@ -122,6 +122,59 @@ std::string percent(double share, int decimals) {
 
 namespace {
 
+constexpr double conversion_rounding = 1e-12; // relative: a conversion of units costs some 1e-16
+
+/// A decimal text of the value, moved by one unit of its last digit if it lies on the wrong side: below the value with
+/// `sign` 1, above with -1. @param unit of the last digit @param text of a number to nearest
+template <class Text>
+std::string rounded_to(double value, int sign, double unit, const Text& text) {
+  const double nearest = std::stod(text(value));
+  const bool wrong = sign * (value - nearest) > conversion_rounding * std::abs(value);
+  return text(wrong ? nearest + sign * unit : nearest);
+}
+
+std::string percent_towards(double share, int decimals, int sign) {
+  if (std::isnan(share)) return "–";
+  const auto text = [&](double percents) { return fmt::format("{:.{}f}", percents, decimals); };
+  return rounded_to(100 * share, sign, std::pow(10, -decimals), text) + " %";
+}
+
+} // namespace
+
+std::string percent_at_least(double share, int decimals) {
+  return percent_towards(share, decimals, -1);
+}
+
+std::string percent_at_most(double share, int decimals) {
+  return percent_towards(share, decimals, 1);
+}
+
+std::string in_digits_towards(double value, int sign, int digits) {
+  if (!std::isfinite(value) || value == 0) return in_digits(value);
+  const auto text = [&](double number) {
+    std::string its = fmt::format("{:#.{}g}", number, digits);
+    if (its.ends_with('.')) its.pop_back();
+    return its;
+  };
+  const double power = std::floor(std::log10(std::abs(value)));
+  return rounded_to(value, sign, std::pow(10, power - digits + 1), text);
+}
+
+std::string in_digits_beside(double value, double limit, int sign) {
+  constexpr int least = 5, most = 17; // all of a double's
+  std::string shown = in_digits(value);
+  if (!std::isfinite(value) || value == 0) return shown;
+  for (int digits = least; digits <= most; ++digits) {
+    shown = in_digits_towards(value, sign, digits);
+    const bool at_limit = std::abs(value - limit) <= conversion_rounding * std::abs(limit);
+    const double read = std::stod(shown);
+    if (at_limit || (read != limit && (read < limit) == (value < limit))) break;
+  }
+  return shown;
+}
+
+namespace {
+
 /// The decimals, at most 12, that show two digits of a number of per cent; 1 − a share is then near the rounding of a
 /// double.
 int decimals_of(double percents) {

@@ -41,6 +41,15 @@ inline constexpr int table_width = 100;
 /// "0.500 %" of 0.005; "–" of NaN. A share below 1 has as many decimals as tell it from 100 %.
 [[nodiscard]] std::string percent(double share, int decimals = 3);
 
+/// A share rounded down in per cent, or up: a lower bound stays one, and an upper bound.
+[[nodiscard]] std::string percent_at_least(double share, int decimals = 3);
+[[nodiscard]] std::string percent_at_most(double share, int decimals = 3);
+
+/// in_digits() rounded up with `sign` 1, so that an upper bound stays one, down with -1, to nearest with 0.
+[[nodiscard]] std::string in_digits_towards(double value, int sign, int digits = 5);
+/// in_digits_towards() with the fewest digits, from five, that show whether the value is below, at or above the limit.
+[[nodiscard]] std::string in_digits_beside(double value, double limit, int sign);
+
 /// "0.500 – 0.700 %" of 0.005 and 0.007. Where three decimals do not tell a bound from 0 or 100 %, it has more and is
 /// rounded outwards.
 [[nodiscard]] std::string percent_range(double lower, double upper);

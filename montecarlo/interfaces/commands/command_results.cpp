@@ -59,7 +59,7 @@ int merge_into_design(const MergeOptions& options) {
         {{options.folders.front().string(), "", "--preview with shards of a design",
           "shards of a campaign: a design has indices only once all its runs are there"}});
   merge_designs(options.folders, options.out);
-  return show_design(options.out);
+  return show_design(options.out, options.display);
 }
 
 /// Merges shards that were run with --no-rows.
@@ -172,7 +172,8 @@ int analyze_cases(const AnalyzeOptions& options, const std::filesystem::path& to
   whole.folder = to;
   std::vector<CaseSummary> cases;
   for (StoredCampaign& stored : asked)
-    cases.push_back(case_summary(stored, summarize_again(stored, to / stored.campaign.of_case)));
+    cases.push_back(case_summary(whole, stored.campaign.of_case,
+                                 summarize_again(stored, to / stored.campaign.of_case)));
   write_cases_file(whole, cases, to);
   return show_all_cases(whole, cases, options.display);
 }

@@ -60,19 +60,16 @@ RunRequest request_of(const RunOptions& options) {
 }
 
 /// Prints the results. @return the exit status
-int show_run(const CampaignResults& results, bool has_cases, const Display& display) {
-  for (const auto& [stored, summary] : results.folders)
-    if (!has_cases)
-      return show_results(stored, summary, display);
-    else if (display.histograms)
-      show_table(stored, summary, display);
+int show_run(const CampaignResults& results, const Display& display) {
   if (results.whole) {
+    if (display.histograms)
+      for (const auto& [stored, summary] : results.folders) show_table(stored, summary, display);
     show_cases(*results.whole, results.cases, display);
     return judge_cases(*results.whole, results.cases);
   }
-  int worst = exit_code::done; // interrupted: there is nothing to compare
+  int worst = exit_code::done; // one folder, or cases that were interrupted: nothing to compare
   for (const auto& [stored, summary] : results.folders)
-    worst = std::max(worst, judge_results(stored, summary));
+    worst = std::max(worst, show_results(stored, summary, display));
   return worst;
 }
 
@@ -93,8 +90,7 @@ int run(const RunOptions& options) {
   const CampaignResults results =
       run_campaign(request, {begin_runs, show_progress, begin_statistics});
   progress.pause();
-  const bool has_cases = !options.no_rows && !request.campaign.cases.empty();
-  const int code = show_run(results, has_cases, options.display);
+  const int code = show_run(results, options.display);
   if (!results.interrupted) return code;
   print_message("{}", last_words);
   return exit_code::interrupted;

@@ -33,6 +33,7 @@ struct SensitivityOptions {
   std::optional<long> resamples;
   MachineOptions machine;
   bool resume = false, json = false, all = false;
+  bool files_only = false; ///< print the paths of the folder's files, no table
 };
 
 /// Refuses the options for making runs, because a results folder already has its runs.
@@ -51,6 +52,11 @@ void refuse_run_options(const SensitivityOptions& options) {
     problems.push_back({"", "--resamples", "this option with the folder of a campaign",
                         "it only for Sobol' indices: rank correlations have no bootstrap"});
   if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+/// "panel_3 · cold": the scene, and the case that the runs are of.
+std::string title_of(const Campaign& campaign) {
+  return campaign.scene.name + (campaign.of_case.empty() ? "" : " · " + campaign.of_case);
 }
 
 /// Locks the folder that is analyzed and the one that is written: --out, new or empty; without --out the same folder.
@@ -82,6 +88,10 @@ void show_analysis(const Sensitivity& all, const Json& about, const std::string&
   }
   if (options.json)
     fmt::print("{}", text);
+  else if (options.files_only)
+    for (const char* file :
+         {design_file, design_runs_file, sensitivity_json_file, sensitivity_csv_file})
+      fmt::print("{}\n", (folder / file).string());
   else
     fmt::print("{}", options.all ? sensitivity_table(all, title) : moved_by_table(all, title));
   for (const std::string& warning : warnings(all)) print_message("warning: {}\n", warning);
@@ -106,7 +116,7 @@ int analyze_ranks(const SensitivityOptions& options) {
   for (const Dispersion& each : stored.campaign.dispersions)
     if (!each.rows.empty()) made.rows[each.rows].push_back(each.name);
   show_analysis(rank_sensitivity(results, confidence, made), about,
-                fmt::format("{} · {}{} · rank correlations", stored.campaign.scene.name,
+                fmt::format("{} · {}{} · rank correlations", title_of(stored.campaign),
                             counted(static_cast<long>(results.size()), "run", "runs"), part),
                 folders.to(), options);
   return report_failed(std::ranges::count(results.status, Status::failed),
@@ -133,7 +143,7 @@ int analyze_design(const SaltelliDesign& design, const Results& results,
                                   design.rows, kind, bounds),
                 stamp_json(stamp_of(design)),
                 fmt::format("{} · {} samples, {} runs · {}, seed {} · Sobol' indices",
-                            design.campaign.scene.name, design.rows, results.size(), kind,
+                            title_of(design.campaign), design.rows, results.size(), kind,
                             sampling.seed),
                 folder, options);
   return report_failed(std::ranges::count(results.status, Status::failed),
@@ -313,9 +323,11 @@ Example:
 
 } // namespace
 
-int show_design(const std::filesystem::path& folder) {
+int show_design(const std::filesystem::path& folder, const Display& display) {
   SensitivityOptions options;
   options.from = folder;
+  options.all = display.all;
+  options.files_only = !wants_table(display);
   return analyze_design_folder(options);
 }
 

@@ -56,10 +56,9 @@ void add_machine_options(CLI::App& command, MachineOptions& options) {
                             "Number of threads; default: all processors"),
          1, most_threads)
       ->type_name("N");
-  command
-      .add_option("--lanes", options.lanes,
-                  "Runs that one thread makes at once: 1, 2, 4 or 8; default: the most")
-      ->check(CLI::IsMember({1, 2, 4, 8}).description(""))
+  one_of(command.add_option("--lanes", options.lanes,
+                            "Runs that one thread makes at once: 1, 2, 4 or 8; default: the most"),
+         {"1", "2", "4", "8"})
       ->type_name("L");
   one_of(command.add_option("--isa", options.isa,
                             "Instruction set: scalar, neon, avx2 or avx512; default: the widest"),

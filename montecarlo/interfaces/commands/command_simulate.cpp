@@ -68,14 +68,20 @@ template <class Options> double interval_of(const Options& options, double t_end
   return *options.dt;
 }
 
-/// Writes the scene as the run's draws left it. A file that has this scene already is kept.
-/// @throws SpecError for any other existing file: it may be somebody's scene
-void write_applied_scene(const std::filesystem::path& file, const Scene& scene) {
-  const std::string text = json_text(write_scene(scene));
+/// @param text of the file that --scene asks for
+/// @throws SpecError if that file is --out's, or exists with another text: it may be somebody's scene
+void refuse_lost_scene(const ReplayOptions& options, const std::string& text) {
+  const std::filesystem::path& file = options.scene;
+  const auto refuse = [&](const char* what, const char* expected) {
+    throw SpecError({{"", "--scene", '"' + file.string() + "\", " + what, expected}});
+  };
+  const auto whole = [](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
+  if (!options.out.empty() && whole(options.out) == whole(file))
+    refuse("the file of --out", "another file");
   if (std::filesystem::is_regular_file(file) && read_text(file) != text)
-    throw SpecError({{"", "--scene", '"' + file.string() + "\", an existing file",
-                      "a new file: this one would be lost"}});
-  write_file(file, text);
+    refuse("an existing file", "a new file: this one would be lost");
 }
 
 int simulate(const SimulateOptions& options) {
@@ -107,15 +113,18 @@ int replay(const ReplayOptions& options) {
   const ReplayRequest request(stored, options.run);
   const Integration& integration = stored.campaign.integration;
   const double interval = interval_of(options, integration.t_end);
+  const std::string scene =
+      options.scene.empty() ? "" : json_text(write_scene(request.applied_scene()));
+  if (!options.scene.empty()) refuse_lost_scene(options, scene);
   const Replayed replayed =
       write_trajectory(options.out, stored.campaign.scene, [&](const Observer& observer) {
         return request.replay(observer, interval);
       });
-  if (!options.scene.empty()) write_applied_scene(options.scene, replayed.scene);
+  if (!options.scene.empty()) write_file(options.scene, scene);
   fmt::print("{}", options.json ? json_text(replay_json(replayed)) : replay_text(replayed));
   if (!options.scene.empty() && !options.json)
     fmt::print("Its scene: {}\n  wingspread simulate {}{}\n", options.scene.string(),
-               shell_word(options.scene.string()), options_of(integration));
+               shell_word(options.scene.string()), options_of(integration, replayed.outcome));
   for (const std::string& difference : replayed.differences)
     print_message("error: {}\n", difference);
   const int code = status_code(replayed.outcome);
@@ -150,6 +159,10 @@ void add_simulate_options(CLI::App& command, SimulateOptions& options) {
                      "Relative tolerance of a step, at least 1e-15 and < 1");
   command.add_option("--atol", settings.atol, "Absolute tolerance of a step, rad and rad/s, > 0");
   with_unit(command.add_option("--t-end", settings.t_end, "End of the simulation, s, > 0"), "s");
+  within(command.add_option("--max-steps", settings.max_steps,
+                            "The run fails after so many trial steps"),
+         1, std::numeric_limits<std::int64_t>::max())
+      ->type_name("N");
   command
       .add_option("--latch", settings.latch, "Latch model: event, or smoothed:EPS with EPS in rad")
       ->type_name("event|smoothed:EPS")

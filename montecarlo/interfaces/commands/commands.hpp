@@ -13,6 +13,8 @@ class App;
 
 namespace wingspread {
 
+struct Display;
+
 /// Carries out the command with the parsed options. Returns the exit status.
 using Action = std::function<int()>;
 
@@ -36,9 +38,9 @@ void add_methods(CLI::App& app, Action& action);
 void add_version(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);
 
-/// Prints the Sobol' indices of a folder that has all runs of a design, and writes sensitivity.json and
-/// sensitivity.csv into it. @return the exit status
-int show_design(const std::filesystem::path& folder);
+/// Prints the Sobol' indices of a folder that has all runs of a design, or the paths of its files, and writes
+/// sensitivity.json and sensitivity.csv into it. @return the exit status
+int show_design(const std::filesystem::path& folder, const Display& display);
 
 /// "wingspread 0.1.0".
 [[nodiscard]] std::string version_text();

@@ -32,6 +32,7 @@ void apply_settings(const api::Settings& settings, Integration& integration) {
   if (settings.rtol) given["rtol"] = *settings.rtol;
   if (settings.atol) given["atol"] = *settings.atol;
   if (settings.t_end) given["t_end"] = *settings.t_end;
+  if (settings.max_steps) given["max_steps"] = *settings.max_steps;
   if (settings.latch == "event")
     given["latch"] = "event";
   else if (settings.latch)

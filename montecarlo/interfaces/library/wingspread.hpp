@@ -48,6 +48,7 @@ struct Settings {
   std::string of_case{};          ///< the case; empty: the campaign's wing without any of its cases
   std::optional<std::string> method{}, latch{};          ///< latch: "event" or "smoothed:EPS"
   std::optional<double> step{}, rtol{}, atol{}, t_end{}; ///< s; 1; rad and rad/s; s
+  std::optional<std::int64_t> max_steps{}; ///< the run fails after so many trial steps
 };
 
 /// One latching of a hinge.

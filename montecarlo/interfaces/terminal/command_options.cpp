@@ -19,10 +19,18 @@ namespace {
 constexpr std::size_t most_warnings =
     30; // heuristic: one screen; with more, the first ones scroll away
 
-/// Refuses all texts but integers from 0 to 2^64 − 1; CLI11 would read -1 as 2^64 − 1.
-std::string refuse_seed(const std::string& text) {
-  if (parse_number<std::uint64_t>(text)) return "";
-  return fmt::format("found {}, expected an integer from 0 to 2^64 - 1", text);
+/// Gives the option the decimal number from `least` to `most` that its text states, or else refuses the text. The text
+/// becomes that number's own: CLI11 would read "010" as octal, "0x10" as 16 and -1 as 2^64 − 1.
+template <class Integer>
+void take_decimal(CLI::Option* option, Integer least, Integer most, const std::string& expected) {
+  const auto convert = [=](std::string& text) -> std::string {
+    const auto number = parse_number<Integer>(text);
+    if (!number || *number < least || *number > most)
+      return fmt::format("found {}, expected {}", text, expected);
+    text = fmt::format("{}", *number);
+    return "";
+  };
+  option->transform(CLI::Validator(convert, ""));
 }
 
 std::string refuse_shard(const std::string& text) {
@@ -42,11 +50,7 @@ CLI::Option* within(CLI::Option* option, std::int64_t least, std::int64_t most) 
   const bool open = most == std::numeric_limits<std::int64_t>::max();
   const std::string limits =
       open ? fmt::format("at least {}", least) : fmt::format("from {} to {}", least, most);
-  option->check([=](const std::string& text) -> std::string {
-    const auto number = parse_number<std::int64_t>(text);
-    if (number && *number >= least && *number <= most) return "";
-    return fmt::format("found {}, expected a whole number {}", text, limits);
-  });
+  take_decimal(option, least, most, "a whole number " + limits);
   return limited(option, limits);
 }
 
@@ -91,10 +95,12 @@ std::vector<std::string> entries_of(const char* option, std::span<const std::str
 }
 
 void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed) {
-  limited(command.add_option("--seed", seed, "The seed; default: the campaign's"),
-          "from 0 to 2^64 - 1")
-      ->check(refuse_seed)
-      ->type_name("N");
+  CLI::Option* option =
+      limited(command.add_option("--seed", seed, "The seed; default: the campaign's"),
+              "from 0 to 2^64 - 1")
+          ->type_name("N");
+  take_decimal(option, std::numeric_limits<std::uint64_t>::min(),
+               std::numeric_limits<std::uint64_t>::max(), "an integer from 0 to 2^64 - 1");
 }
 
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling) {

@@ -95,7 +95,7 @@ WingDesign ask_design(std::istream& in, std::ostream& out) {
       ask(in, out, "a yoke, y or n", "n", reader_of(design.yoke));
   for (const DesignNumber& number : design_numbers()) {
     if (number.of_yoke && !design.yoke) continue;
-    if (number.value == &WingDesign::spring && design.panels == 1 && !design.yoke) continue;
+    if (number.value == &WingDesign::spring && !has_other_hinges(design)) continue;
     more = more &&
            ask(in, out, std::string(number.what),
                fmt::format("{} {}", design.*number.value, number.dimension.unit),

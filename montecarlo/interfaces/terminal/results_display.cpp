@@ -20,12 +20,13 @@
 namespace wingspread {
 namespace {
 
-std::string title(const StoredCampaign& stored, const Summary& summary) {
+/// The title of a table. @param count "1000 runs", "3 cases" @param summary of the runs; empty for several cases
+std::string title(const StoredCampaign& stored, const std::string& count, const Summary& summary) {
   const Campaign& campaign = stored.campaign;
   const std::string of_case = campaign.of_case.empty() ? "" : " · " + campaign.of_case;
-  std::string text = fmt::format(
-      "{}{} · {} · {}, seed {}", campaign.scene.name, of_case, counted(summary.runs, "run", "runs"),
-      design_names[static_cast<std::size_t>(campaign.sampling.design)], campaign.sampling.seed);
+  std::string text = fmt::format("{}{} · {} · {}, seed {}", campaign.scene.name, of_case, count,
+                                 design_names[static_cast<std::size_t>(campaign.sampling.design)],
+                                 campaign.sampling.seed);
   if (summary.replicates > 0) text += ", " + counted(summary.replicates, "replicate", "replicates");
   if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
   if (!summary.interim.before.empty())
@@ -34,7 +35,13 @@ std::string title(const StoredCampaign& stored, const Summary& summary) {
   if (const auto& preview = stored.stamp.preview)
     text += fmt::format(" · PREVIEW: {} of {} runs, {} missing", preview->runs, preview->of,
                         preview->of - preview->runs);
-  else if (summary.stopped)
+  return text;
+}
+
+std::string title(const StoredCampaign& stored, const Summary& summary) {
+  std::string text = title(stored, counted(summary.runs, "run", "runs"), summary);
+  if (stored.stamp.preview) return text;
+  if (summary.stopped)
     text += fmt::format(" · stopped, of at most {}", stored.runs().size());
   else if (summary.runs < stored.runs().size())
     text += fmt::format(" · partial, of {} runs", stored.runs().size());
@@ -63,20 +70,25 @@ bool may_grow(const StoredCampaign& stored) {
   return !stored.foreign && stored.campaign.until.empty() && !is_streaming_folder(stored.folder);
 }
 
-/// Prints how adding runs affects verdicts that are undecided, or that were judged before.
-void print_notes(const Summary& summary, bool may_grow) {
-  if (!summary.interim.before.empty() && !summary.requirements.empty())
+/// Whether more runs may decide a verdict: more of the same run do not, nor do more runs whose peaks t_end cuts.
+bool is_open(const Verdict& verdict) {
+  return !is_decided(verdict) && !verdict.one_run && !verdict.of_part &&
+         !rests_on_cut_peaks(verdict);
+}
+
+/// Prints how adding runs affects verdicts that are undecided, or that were judged before. @pre at least one summary
+void print_notes(const std::vector<const Summary*>& summaries, bool may_grow) {
+  const Summary& last = **std::ranges::max_element(
+      summaries, {}, [](const Summary* each) { return each->interim.count(); });
+  if (!last.interim.before.empty() && !last.requirements.empty())
     print_message(
         "note: analysis {} of the same draws, after {} runs: a requirement passes if the "
         "risk of a wrong pass at any of them is at most 1 - confidence (summary.json states "
         "it)\n",
-        summary.interim.count(), fmt::join(summary.interim.before, ", "));
-  const auto is_open = [](const Verdict& verdict) {
-    // more of the same run decide nothing, nor do more runs whose peaks t_end cuts
-    return !is_decided(verdict) && !verdict.one_run && !verdict.of_part &&
-           !rests_on_cut_peaks(verdict);
-  };
-  if (std::ranges::any_of(summary.requirements, is_open))
+        last.interim.count(), fmt::join(last.interim.before, ", "));
+  if (std::ranges::any_of(summaries, [](const Summary* each) {
+        return std::ranges::any_of(each->requirements, is_open);
+      }))
     print_message("note: each further test after a failed one, with more runs or another --seed, "
                   "adds a risk of a wrong pass{}\n",
                   may_grow ? ". `run --resume --runs N` adds runs and judges all analyses together "
@@ -92,26 +104,29 @@ void print_open_goals(std::string_view of_case, const Summary& summary) {
                     counted(summary.runs, "run", "runs"), to_string(each.goal));
 }
 
-/// Prints each requirement that some case does not meet, with its worst case, and the notes once.
+/// Prints each requirement that some case does not meet, with its worst case, and the notes once. Cases that are a part
+/// of their runs are not judged.
 void report_cases(const std::vector<CaseSummary>& cases, bool may_grow) {
+  std::vector<const CaseSummary*> judged;
+  for (const CaseSummary& each : cases)
+    if (std::ranges::none_of(each.summary.requirements, &Verdict::of_part)) judged.push_back(&each);
+  if (judged.empty()) return;
   for (std::size_t i = 0; i < cases.front().summary.requirements.size(); ++i) {
-    const CaseSummary& worst = cases[worst_case(cases, i)];
+    const auto verdict = [i](const CaseSummary* each) -> const Verdict& {
+      return each->summary.requirements[i];
+    };
+    const CaseSummary* worst = *std::ranges::min_element(judged, is_worse, verdict);
     std::vector<std::string> others;
-    for (const CaseSummary& each : cases)
-      if (&each != &worst && each.summary.requirements[i].decision != Decision::pass)
-        others.push_back(each.name);
-    const Verdict& verdict = worst.summary.requirements[i];
-    if (verdict.decision != Decision::pass)
-      print_not_met(worst.name + ": ", verdict,
+    for (const CaseSummary* each : judged)
+      if (each != worst && verdict(each).decision != Decision::pass) others.push_back(each->name);
+    if (verdict(worst).decision != Decision::pass)
+      print_not_met(worst->name + ": ", verdict(worst),
                     others.empty() ? "" : fmt::format(" (nor met: {})", fmt::join(others, ", ")));
   }
-  const auto is_open = [](const CaseSummary& each) {
-    return std::ranges::any_of(each.summary.requirements,
-                               [](const Verdict& verdict) { return !is_decided(verdict); });
-  };
-  const auto open = std::ranges::find_if(cases, is_open);
-  print_notes(open == cases.end() ? cases.front().summary : open->summary, may_grow);
-  for (const CaseSummary& each : cases) print_open_goals(each.name + ": ", each.summary);
+  std::vector<const Summary*> summaries;
+  for (const CaseSummary* each : judged) summaries.push_back(&each->summary);
+  print_notes(summaries, may_grow);
+  for (const CaseSummary* each : judged) print_open_goals(each->name + ": ", each->summary);
 }
 
 } // namespace
@@ -189,24 +204,19 @@ int judge_quietly(const StoredCampaign& stored, const Summary& summary) {
   return code != exit_code::done || met ? code : exit_code::not_met;
 }
 
-/// Flushes the table, so that standard error follows it on a terminal.
-void end_table() { std::fflush(stdout); }
-
 } // namespace
 
 int judge_results(const StoredCampaign& stored, const Summary& summary) {
-  end_table();
   if (!stored.stamp.is_part()) {
     for (const Verdict& verdict : summary.requirements)
       if (verdict.decision != Decision::pass) print_not_met("", verdict, "");
-    print_notes(summary, may_grow(stored));
+    print_notes({&summary}, may_grow(stored));
     print_open_goals("", summary);
   }
   return judge_quietly(stored, summary);
 }
 
 int judge_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases) {
-  end_table();
   if (!whole.stamp.shard && !cases.empty()) report_cases(cases, may_grow(whole));
   int worst = exit_code::done;
   for (const CaseSummary& each : cases)
@@ -217,14 +227,10 @@ int judge_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cas
 
 void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
                 const Display& display) {
-  const Campaign& campaign = whole.campaign;
   if (wants_table(display)) {
-    const std::string title = fmt::format(
-        "{} · {} · {}, seed {}{}", campaign.scene.name, counted(std::ssize(cases), "case", "cases"),
-        design_names[static_cast<std::size_t>(campaign.sampling.design)], campaign.sampling.seed,
-        whole.stamp.shard ? " · " + describe(whole.stamp.shard) : "");
-    fmt::print("{}", display.all ? cases_table(cases, title, whole.folder.string())
-                                 : compact_cases_table(cases, title, whole.folder.string()));
+    const std::string first = title(whole, counted(std::ssize(cases), "case", "cases"), {});
+    fmt::print("{}", display.all ? cases_table(cases, first, whole.folder.string())
+                                 : compact_cases_table(cases, first, whole.folder.string()));
     return;
   }
   fmt::print("{}\n{}\n", (whole.folder / campaign_file).string(),

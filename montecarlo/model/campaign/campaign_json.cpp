@@ -25,7 +25,8 @@ void refuse_dimensions(const JsonCursor& at, const Sampling& sampling, const Coo
 }
 
 /// Refuses goals to stop at in an extended campaign: they need interim analyses that are fixed before the first run.
-void refuse_extended_rule(const JsonCursor& at) {
+void refuse_extended_rule(const JsonCursor& at, const Campaign& campaign) {
+  if (campaign.until.empty() || campaign.sampling.extended_from.empty()) return;
   at.refuse("goals to stop at", "no goals: they need interim analyses that are fixed before the "
                                 "first run, and the campaign was extended");
 }
@@ -175,10 +176,10 @@ private:
     const std::size_t before = problems_.size();
     if (const auto at = object_.find("requirements")) guarantees.read(*at, campaign_.requirements);
     const bool sound = problems_.size() == before;
-    if (const auto at = object_.find("until"))
+    if (const auto at = object_.find("until")) {
       guarantees.read(*at, sound ? &campaign_.requirements : nullptr, campaign_.until);
-    if (!campaign_.until.empty() && !campaign_.sampling.extended_from.empty())
-      refuse_extended_rule(object_.at().member("until"));
+      refuse_extended_rule(*at, campaign_);
+    }
     if (!campaign_.statistics.tolerance_limits.empty())
       refuse_dependent_draws(object_.at().member("statistics").member("tolerance"),
                              "tolerance limits", design);
@@ -335,6 +336,7 @@ void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from)
 
 void override_stopping(Campaign& campaign, const JsonCursor& at) {
   guarantee_reader(campaign).read(at, &campaign.requirements, campaign.until);
+  refuse_extended_rule(at, campaign);
   campaign.resolved = write_campaign(campaign, Json(campaign.resolved.at("dispersions")));
 }
 

@@ -196,6 +196,7 @@ std::string describe_requirement(const Campaign& campaign, const Requirement& re
   const PassingRule rule = passing_rule(interim_analyses(campaign), runs, p,
                                         confidence_alone(campaign.requirements, requirement));
   const std::string text = to_string(requirement);
+  if (!has_spread(campaign)) return text + ": cannot be shown, as nothing is dispersed";
   if (rule.allowed)
     return fmt::format("{}: {} of {} may break it", text, *rule.allowed,
                        counted(runs, "run", "runs"));

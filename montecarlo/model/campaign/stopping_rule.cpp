@@ -143,6 +143,14 @@ std::optional<Json> take_width(std::string_view& text) {
   return Json(fmt::format("{} {}", *before, *last));
 }
 
+/// The share of a number of per cent, nearest to it in decimals: 0.007 of 0.7, while 0.7 / 100 is another double.
+double share_of_percent(double percents) {
+  const std::string text = fmt::format("{}", percents);
+  const std::size_t mark = std::min(text.find('e'), text.size());
+  const int power = mark < text.size() ? std::stoi(text.substr(mark + 1)) : 0;
+  return parse_csv_number(fmt::format("{}e{}", text.substr(0, mark), power - 2)).value_or(0);
+}
+
 } // namespace
 
 bool is_share(std::string_view output) {
@@ -180,7 +188,8 @@ std::optional<Json> parse_stopping_goal(std::string_view text) {
   }
   goal["output"] = std::string(name);
   const bool relative = percent && !is_share(name); // a share's own unit is %
-  goal[relative ? "relative_width" : "width"] = percent ? Json(width->get<double>() / 100) : *width;
+  goal[relative ? "relative_width" : "width"] =
+      percent ? Json(share_of_percent(width->get<double>())) : *width;
   return goal;
 }
 

@@ -19,7 +19,7 @@ JSON has no comments, so this page explains each line. Every number is a startin
 number may have a unit: `"1.8 m"`, `"90 deg"`, `"12 in*lbf"`; without one it is in SI units and radians.
 
     wingspread check {campaign} --draw wing.svg      # the wing in a picture, warnings, static margins
-    wingspread simulate {scene}                      # one deployment
+    wingspread simulate {campaign}                   # one deployment
     wingspread run {campaign} --out results --table  # the campaign: all cases, verdicts
     wingspread report results                           # one HTML page for a review
 
@@ -40,8 +40,7 @@ Paths name parameters of the scene; `*` matches every name. `"apply": "scale"` m
 1. Spring torques by the torque test, both ways: `"spring": {{ "measured": {{ "angle": […], "deploying": […], "stowing": […] }} }}`.
 2. Harness torques measured cold, and the temperatures of the cases.
 3. Latch stiffness by the joint's test, masses and inertias by the mass budget.
-4. Limits of the requirements by those of the project: these are twice the nominal time and three times the
-   nominal moments.
+4. Limits of the requirements by those of the project: {limits}
 
 `wingspread schema scene` and `wingspread schema campaign` list every key for an editor.
 )";
@@ -64,14 +63,19 @@ Starter make_starter(WingDesign design, const std::string& command) {
   if (limits)
     used = *limits;
   else
-    used = {60, 60, std::vector<double>(static_cast<std::size_t>(design.wings), 1)};
+    used = {60, 60, std::vector<double>(static_cast<std::size_t>(design.wings), 1), true};
   const AnnotatedLines scene = starter_scene(design);
   const AnnotatedLines campaign = starter_campaign(design, starter_scene_file, used);
   Starter starter{json_file_text(scene), json_file_text(campaign), "", limits.has_value()};
   starter.page = fmt::format(
       page_text, fmt::arg("name", design.name), fmt::arg("wing", described(design)),
       fmt::arg("scene", starter_scene_file), fmt::arg("campaign", starter_campaign_file),
-      fmt::arg("command", command), fmt::arg("scene_notes", notes_table(scene)),
+      fmt::arg("command", command),
+      fmt::arg("limits", limits ? "these are twice the nominal time and three times the\n"
+                                  "   nominal moments."
+                                : "these are placeholders, as the nominal wing does not\n"
+                                  "   deploy in every case."),
+      fmt::arg("scene_notes", notes_table(scene)),
       fmt::arg("campaign_notes", notes_table(campaign)));
   return starter;
 }

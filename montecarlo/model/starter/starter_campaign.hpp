@@ -13,6 +13,7 @@ struct StarterLimits {
   double t_end = 0;           ///< s
   double deployment_time = 0; ///< s
   std::vector<double> moment; ///< of each wing's root, N·m
+  bool placeholders = false;  ///< of a wing that does not deploy
 };
 
 /// @param scene_file name of the scene's file, beside the campaign

@@ -35,7 +35,8 @@ constexpr double drag_coefficient = 2;   // of a long flat plate across the flow
 using Elements = std::vector<AnnotatedLines>;
 
 double largest_spring(const WingDesign& design) {
-  return std::max(design.root_spring, design.spring);
+  return has_other_hinges(design) ? std::max(design.root_spring, design.spring)
+                                  : design.root_spring;
 }
 
 double spring_of(const WingDesign& design, bool root) {

@@ -84,6 +84,9 @@ void check_design(const WingDesign& design) {
     if (!std::isfinite(value) || value < 0 || (value == 0 && !number.may_be_zero))
       refuse(number.option, fmt::format("{}", value), expected_quantity(number.dimension));
   }
+  if (!has_other_hinges(design) && design.spring != WingDesign().spring)
+    refuse("--spring", fmt::format("{}, with one panel and no yoke", design.spring),
+           "--root-spring: the root hinge is the only one");
   if (design.damper && !(std::isfinite(*design.damper) && *design.damper >= 0))
     refuse(damper_option, fmt::format("{}", *design.damper),
            expected_quantity({"N·m·s/rad", "≥ 0"}));

@@ -48,6 +48,11 @@ struct WingDesign {
   bool damper_suggested = false; ///< whether suggested_damper() gave it
 };
 
+/// Whether a wing has hinges beside its root.
+[[nodiscard]] inline bool has_other_hinges(const WingDesign& design) {
+  return design.panels > 1 || design.yoke;
+}
+
 /// A number that the user may give, as an option or as the answer to a question.
 struct DesignNumber {
   std::string_view option; ///< "--panel-length"

@@ -30,7 +30,7 @@ std::string replay_text(const Replayed& replayed) {
   return text;
 }
 
-std::string options_of(const Integration& integration) {
+std::string options_of(const Integration& integration, const Outcome& replayed) {
   const Integration usual;
   std::string text;
   const auto add = [&](const char* option, const auto& value, const auto& by_default) {
@@ -41,6 +41,9 @@ std::string options_of(const Integration& integration) {
   add("rtol", integration.rtol, usual.rtol);
   add("atol", integration.atol, usual.atol);
   add("t-end", integration.t_end, usual.t_end);
+  // `simulate` goes on to t_end: fewer steps than usual might end it after a replay that ended well
+  if (integration.max_steps > usual.max_steps || replayed.status == Status::failed)
+    add("max-steps", integration.max_steps, usual.max_steps);
   if (integration.smoothing) text += fmt::format(" --latch smoothed:{}", *integration.smoothing);
   return text;
 }

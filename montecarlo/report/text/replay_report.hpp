@@ -13,7 +13,7 @@ namespace wingspread {
 
 [[nodiscard]] std::string replay_text(const Replayed& replayed);
 
-/// The options of `simulate` for these settings, each after a blank; empty for the defaults.
-[[nodiscard]] std::string options_of(const Integration& integration);
+/// The options of `simulate` that repeat a replayed run with these settings, each after a blank; empty for the defaults.
+[[nodiscard]] std::string options_of(const Integration& integration, const Outcome& replayed);
 
 } // namespace wingspread

@@ -4,6 +4,7 @@
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/campaign/guarantees.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 
 #include <fmt/format.h>
@@ -29,6 +30,16 @@ SpecError unknown_case(const std::vector<CaseSpec>& cases, const std::string& na
   const std::string expected = cases.empty() ? "no case: the campaign has none"
                                              : names_of(cases) + did_you_mean(name, names);
   return SpecError({{"", "--case", fmt::format("\"{}\"", name), expected}});
+}
+
+/// Whether summary.json is of an `analyze` with other requirements or statistics than the campaign's.
+bool has_own_analysis(const std::filesystem::path& folder) {
+  try {
+    return std::filesystem::exists(folder / summary_file) &&
+           parse_json_file(folder / summary_file).contains(analyzed_key);
+  } catch (const SpecError&) { // a broken file is written again
+    return false;
+  }
 }
 
 /// The named case; nothing if the campaign has no cases and none is named.
@@ -111,13 +122,14 @@ std::vector<CaseSpec> made_cases(const StoredCampaign& whole) {
   return made;
 }
 
-CaseSummary case_summary(const StoredCampaign& stored, Summary summary) {
-  const bool partial = summary.runs < stored.runs().size() && !summary.stopped;
-  return {stored.campaign.of_case, std::move(summary), partial};
+CaseSummary case_summary(const StoredCampaign& whole, std::string name, Summary summary) {
+  // the case's own campaign.json does not know of runs that were added to other cases only
+  const bool partial = summary.runs < whole.runs().size() && !summary.stopped;
+  return {std::move(name), std::move(summary), partial};
 }
 
-std::vector<CaseSummary> complete_cases(const StoredCampaign& whole,
-                                        std::vector<CaseSummary> known) {
+std::vector<CaseSummary> complete_cases(const StoredCampaign& whole, std::vector<CaseSummary> known,
+                                        int threads) {
   std::vector<CaseSummary> all;
   for (const CaseSpec& spec : made_cases(whole)) {
     const auto found = std::ranges::find(known, spec.name, &CaseSummary::name);
@@ -127,11 +139,9 @@ std::vector<CaseSummary> complete_cases(const StoredCampaign& whole,
     }
     const StoredCampaign stored = read_stored_campaign(whole.folder / spec.name);
     const FolderLock lock(stored.folder);
-    all.push_back(
-        case_summary(stored, write_statistics(stored, read_stored_results(stored).results)));
-    // runs that were added to other cases only are missing here
-    all.back().partial |=
-        !all.back().summary.stopped && all.back().summary.runs < whole.runs().size();
+    Summary summary = stored_summary(stored, read_stored_results(stored).results, threads);
+    if (!has_own_analysis(stored.folder)) write_summary_files(stored, summary);
+    all.push_back(case_summary(whole, spec.name, std::move(summary)));
   }
   return all;
 }

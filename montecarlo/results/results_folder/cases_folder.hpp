@@ -58,14 +58,16 @@ private:
 /// The cases that have a folder, in the campaign's order.
 [[nodiscard]] std::vector<CaseSpec> made_cases(const StoredCampaign& whole);
 
-/// Reads the folders of cases that are not in `known`, and computes their statistics. Such a case is partial if runs
-/// were since added to others.
+/// Reads the folders of cases that are not in `known`, computes their statistics by the campaign's own requirements, and
+/// writes them, unless the case's folder has those of another `analyze`.
 /// @return all cases that have a folder, in the campaign's order
-[[nodiscard]] std::vector<CaseSummary> complete_cases(const StoredCampaign& whole,
-                                                      std::vector<CaseSummary> known);
+[[nodiscard]] std::vector<CaseSummary>
+complete_cases(const StoredCampaign& whole, std::vector<CaseSummary> known, int threads = 0);
 
-/// A case's summary for the comparison. @param stored the case's own folder
-[[nodiscard]] CaseSummary case_summary(const StoredCampaign& stored, Summary summary);
+/// A case's summary for the comparison. The case is partial if it lacks runs of the whole campaign: its own, or those
+/// that were added to other cases only. @param whole the outer folder
+[[nodiscard]] CaseSummary case_summary(const StoredCampaign& whole, std::string name,
+                                       Summary summary);
 
 /// Writes cases.json. @param to its folder
 void write_cases_file(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,

@@ -82,9 +82,8 @@ ShardMaker maker_of(const std::vector<std::filesystem::path>& folders) {
   return maker;
 }
 
-/// Labels the merge as a preview if runs are missing; adds a fault if there is no run at all.
-void preview(Merging& merging, PartFaults& faults) {
-  const long of = merging.whole.campaign.sampling.runs;
+/// Labels the merge as a preview if some of its `of` runs are missing; adds a fault if there is no run at all.
+void preview(Merging& merging, long of, PartFaults& faults) {
   long there = 0;
   for (const Part& part : merging.parts) there += part.count();
   if (there == 0)
@@ -97,6 +96,8 @@ void preview(Merging& merging, PartFaults& faults) {
 /// @throws SpecError if they are not folders of one campaign
 Merging merging_of(const std::vector<std::filesystem::path>& folders, const std::string& of_case,
                    const std::filesystem::path& out, MergeKind kind, PartFaults& faults) {
+  // of all cases: a case's own campaign.json does not know of runs that were added to others only
+  const long runs = read_stored_campaign(folders.front()).campaign.sampling.runs;
   Merging merging;
   auto& [whole, parts, text] = merging;
   std::vector<Part> not_begun;
@@ -107,7 +108,7 @@ Merging merging_of(const std::vector<std::filesystem::path>& folders, const std:
       continue;
     }
     StoredCampaign stored = read_stored_campaign(its);
-    parts.push_back({its, folder, stored.stamp, stored.runs()});
+    parts.push_back({its, folder, stored.stamp, shard_runs(runs, stored.stamp.shard)});
     if (parts.size() == 1) whole = std::move(stored);
   }
   if (parts.empty()) { // no folder has begun the case
@@ -118,7 +119,7 @@ Merging merging_of(const std::vector<std::filesystem::path>& folders, const std:
   }
   refuse_stopping(whole);
   for (Part& part : not_begun) {
-    part.own = shard_runs(whole.campaign.sampling.runs, part.stamp.shard);
+    part.own = shard_runs(runs, part.stamp.shard);
     parts.push_back(std::move(part));
   }
   whole.folder = out;
@@ -126,9 +127,9 @@ Merging merging_of(const std::vector<std::filesystem::path>& folders, const std:
   for (Part& part : parts) find_present(part, whole);
   find_doubles(parts, faults);
   if (kind == MergeKind::preview)
-    preview(merging, faults);
+    preview(merging, runs, faults);
   else
-    find_missing(parts, whole.campaign.sampling.runs, maker_of(folders), faults);
+    find_missing(parts, runs, maker_of(folders), faults);
   text = campaign_text(whole.campaign, whole.stamp);
   refuse_other_folder(out, text);
   return merging;
@@ -213,8 +214,8 @@ std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& f
   write_file(out / campaign_file, text);
   std::vector<CaseSummary> cases;
   for (Merging& merging : mergings) {
-    const StoredCampaign stored = merging.whole;
-    cases.push_back(case_summary(stored, write_merged(std::move(merging))));
+    std::string name = merging.whole.campaign.of_case;
+    cases.push_back(case_summary(whole, std::move(name), write_merged(std::move(merging))));
   }
   write_cases_file(whole, cases, out);
   return cases;

@@ -124,6 +124,15 @@ ReplayRequest::ReplayRequest(const StoredCampaign& stored, long run) : stored_(&
   recorded_ = find_stored_row(stored, run);
 }
 
+Scene ReplayRequest::applied_scene() const {
+  const Campaign& campaign = stored_->campaign;
+  std::vector<double> draws(campaign.dispersions.size());
+  RunPlan(campaign).draw(run_, draws);
+  Scene scene = campaign.scene;
+  apply(campaign, draws, campaign.scene, scene);
+  return scene;
+}
+
 Replayed ReplayRequest::replay(const Observer& observer, double interval) const {
   const RunPlan plan(stored_->campaign);
   auto [outcome, row, scene] = Runner(plan).replay(run_, observer, interval);

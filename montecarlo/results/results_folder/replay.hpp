@@ -30,6 +30,8 @@ public:
   /// @throws SpecError if the campaign has no such run, or runs.csv is broken
   ReplayRequest(const StoredCampaign& stored, long run);
 
+  /// The scene as the run's draws leave it.
+  [[nodiscard]] Scene applied_scene() const;
   /// @param observer receives the trajectory
   /// @param interval between its samples, s; 0: every step
   [[nodiscard]] Replayed replay(const Observer& observer, double interval = 0) const;

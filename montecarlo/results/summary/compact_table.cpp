@@ -224,9 +224,10 @@ std::string errors_where(const Summary& summary) {
                          (found.runs == summary.runs || (summary.one_run && found.runs > 0));
   if (all_known && summary.runs == 1) return "in the only run";
   if (all_known) return fmt::format("in all {} runs", summary.runs);
-  return fmt::format("in ≥ {} of runs ({:g} % confidence)",
-                     percent(1 - share_at_most(found, 0, summary.confidence_of_bound()), 1),
-                     100 * summary.confidence);
+  return fmt::format(
+      "in ≥ {} of runs ({:g} % confidence)",
+      percent_at_least(1 - share_at_most(found, 0, summary.confidence_of_bound()), 1),
+      100 * summary.confidence);
 }
 
 std::string accuracy_lines(const Summary& summary) {
@@ -277,7 +278,7 @@ std::string worst_accuracy(CompactCases cases) {
 std::string accuracy_note(const Summary& summary) {
   const Accuracy& found = *summary.accuracy;
   const auto at_most = [&](std::size_t runs) {
-    return percent(share_at_most(found, runs, summary.confidence_of_bound()), 2);
+    return percent_at_most(share_at_most(found, runs, summary.confidence_of_bound()), 2);
   };
   std::string note = fmt::format(
       "{} of {}, drawn at random, repeated by {} at rtol {:g} (campaign: {} at {:g}); ratio "

@@ -180,11 +180,16 @@ std::string requirement_lines(const std::vector<CaseSummary>& all, Cases cases) 
 
 } // namespace
 
+bool is_worse(const Verdict& verdict, const Verdict& other) {
+  return standing(verdict) < standing(other);
+}
+
 std::size_t worst_case(const std::vector<CaseSummary>& cases, std::size_t requirement) {
-  const auto standing_in = [&](const CaseSummary& each) {
-    return standing(each.summary.requirements[requirement]);
+  const auto verdict = [&](const CaseSummary& each) -> const Verdict& {
+    return each.summary.requirements[requirement];
   };
-  return static_cast<std::size_t>(std::ranges::min_element(cases, {}, standing_in) - cases.begin());
+  return static_cast<std::size_t>(std::ranges::min_element(cases, is_worse, verdict) -
+                                  cases.begin());
 }
 
 Json cases_json(const std::vector<CaseSummary>& cases, const Json& about) {

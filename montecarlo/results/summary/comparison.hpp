@@ -18,9 +18,12 @@ struct CaseSummary {
   bool partial = false; ///< runs are missing
 };
 
-/// The case with the worst verdict on a requirement: failed before undecided before passed, then by the largest
-/// number of runs that break it, as a share of the number that may, then by the least margin, then by the least share of
-/// runs that meet it. Ties go to the first case.
+/// Whether a verdict is worse than another on the same requirement: failed before undecided before passed, then by the
+/// largest number of runs that break it, as a share of the number that may, then by the least margin, then by the least
+/// share of runs that meet it.
+[[nodiscard]] bool is_worse(const Verdict& verdict, const Verdict& other);
+
+/// The case with the worst verdict on a requirement. Ties go to the first case.
 /// @param requirement index of the requirement, the same in all summaries
 /// @pre at least one case
 [[nodiscard]] std::size_t worst_case(const std::vector<CaseSummary>& cases,

@@ -208,8 +208,9 @@ std::string outputs(const Summary& summary, bool all) {
   return text + missing_quantiles(summary);
 }
 
-std::string in_digits_if_any(const std::optional<double>& value) {
-  return value ? in_digits(*value) : "–";
+/// @param sign as of in_digits_towards
+std::string in_digits_if_any(const std::optional<double>& value, int sign = 0) {
+  return value ? in_digits_towards(*value, sign) : "–";
 }
 
 /// The rule by which runs are ranked for tolerance limits, and why limits are missing, with their outputs.
@@ -248,8 +249,9 @@ std::string tolerance(const Summary& summary) {
       const std::string content =
           fmt::format("{:.10g} % at {:.10g} %", 100 * spec.probability, 100 * spec.confidence);
       text += fmt::format("{}{}{:>14}", in_column("  " + output.name, 44), in_column(content, 28),
-                          spec.side == Side::upper ? "" : in_digits_if_any(limits.lower));
-      if (spec.side != Side::lower) text += fmt::format("{:>14}", in_digits_if_any(limits.upper));
+                          spec.side == Side::upper ? "" : in_digits_if_any(limits.lower, -1));
+      if (spec.side != Side::lower)
+        text += fmt::format("{:>14}", in_digits_if_any(limits.upper, 1));
       text += '\n';
     }
   if (text.empty()) return "";
@@ -283,16 +285,11 @@ std::string requirements(const Summary& summary, std::string_view folder) {
   std::string text = fmt::format("\n{:<46}{:<10}{:>8}{:>8}{:>13}{:>13}\n", "REQUIREMENT", "verdict",
                                  "broken", "allowed", "observed", "guaranteed");
   for (const Verdict& verdict : summary.requirements) {
-    const bool share = verdict.requirement.output == deployed_output;
-    const auto beside_limit = [&](const std::optional<double>& value) {
-      return value ? in_digits(in_unit_of_limit(verdict.requirement, *value)) : "–";
-    };
     text += fmt::format(
-        "{}{:<10}{:>8}{:>8}{:>13}{:>13}\n", in_column("  " + to_string(verdict.requirement), 46),
+        "{}{:<10}{:>8}{:>8}{}{}\n", in_column("  " + to_string(verdict.requirement), 46),
         to_string(verdict.decision), verdict.failures(),
         verdict.allowed ? std::to_string(*verdict.allowed) : "–",
-        share ? percent(verdict.share) : beside_limit(verdict.observed),
-        share ? percent(verdict.guaranteed_share) : beside_limit(verdict.guaranteed));
+        right_aligned(observed_text(verdict), 13), right_aligned(guaranteed_text(verdict), 13));
     if (verdict.decision != Decision::pass || verdict.joint)
       text += "    " + wrapped(evidence(verdict), 4) + '\n';
     text += broken_runs(verdict, folder);

@@ -320,6 +320,39 @@ std::string evidence(const Verdict& verdict) {
                      counted(verdict.runs, "run", "runs"), least, found);
 }
 
+namespace {
+
+/// A value of the output in the unit of its limit, with as many digits as tell it from the limit.
+std::string beside_limit(const Requirement& requirement, const std::optional<double>& value,
+                         int sign) {
+  if (!value) return "–";
+  const double limit = requirement.max ? *requirement.max : requirement.min.value_or(0);
+  return in_digits_beside(in_unit_of_limit(requirement, *value),
+                          in_unit_of_limit(requirement, limit), sign);
+}
+
+} // namespace
+
+std::string observed_text(const Verdict& verdict) {
+  return verdict.requirement.output == deployed_output
+             ? percent(verdict.share)
+             : beside_limit(verdict.requirement, verdict.observed, 0);
+}
+
+std::string guaranteed_text(const Verdict& verdict) {
+  const Requirement& requirement = verdict.requirement;
+  if (requirement.output != deployed_output)
+    return beside_limit(requirement, verdict.guaranteed, requirement.min ? -1 : 1);
+  constexpr int most = 12;
+  const double share = verdict.guaranteed_share, required = requirement.probability;
+  std::string text = percent_at_least(share);
+  for (int decimals = 4; share >= required && decimals <= most; ++decimals) {
+    if (std::stod(text) >= 100 * required * (1 - 1e-14)) break;
+    text = percent_at_least(share, decimals);
+  }
+  return text;
+}
+
 std::string replay_command(std::string_view folder, long run) {
   return fmt::format("wingspread replay {} --run {}", shell_word(std::string(folder)), run);
 }

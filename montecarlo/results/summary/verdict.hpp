@@ -154,6 +154,12 @@ struct GroupVerdict {
 /// In order of first mention.
 [[nodiscard]] std::vector<GroupVerdict> judge_groups(std::span<const Verdict> verdicts);
 
+/// The observed share of runs that meet it, or the observed value of the output.
+[[nodiscard]] std::string observed_text(const Verdict& verdict);
+/// The guaranteed share or value, rounded to the side on which it is still guaranteed, with as many digits as show
+/// whether it keeps to the limit.
+[[nodiscard]] std::string guaranteed_text(const Verdict& verdict);
+
 /// The reason for the verdict: "25 of 10000 runs break it; at most 19 may".
 [[nodiscard]] std::string evidence(const Verdict& verdict);
 

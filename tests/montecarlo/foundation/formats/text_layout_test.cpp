@@ -84,6 +84,26 @@ TEST_CASE("long lines of a text go on below, deeper", "[text_layout]") {
   CHECK(wrapped_lines(columns) == columns);
 }
 
+TEST_CASE("bounds are rounded to the side on which they hold", "[text_layout]") {
+  CHECK(percent_at_least(0.99729792) == "99.729 %");
+  CHECK(percent_at_least(0.8609, 1) == "86.0 %");
+  CHECK(percent_at_least(0.29) == "29.000 %"); // 100 · 0.29 is less by a rounding
+  CHECK(percent_at_least(0.99999999) == "99.999 %");
+  CHECK(percent_at_most(0.13901, 2) == "13.91 %");
+  CHECK(percent_at_most(0.139, 2) == "13.90 %");
+  CHECK(percent_at_most(1) == "100.000 %");
+  CHECK(in_digits_towards(184.3826, 1) == "184.39");
+  CHECK(in_digits_towards(184.3874, -1) == "184.38");
+  CHECK(in_digits_towards(-1.00001, -1) == "-1.0001");
+  CHECK(in_digits_towards(56.00000000000001, 1) == "56.000"); // a conversion's rounding
+  CHECK(in_digits_towards(0, 1) == "0.0000");
+  CHECK(in_digits_beside(184.3879, 184.388, 1) == "184.3879");
+  CHECK(in_digits_beside(184.38826, 184.388, 1) == "184.39");
+  CHECK(in_digits_beside(184.38826, 184.388, 0) == "184.39");
+  CHECK(in_digits_beside(60.00000000000001, 60, 1) == "60.000");
+  CHECK(in_digits_beside(2.00000004, 2, -1) == "2.00000004");
+}
+
 TEST_CASE("shares in percent, and counted things", "[text_layout]") {
   CHECK(percent(0.123456) == "12.346 %");
   CHECK(percent(0.126, 0) == "13 %");

@@ -42,6 +42,13 @@ TEST_CASE("Widths to stop at are read from words, and written as a campaign has 
   // of a share of runs one per cent is 0.01
   for (const char* text : {"deployed 1 %", "deployed 1%", "deployed 0.01"})
     CHECK(to_string(rule_of(text)[0]) == "deployed 0.01");
+  // the number nearest to the decimal one: 0.7 / 100 and 2.3 / 100 are others
+  for (const auto& [text, share] : {std::pair("0.7", 0.007),
+                                    {"2.3", 0.023},
+                                    {"5.7e-8", 5.7e-10},
+                                    {"1e-9", 1e-11},
+                                    {"29", 0.29}})
+    CHECK(parse_stopping_goal("deployed " + std::string(text) + "%").value()["width"] == share);
   CHECK(parse_stopping_goal("root.held 1%") ==
         parse_json(R"({ "output": "root.held", "width": 0.01 })"));
   for (const char* text : {"root.latch_time@0.5 20 ms", "root.latch_time@0.5 20ms"})

@@ -99,13 +99,22 @@ TEST_CASE("a check without moved outputs warns of nothing, and one that ends oth
 
 TEST_CASE("the options of a simulation are those that differ from the defaults") {
   Integration how;
-  CHECK(options_of(how).empty());
+  Outcome ended;
+  ended.status = Status::deployed;
+  CHECK(options_of(how, ended).empty());
   how.rtol = 1e-6, how.t_end = 12.5;
-  CHECK(options_of(how) == " --rtol 1e-06 --t-end 12.5");
+  CHECK(options_of(how, ended) == " --rtol 1e-06 --t-end 12.5");
   how.rtol = Integration().rtol, how.t_end = Integration().t_end;
   how.atol = 2e-9, how.smoothing = 0.001;
-  CHECK(options_of(how) == " --atol 2e-09 --latch smoothed:0.001");
+  CHECK(options_of(how, ended) == " --atol 2e-09 --latch smoothed:0.001");
   how = Integration();
   how.method = "runge_kutta4";
-  CHECK(options_of(how) == " --method runge_kutta4 --step 0.0001");
+  CHECK(options_of(how, ended) == " --method runge_kutta4 --step 0.0001");
+  how = Integration();
+  how.max_steps = 5;
+  CHECK(options_of(how, ended).empty()); // simulate goes on, and needs more
+  ended.status = Status::failed;
+  CHECK(options_of(how, ended) == " --max-steps 5");
+  ended.status = Status::deployed, how.max_steps = 2'000'000;
+  CHECK(options_of(how, ended) == " --max-steps 2000000");
 }

@@ -128,14 +128,16 @@ TEST_CASE("runs are one and the same where nothing varies and no result differs 
     summary.statuses = {{Status::deployed, deployed, 0, {}},
                         {Status::stalled, runs - deployed, 0, {}}};
     summary.outputs = {output(4, 2, 2), second};
-    summary.requirements.resize(2);
+    summary.requirements.resize(3);
     for (Verdict& verdict : summary.requirements) verdict.guaranteed_share = 0.9;
     summary.requirements[0].decision = Decision::pass;
     summary.requirements[1].decision = Decision::fail;
+    summary.requirements[1].broken.push_back(0);
     withdraw_if_one_run(campaign, summary);
     const bool one = summary.one_run;
     const Verdict &passed = summary.requirements[0], &failed = summary.requirements[1];
     CHECK(passed.one_run == one);
+    CHECK(summary.requirements[2].one_run == one); // undecided: more of the same run do not decide
     CHECK((passed.decision == (one ? Decision::undecided : Decision::pass)));
     CHECK(std::isnan(passed.guaranteed_share) == one);
     CHECK((!failed.one_run && failed.decision == Decision::fail && failed.guaranteed_share == 0.9));

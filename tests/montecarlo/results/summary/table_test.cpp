@@ -218,7 +218,22 @@ TEST_CASE("a requirement's values have the unit of its limit") {
                              "      43       49.000       56.000"));
   CHECK_THAT(table,
              Catch::Contains("  tip.latch_rate ≤ 1.5 rad/s, 50 % at 90 %    pass            14"
-                             "      43      0.85521      0.97738"));
+                             "      43      0.85521      0.97739"));
+}
+
+TEST_CASE("a guaranteed share never reads as more than it is, nor as short of what it shows") {
+  Verdict verdict;
+  verdict.requirement = {"", "deployed", {}, {}, .9973, .9};
+  verdict.runs = 851;
+  const auto shown = [&](double guaranteed, double required) {
+    verdict.guaranteed_share = guaranteed, verdict.requirement.probability = required;
+    return guaranteed_text(verdict);
+  };
+  CHECK(shown(0.99729792, .9973) == "99.729 %"); // not 99.73 %
+  CHECK(shown(0.9973004, .9973) == "99.730 %");
+  CHECK(shown(0.99999971, .9999966) == "99.9999 %"); // is enough, and reads so
+  CHECK(shown(0.9999961, .9999966) == "99.999 %");
+  CHECK(shown(undefined, .9973) == "–");
 }
 
 TEST_CASE("tolerance limits say by which rule runs rank, and why there is none") {
@@ -315,7 +330,7 @@ TEST_CASE("the table says what the integration contributes") {
   CHECK_THAT(
       on_one_line(summary_table(summary, "t", "out", true)),
       Catch::Contains("by dopri5 at rtol 1e-11 (campaign: auto at 1e-08)") &&
-          Catch::Contains("At most 64.52 % of all runs have an error beyond") &&
+          Catch::Contains("At most 64.53 % of all runs have an error beyond") &&
           Catch::Contains("at most 71.30 % an output that moves by more than 1 % (95 % conf") &&
           Catch::Contains("move so: 5. Runs") && Catch::Contains("differs: 17, 40.") &&
           Catch::Contains("could not finish 3 more."));
