@@ -224,10 +224,9 @@ std::string errors_where(const Summary& summary) {
                          (found.runs == summary.runs || (summary.one_run && found.runs > 0));
   if (all_known && summary.runs == 1) return "in the only run";
   if (all_known) return fmt::format("in all {} runs", summary.runs);
-  return fmt::format(
-      "in ≥ {} of runs ({:g} % confidence)",
-      percent_at_least(1 - share_at_most(found, 0, summary.confidence_of_bound()), 1),
-      100 * summary.confidence);
+  const double share = 1 - share_at_most(found, 0, summary.confidence_of_bound());
+  return fmt::format("in ≥ {} of runs ({:g} % confidence)", percent_at_least(share, 1),
+                     100 * summary.confidence);
 }
 
 std::string accuracy_lines(const Summary& summary) {

@@ -121,3 +121,17 @@ TEST_CASE("CSV faults name the file, the line, what was found and what was expec
   CHECK_THROWS_WITH(read("a\rb\n"), "some.csv: line 1: found a carriage return on its own, "
                                     "expected lines that end in LF or CRLF");
 }
+
+TEST_CASE("a header's unit stands in the brackets that end it, other brackets and all") {
+  const auto split = [](const std::string& header) {
+    const HeaderCell cell = header_cell(header);
+    return cell.name + "|" + cell.unit;
+  };
+  CHECK(split(" c [N·m/(rad/s)] ") == "c|N·m/(rad/s)");
+  CHECK(split("c (in*lbf/(rad/s))") == "c|in*lbf/(rad/s)");
+  CHECK(split("c (a) [((m))/s]") == "c (a)|((m))/s");
+  CHECK(split("(deg)") == "|deg");
+  CHECK(split("m]") == "m]|");
+  CHECK(split("a [m] b") == "a [m] b|");
+  CHECK(split("") == "|");
+}

@@ -173,3 +173,23 @@ TEST_CASE("a unit in a column's header counts, of rows and of an empirical law")
                  Catch::Contains(column) && Catch::Contains("the unit \""));
   }
 }
+
+TEST_CASE("a unit in a column's header is refused where its parameters have several, or its values "
+          "overflow in SI") {
+  const auto problems = [](const std::string& header, const std::string& cell,
+                           const std::string& to) {
+    const Folder folder;
+    Json json = rows_campaign(folder.path(), 1);
+    write_file(folder / "posterior.csv", header + "\n" + cell + "\n");
+    json["dispersions"][1]["rows"]["columns"] = {{"x", {{"to", parse_json(to)}, {"apply", "set"}}}};
+    return message_of([&] { return read_campaign(json.dump(), folder.path()); });
+  };
+  const char* several = R"(["bodies.panel_1.mass", "bodies.panel_1.inertia"])";
+  CHECK(problems("x", "9", several).empty());
+  CHECK_THAT(problems("x [g]", "9000", several),
+             Catch::Contains("the unit \"g\", expected no unit"));
+  CHECK(problems("x [g]", "9000", R"(["bodies.*.mass"])").empty());
+  CHECK_THAT(problems("x [kg]", "1e309", R"(["bodies.*.mass"])"), Catch::Contains("1e309"));
+  CHECK_THAT(problems("x [kN*m]", "1e307", R"(["hinges.root.spring.torque_stowed"])"),
+             Catch::Contains("1e307"));
+}

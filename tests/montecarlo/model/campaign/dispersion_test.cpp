@@ -322,6 +322,22 @@ TEST_CASE("No two draws share a name, expanded ones included", "[dispersion]") {
       "/1/name: found \"m.outer\", the name of another dispersion too, expected a name of its own");
 }
 
+TEST_CASE("no two entries share a name, whatever each draws", "[dispersion]") {
+  const Json to = dispersion("m", R"("apply": "scale", "to": ["bodies.inner.inertia"])");
+  const Json each = dispersion("m", R"("apply": "scale", "each": "bodies.*.mass")");
+  const Json other = dispersion("m", R"("apply": "scale", "each": "hinges.*.spring.scale")");
+  Json rows{{"name", "m"}};
+  rows["rows"] = parse_json(R"({ "values": { "x": [1, 2] }, "apply": "scale",
+                                 "columns": { "x": ["bodies.inner.mass"] } })");
+  const std::vector<Json> all{to, each, other, rows};
+  for (const Json& first : all)
+    for (const Json& second : all) {
+      CAPTURE(first.dump(), second.dump());
+      CHECK_THAT(list_problems({first, second}),
+                 Catch::Contains("/1/name: found \"m\", the name of another dispersion too"));
+    }
+}
+
 TEST_CASE("No two draws share a random stream", "[dispersion]") {
   // A known collision of FNV-1a, 64 bits, which names the streams.
   CHECK(list_problems(

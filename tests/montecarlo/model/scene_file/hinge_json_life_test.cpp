@@ -153,3 +153,16 @@ TEST_CASE("A hold cannot wait for the angle of an elastic joint") {
   CHECK_THROWS_WITH(read_scene(document),
                     Catch::Contains("/hinges/1/release/after") && Catch::Contains("travels"));
 }
+
+TEST_CASE("a stop of a wrong type and one out of range are both told, each with its place") {
+  for (const char* odd : {R"({"side": 5, "stiffness": 7})", "5", "null", R"("x")"})
+    for (const char* side : {"stowed", "latched"}) {
+      const Json document = panel_with(
+          "/hinges/1/stop",
+          (std::string("[") + odd + R"(, {"side": ")" + side + R"(", "stiffness": -1}])").c_str());
+      const std::string message = test::message_of([&] { return read_scene(document); });
+      CAPTURE(odd, side, message);
+      CHECK_THAT(message, Catch::Contains("/hinges/1/stop/0"));
+      CHECK(message.find("json.exception") == std::string::npos);
+    }
+}

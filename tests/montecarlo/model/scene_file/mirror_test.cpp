@@ -167,3 +167,20 @@ TEST_CASE("A pattern covers the names that begin and end as it does, without an 
       }
     }
 }
+
+TEST_CASE("copies have names that a scene may have: what is written can be read again",
+          "[mirror]") {
+  for (const char* as : {"L.*", "L>*", "L,*", "L/*", "L\"*", "L\n*"}) {
+    CAPTURE(as);
+    CHECK_THAT(spoilt({"/mirror/as", Json(as).dump(), ""}), Catch::Contains("/mirror/as: found "));
+  }
+  Json scene = two_wings();
+  scene["mirror"] = {{"of", "R_*"}, {"as", "*"}};
+  CHECK(test::message_of([&] { return read_scene(scene); }).empty());
+  for (const char* list : {"bodies", "hinges"})
+    for (Json& owner : scene[list])
+      for (const char* key : {"name", "child", "parent"})
+        if (owner.contains(key) && owner[key] == "R_inner") owner[key] = "R_base";
+  CHECK_THAT(test::message_of([&] { return read_scene(scene); }),
+             Catch::Contains("makes \"base\""));
+}
