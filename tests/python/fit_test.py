@@ -59,6 +59,13 @@ class Fitting(unittest.TestCase):
         self.assertIn(str(caught.warning), result["findings"])
         self.assertIn(f"not finished: effective sample size {result['sampler']['ess']:.0f} of 100000", str(caught.warning))
 
+    def test_a_fit_warns_of_a_doubtful_campaign_as_the_program_does(self):
+        campaign = self.campaign() | {"outputs": ["latch_time", "rate_at"]}
+        with self.assertWarnsRegex(wingspread.Notice, "/outputs: found \"rate_at\""):
+            wingspread.fit(campaign, self.ground())
+        with self.assertRaisesRegex(wingspread.SpecError, "--resume: found True, expected out"):
+            wingspread.fit(self.campaign(), self.ground(), resume=True)
+
     def test_a_fit_that_is_cut_off_goes_on_in_its_folder(self):
         """To the same bytes as one made at once; the finished folder is read."""
         tests = self.ground()

@@ -74,6 +74,20 @@ class Manners(unittest.TestCase):
         self.assertEqual(process.returncode, -signal.SIGINT)
         self.assertTrue(said.rstrip().endswith("KeyboardInterrupt"))
 
+    def test_ctrl_c_ends_an_evaluation_of_few_but_slow_rows(self):
+        script = ("import sys, numpy, wingspread\n"
+                  "model = wingspread.Model(sys.argv[1], ['hinges.*.spring.scale'], method='runge_kutta4', step=2e-6)\n"
+                  "print('begun', flush=True)\n"
+                  "model(numpy.ones((200, 1)), threads=1)")
+        with subprocess.Popen([sys.executable, "-c", script, SCENE], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as process:
+            self.assertEqual(process.stdout.readline(), "begun\n")
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            _, said = process.communicate(timeout=60)  # all rows take minutes
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertTrue(said.rstrip().endswith("KeyboardInterrupt"))
+
     def test_a_fork_computes_what_its_parent_does(self):
         script = ("import os, sys, numpy, wingspread\n"
                   "model = wingspread.Model(sys.argv[1], ['hinges.*.spring.scale'])\n"
@@ -85,8 +99,9 @@ class Manners(unittest.TestCase):
         self.assertEqual(subprocess.run([sys.executable, "-c", script, SCENE], timeout=60, check=False).returncode, 0)
 
     def test_others_run_while_it_computes(self):
-        model = wingspread.Model(SCENE, ["hinges.*.spring.scale"])
-        for rows in (200, 2000):  # in this thread, and in one of its own
+        paths = ["hinges.*.spring.scale"]
+        slow = wingspread.Model(SCENE, paths, method="runge_kutta4", step=1e-4)
+        for model, rows in ((slow, 4), (wingspread.Model(SCENE, paths), 2000)):  # in this thread, and in one of its own
             # The best of some, for the machine may be busy; a call that held the lock would let none have turns.
             self.assertGreater(max(self.turns_beside(model, rows) for _ in range(20)), 4)
 
@@ -126,6 +141,24 @@ class Manners(unittest.TestCase):
         for paths in (None, 5, [5]):
             with self.assertRaisesRegex(wingspread.SpecError, "--paths: found .*, expected a list of texts"):
                 wingspread.Model(SCENE, paths)
+
+    def test_names_may_come_from_any_iterable(self):
+        paths, outputs = ["hinges.*.spring.scale"], ["root.peak_moment", "tip.latch_time"]
+        expected = wingspread.evaluate(SCENE, paths, [[1.0]], outputs)
+        for kind in (tuple, np.array, iter, dict.fromkeys, lambda names: (name for name in names)):
+            np.testing.assert_equal(wingspread.evaluate(SCENE, kind(paths), [[1.0]], kind(outputs)), expected)
+        table = wingspread.run(CAMPAIGN, runs=3)
+        columns = table.outputs[:2]
+        np.testing.assert_equal(table.numbers(iter(columns)), table.numbers(columns))
+
+    def test_numbers_that_are_none_are_refused(self):
+        model = wingspread.Model(SCENE, ["hinges.*.spring.scale"])
+        for odd in (None, "0.9", 1j):
+            with self.assertRaisesRegex(wingspread.SpecError, "--x: found"):
+                model(np.array([[odd], [1.0]], dtype=object))
+        np.testing.assert_equal(model(np.array([[1], [0.9]], dtype=object)), model([[1.0], [0.9]]))
+        with self.assertRaisesRegex(wingspread.SpecError, "--t-end: found 1000"):
+            wingspread.simulate(SCENE, t_end=10**400)
 
     def test_without_a_case_the_wing_is_that_of_the_program(self):
         campaign = json.loads(pathlib.Path(CAMPAIGN).read_text())

@@ -1,4 +1,5 @@
 #include "montecarlo/analyses/fit/fit_folder.hpp"
+#include "montecarlo/engine/runs/campaign_check.hpp"
 #include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/platform/arithmetic.hpp"
@@ -19,8 +20,8 @@ FitSpec read_tests(const Input& tests, const Campaign& campaign) {
   return read_fit(parse_json(tests.text), "", tests.directory, campaign);
 }
 
-Fit fit_of(const FitResult& result, std::string json) {
-  Fit fit{std::move(json), {}, result.finished};
+Fit fit_of(const FitResult& result, std::string json, std::vector<std::string> notices) {
+  Fit fit{std::move(json), {}, result.finished, std::move(notices)};
   for (std::size_t k = 0; k < result.posterior.names.size(); ++k) {
     Series& series = fit.posterior.emplace_back(Series{result.posterior.names[k], {}});
     for (const std::vector<double>& row : result.posterior.rows) series.values.push_back(row[k]);
@@ -48,10 +49,10 @@ std::vector<Series> read_posterior(const std::string& text, const std::string& f
 }
 
 /// The fit that an earlier session finished.
-Fit read_fit_folder(const std::filesystem::path& folder) {
+Fit read_fit_folder(const std::filesystem::path& folder, std::vector<std::string> notices) {
   const std::filesystem::path file = folder / posterior_file;
   return {read_text(folder / fit_json_file).value_or(""),
-          read_posterior(read_text(file).value_or(""), file.string()), true};
+          read_posterior(read_text(file).value_or(""), file.string()), true, std::move(notices)};
 }
 
 } // namespace
@@ -63,6 +64,9 @@ Fit fit(const Input& input, const Input& tests, const FitRequest& request) {
     throw SpecError({{"", "--runs", std::to_string(request.runs), "an integer, at least 1, or 0"}});
   Campaign campaign = read_campaign_input(input);
   override_sampling(campaign, std::nullopt, request.seed);
+  std::vector<std::string> notices;
+  for (const InputWarning& warning : check_campaign(campaign, input.file))
+    notices.push_back(to_string(warning));
   const FitSpec spec = read_tests(tests, campaign);
   const Json about = about_fit(campaign, spec);
   const std::atomic<bool> never = false;
@@ -72,11 +76,11 @@ Fit fit(const Input& input, const Input& tests, const FitRequest& request) {
   refuse_unpredictable(campaign, spec, options, tests.file.string(), stop);
   std::optional<FitFolder> folder;
   if (!request.out.empty()) folder.emplace(request.out, about, request.resume);
-  if (folder && folder->is_finished()) return read_fit_folder(request.out);
+  if (folder && folder->is_finished()) return read_fit_folder(request.out, std::move(notices));
   FitResult result = fit_campaign(campaign, spec, options, stop, folder ? &folder->log() : nullptr,
                                   [](const EnsembleState&) {});
   if (folder) folder->write(result, campaign, spec, options.pool, stop);
-  return fit_of(result, json_text(fit_json(result, spec, about)));
+  return fit_of(result, json_text(fit_json(result, spec, about)), std::move(notices));
 }
 
 } // namespace wingspread::api

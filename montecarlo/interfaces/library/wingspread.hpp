@@ -176,6 +176,7 @@ struct Fit {
   std::string json; ///< fit.json; `prediction` and `predicted_deployed` only with a folder
   std::vector<Series> posterior; ///< posterior.csv, by parameter
   bool finished = false;         ///< false: the chains are too short, and the numbers are no result
+  std::vector<std::string> notices{}; ///< what is odd about the campaign
 };
 
 /// Fits parameters to tests.

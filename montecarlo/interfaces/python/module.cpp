@@ -18,8 +18,9 @@ namespace py = pybind11;
 namespace wingspread::api {
 namespace {
 
-/// Heuristic: for up to this many rows `evaluate` does not check for Ctrl-C; they take a fraction of a second.
-constexpr py::ssize_t few_rows = 256;
+/// Heuristic: for up to this many rows, which an optimiser may ask for again and again, `evaluate` starts no thread, and does
+/// not check for Ctrl-C.
+constexpr py::ssize_t few_rows = 8;
 
 /// Runs `work` in a thread of its own, without the GIL, while this thread checks for Ctrl-C.
 /// @param work is called with a flag that, once true, tells it to stop
@@ -105,7 +106,7 @@ py::tuple fit_it(const Input& campaign, const Input& tests, const std::filesyste
   for (const Series& series : made.posterior)
     posterior[py::str(series.name)] =
         py::array_t<double>(static_cast<py::ssize_t>(series.values.size()), series.values.data());
-  return py::make_tuple(made.json, posterior);
+  return py::make_tuple(made.json, posterior, texts_of(made.notices));
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;

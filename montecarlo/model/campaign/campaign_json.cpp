@@ -272,9 +272,9 @@ void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
 
 namespace {
 
-/// Re-validates a campaign after its resolved JSON was changed.
-Campaign revalidate(const Campaign& campaign, const Json& changed) {
-  Campaign read = read_document(changed, {}, "");
+/// Re-validates a campaign after its resolved JSON was changed. @param by what changed it, for messages
+Campaign revalidate(const Campaign& campaign, const Json& changed, const std::string& by) {
+  Campaign read = read_document(changed, {}, by);
   read.outputs =
       campaign.outputs; // the reader adds overtravel, which stored campaigns may not have
   read.resolved["outputs"] = write_outputs(read.outputs);
@@ -286,7 +286,7 @@ Campaign revalidate(const Campaign& campaign, const Json& changed) {
 Campaign with_scene(const Campaign& campaign, const Scene& scene) {
   Json json = campaign.resolved;
   json["scene"] = write_scene(scene);
-  return revalidate(campaign, json);
+  return revalidate(campaign, json, "with these changes");
 }
 
 namespace {
@@ -319,7 +319,7 @@ Campaign campaign_of_case(const Campaign& campaign, const CaseSpec& spec) {
     for (Json& dispersion : json["dispersions"])
       if (dispersion["name"] == name) dispersion["distribution"] = write_distribution(distribution);
   if (json.contains("correlations")) keep_coefficients(campaign, spec, json["correlations"]);
-  return revalidate(campaign, json);
+  return revalidate(campaign, json, fmt::format("case \"{}\"", spec.name));
 }
 
 std::vector<Campaign> campaigns_of(const Campaign& campaign) {

@@ -1,4 +1,4 @@
-/// trajectory.csv: every accepted step of a run and both sides of each engagement, or a regular grid of times.
+/// trajectory.csv: every accepted step of a run and both sides of each event, or a regular grid of times.
 #pragma once
 
 #include "core/deployment.hpp"

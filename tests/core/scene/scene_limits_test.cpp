@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -296,4 +297,20 @@ TEST_CASE("parameters that limit each other") {
   refused("bodies.panel.plate", [](Scene& s) { s.bodies[0].plate.reset(); });
   refused("synchronisations.loop.ratio", [](Scene& s) { s.synchronisations[0].ratio = 0; });
   accepted([](Scene& s) { s.synchronisations[0].ratio = -least; });
+}
+
+TEST_CASE("a hinge opens the way that the tables of its spring and harness go") {
+  for (HingeTorque Hinge::*torque : {&Hinge::spring, &Hinge::harness})
+    for (const double stowed : {1.5, -1.5}) {
+      Scene scene = with_every_part();
+      Hinge& hinge = scene.hinges[0];
+      hinge.stowed = stowed, hinge.latched = 0;
+      (hinge.*torque).table = std::make_shared<const TorqueTable>(
+          std::vector<double>{1.01 * stowed, 0}, std::vector<double>{2, 1}, Interpolation::linear);
+      CHECK(unphysical(scene).empty());
+      hinge.stowed = -stowed;
+      const std::vector<Fault> faults = unphysical(scene);
+      REQUIRE(faults.size() == 1);
+      CHECK(faults[0].path == "hinges.root.angle.latched");
+    }
 }

@@ -164,9 +164,12 @@ def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", se
     `wingspread fit`, left in the folder out. If result["finished"] is False, the chains are too short, and the numbers are
     no result; a Notice says so.
     """
-    text, posterior = _native.fit(_input_of(campaign), _input_of(tests), os.fspath(out),
+    if resume and not os.fspath(out):
+        raise _wrong("resume", resume, "out, the folder of the fit to go on with")
+    text, posterior, notices = _native.fit(_input_of(campaign), _input_of(tests), os.fspath(out),
                                   _whole("seed", seed, 0, _MOST_SEED), _required("runs", runs, 0, _MOST_RUNS),
                                   _required("threads", threads, 0, _MOST_THREADS), _truth("resume", resume))
+    _warn(notices)
     result = json.loads(text)
     if not result["finished"]:
         why = next(finding for finding in result["findings"] if finding.startswith("not finished"))
@@ -236,7 +239,8 @@ class Model:
         if np.ma.isMaskedArray(x):
             raise _wrong("x", "a masked array", "numbers without a mask")
         given = np.asarray(x)
-        if given.dtype.kind not in "biufO":
+        objects = given.ravel() if given.dtype == object else ()
+        if given.dtype.kind not in "biufO" or not all(isinstance(each, numbers.Real) for each in objects):
             raise _wrong("x", given.dtype, "real numbers")
         return self._native.evaluate(np.asarray(given, dtype=float), _required("threads", threads, 0, _MOST_THREADS))
 
@@ -310,7 +314,10 @@ def _truth(argument: str, value: bool) -> bool:
 
 def _number(argument: str, value: float | None) -> float | None:
     if value is None or (isinstance(value, (numbers.Real, np.floating)) and not isinstance(value, bool)):
-        return None if value is None else float(value)
+        try:
+            return None if value is None else float(value)
+        except OverflowError:
+            pass
     raise _wrong(argument, value, "a number, in SI units")
 
 
@@ -322,10 +329,10 @@ def _text(argument: str, value: str) -> str:
 
 def _names(argument: str, value: typing.Sequence[str]) -> list[str]:
     """Returns a list of texts; a single text would count as its letters."""
-    if (isinstance(value, str) or not isinstance(value, collections.abc.Iterable)
-            or not all(isinstance(each, str) for each in value)):
+    names = list(value) if isinstance(value, collections.abc.Iterable) and not isinstance(value, str) else [None]
+    if not all(isinstance(each, str) for each in names):
         raise _wrong(argument, value, "a list of texts")
-    return list(value)
+    return names
 
 
 def _warn(notices: typing.Iterable[str]) -> None:

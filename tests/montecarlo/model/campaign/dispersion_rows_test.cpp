@@ -180,7 +180,7 @@ TEST_CASE("a unit in a column's header is refused where its parameters have seve
                            const std::string& to) {
     const Folder folder;
     Json json = rows_campaign(folder.path(), 1);
-    write_file(folder / "posterior.csv", header + "\n" + cell + "\n");
+    write_file(folder.path() / "posterior.csv", header + "\n" + cell + "\n");
     json["dispersions"][1]["rows"]["columns"] = {{"x", {{"to", parse_json(to)}, {"apply", "set"}}}};
     return message_of([&] { return read_campaign(json.dump(), folder.path()); });
   };
