@@ -22,7 +22,7 @@ class Fitting(unittest.TestCase):
                  "spring": {"torque_stowed": self.torque, "torque_latched": self.torque}}
         panel = {"name": "panel", "mass": 10, "inertia": self.inertia - 10 * 0.5**2}
         return {"scene": {"name": "panel", "base": {"motion": "fixed"}, "bodies": [panel], "hinges": [hinge]},
-                "dispersions": [{"name": "spring", "distribution": {"type": "normal", "mean": 1, "std": 0.2}, "apply": "scale",
+                "dispersions": [{"name": "spring", "distribution": {"type": "normal", "mean": 1, "std": 0.2, "truncate": {"lower": 0.1}}, "apply": "scale",
                                  "to": ["hinges.root.spring.scale"]}],
                 "integration": {"t_end": 20}, "outputs": ["latch_time"], "sampling": {"runs": 10, "seed": 5}}
 

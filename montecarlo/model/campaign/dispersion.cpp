@@ -280,11 +280,14 @@ std::vector<Dispersion> read_dispersion(const JsonCursor& at, const Scene* scene
   return read;
 }
 
-/// The name of an entry that has several dispersions, each with a name of its own; else empty.
-std::string name_of_several(const JsonCursor& entry) {
-  const Json& json = entry.value();
-  if (!json.contains("rows") && !json.contains("each")) return "";
-  return json.contains("name") && json["name"].is_string() ? json["name"].get<std::string>() : "";
+/// The name of the `rows` or the `each` that a dispersion comes from; else empty.
+std::string name_of_origin(const Sourced& sourced) {
+  const auto& [dispersion, at] = sourced;
+  if (!dispersion.rows.empty()) return dispersion.rows;
+  const Json& entry = at.value();
+  const bool is_copy = entry.contains("each") && entry.contains("name") &&
+                       entry["name"].is_string() && entry["name"] != dispersion.name;
+  return is_copy ? entry["name"].get<std::string>() : "";
 }
 
 /// Refuses names of other columns and of other dispersions, and names with the random stream of another name.
@@ -304,10 +307,10 @@ void check_names(const std::vector<Sourced>& all) {
       refuse(fmt::format("which has the random stream of \"{}\"", same->second), "another name");
   };
   std::string before; // the entry of the dispersion before
-  for (const auto& [dispersion, at] : all) {
-    if (at.pointer() != before) check(name_of_several(at), at);
-    before = at.pointer();
-    check(dispersion.name, at);
+  for (const Sourced& sourced : all) {
+    if (sourced.at.pointer() != before) check(name_of_origin(sourced), sourced.at);
+    before = sourced.at.pointer();
+    check(sourced.dispersion.name, sourced.at);
   }
 }
 

