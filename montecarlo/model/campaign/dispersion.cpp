@@ -184,8 +184,7 @@ Dispersion read_row_column(const JsonCursor& at, const std::string& name, Apply 
   return column;
 }
 
-/// The SI unit of a column's values; empty for factors, for draws that act through tables and for parameters of several units;
-/// nothing if it is not known.
+/// The SI unit of a column's values; empty of factors, through tables and of parameters of several units; nothing: not known.
 std::optional<std::string_view> unit_of_column(const Dispersion& column) {
   if (column.apply == Apply::scale || !column.through.empty()) return "";
   if (column.targets.empty()) return std::nullopt;
@@ -282,12 +281,11 @@ std::vector<Dispersion> read_dispersion(const JsonCursor& at, const Scene* scene
 
 /// The name of the `rows` or the `each` that a dispersion comes from; else empty.
 std::string name_of_origin(const Sourced& sourced) {
-  const auto& [dispersion, at] = sourced;
-  if (!dispersion.rows.empty()) return dispersion.rows;
-  const Json& entry = at.value();
-  const bool is_copy = entry.contains("each") && entry.contains("name") &&
-                       entry["name"].is_string() && entry["name"] != dispersion.name;
-  return is_copy ? entry["name"].get<std::string>() : "";
+  if (!sourced.dispersion.rows.empty()) return sourced.dispersion.rows;
+  const Json& entry = sourced.at.value();
+  const bool is_named =
+      entry.contains("each") && entry.contains("name") && entry["name"].is_string();
+  return is_named && entry["name"] != sourced.dispersion.name ? entry["name"] : Json("");
 }
 
 /// Refuses names of other columns and of other dispersions, and names with the random stream of another name.
@@ -307,10 +305,9 @@ void check_names(const std::vector<Sourced>& all) {
       refuse(fmt::format("which has the random stream of \"{}\"", same->second), "another name");
   };
   std::string before; // the entry of the dispersion before
-  for (const Sourced& sourced : all) {
-    if (sourced.at.pointer() != before) check(name_of_origin(sourced), sourced.at);
-    before = sourced.at.pointer();
-    check(sourced.dispersion.name, sourced.at);
+  for (const Sourced& each : all) {
+    if (each.at.pointer() != before) check(name_of_origin(each), each.at);
+    before = each.at.pointer(), check(each.dispersion.name, each.at);
   }
 }
 
