@@ -7,6 +7,7 @@ SLURM's get stand-ins for its commands. `studies/cluster/try` runs all of them, 
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -73,7 +74,7 @@ class Recipes(unittest.TestCase):
                      "SLURM_NTASKS": "8", "SLURM_CPUS_PER_TASK": "4", "SLURM_ARRAY_TASK_ID": "2"} | environment
         said.unlink(missing_ok=True)
         return said, subprocess.Popen(["bash", RECIPES / recipe, "a campaign.json", "its results", *options],
-                                      env=os.environ | variables)
+                                      env=os.environ | variables, start_new_session=True)
 
     def words(self, recipe, *options, **environment):
         """@return the program's arguments"""
@@ -131,9 +132,19 @@ class Recipes(unittest.TestCase):
                         time.sleep(0.01)
                     begun.unlink()
                     called.write_text("", encoding="utf-8")
-                    job.send_signal(signal.SIGTERM)
-                    self.assertEqual(job.wait(timeout=30), 130)
+                    if state == "RUNNING":
+                        job.send_signal(signal.SIGTERM)
+                        self.assertEqual(job.wait(timeout=30), 130)
+                    else:  # SLURM tells every process
+                        os.killpg(job.pid, signal.SIGTERM)
+                        job.wait(timeout=30)
                     self.assertEqual(called.read_text(encoding="utf-8"), calls)
+
+    def test_mpirun_ends_before_the_time_limit(self):
+        recipe = (RECIPES / "mpi.sbatch").read_text(encoding="utf-8")
+        told, wait = (int(re.search(text, recipe)[1]) for text in (r"B:TERM@(\d+)", r"sigkill_timeout\D+(\d+)"))
+        self.assertLess(2 * wait, 30)  # mpirun waits twice; SLURM's KillWait is 30 s
+        self.assertLess(2 * wait, told)
 
     def test_options_reach_the_program(self):
         for recipe in ("requeue.sbatch", "mpi.sbatch", "array.sbatch"):
