@@ -177,7 +177,7 @@ inline constexpr const char* needs_event_latches =
 [[nodiscard]] std::string methods_used(const Outcome& outcome);
 
 /// One sample of a trajectory: the end of an accepted step or, with Goal::sample_interval, one of its
-/// multiples. An engagement gives two samples, before and after.
+/// multiples. An event gives two samples, before and after.
 struct Sample {
   double t = 0;
   std::vector<double> angles;          ///< relative, Scene order, rad

@@ -1,6 +1,7 @@
 /// The search for kinks of laws (kinks.hpp) inside a step.
 #pragma once
 
+#include "core/dense/latch_states.hpp"
 #include "core/events/leaps.hpp"
 #include "core/laws/smoothed_latch.hpp"
 
@@ -182,8 +183,7 @@ private:
       offer_passage({Of::angle, i, fused(hinge.sense, beyond, hinge.latched), T(0)}, angle,
                     {i, T(0), T(0), bend, T(0), true});
     const Quintic<T> rate = step_.rate(at.angle(i), at.freedoms());
-    offer_passage({Of::latch, i, epsilon, T(0)},
-                  cubic_hermite(step_.h, step_.x[k], step_.dxdt[k], step_.x1[k], step_.dxdt1[k]),
+    offer_passage({Of::latch, i, epsilon, T(0)}, latch_state(system_, step_, i),
                   {i, T(0), T(0), bend * most_of_smoothed_latch(hinge, angle, rate)});
   }
 

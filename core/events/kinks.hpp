@@ -21,6 +21,7 @@
 #pragma once
 
 #include "core/dense/step.hpp"
+#include "core/laws/smoothed_latch.hpp"
 #include "core/mechanics/linear_solve.hpp"
 
 namespace wingspread {
@@ -59,7 +60,7 @@ template <class T> struct KinkChange {
   bool of_latch = false; ///< of Ṡ of the hinge's smoothed latch, not of the moment
 };
 
-/// u, u̇ and ü; of a rate and of S, ü is unknown, 0. @param x, dxdt the state at t and its derivative
+/// u, u̇ and ü; of a rate, ü is unknown, 0. @param x, dxdt the state at t and its derivative
 template <class T, class AnySystem>
 [[nodiscard]] Jet<T> argument(const AnySystem& system, const Kink<T>& kink, const State<T>& x,
                               const State<T>& dxdt, const T& t) {
@@ -72,7 +73,9 @@ template <class T, class AnySystem>
   if (kink.of == Kink<T>::Of::angle)
     return {x[at.angle(kink.index)], x[at.rate(kink.index)], dxdt[at.rate(kink.index)]};
   if (kink.of == Kink<T>::Of::latch)
-    return {x[at.latch(kink.index)], dxdt[at.latch(kink.index)], T(0)};
+    return {x[at.latch(kink.index)], dxdt[at.latch(kink.index)],
+            engagement_acceleration(system.wing().hinges[kink.index], x[at.angle(kink.index)],
+                                    x[at.rate(kink.index)], system.epsilon())};
   if (kink.of == Kink<T>::Of::rate)
     return {x[at.rate(kink.index)], dxdt[at.rate(kink.index)], T(0)};
   const LoopTerms<T>& loop = system.wing().loops[kink.index];

@@ -62,7 +62,8 @@ public:
   /// The hinge that moves, for the hold of hinge i.
   [[nodiscard]] int seen_by(int i) const { return terms(i).after; }
 
-  /// Lets go the holds that are due at the start of a step, by reached_at. @param due the hinge whose hold sees its angle; 0: none
+  /// Lets go the holds that are due at the start of a step, by reached_at.
+  /// @param due the hinge whose hold sees its angle; 0: none
   /// @param record  of all latches so far; releases are appended
   /// @return whether any hold let go
   bool release_due(int due, const Step<T>& step, LatchRecord& record) {

@@ -16,18 +16,17 @@
 
 #include <array>
 #include <iterator>
-#include <limits>
 
 namespace wingspread {
 
 inline constexpr double never = 1e300; ///< s
 
-/// The latest release or end of the run that counts as reached at t, s: no step is short enough to end there. So what is a
-/// rounding apart (0.1 s + 0.2 s is not 0.3 s) comes at once.
+/// The latest release or end of a run that counts as reached at t, s: no step is short enough to end there. Instants a
+/// rounding apart (0.1 s + 0.2 s is not 0.3 s) are one instant.
 template <class T> [[nodiscard]] T reached_at(const T& t) {
   return t + T(T(8 * epsilon_of<T>) * t);
 }
-/// The same of a table's knots, which are closer to each other in no wing.
+/// reached_at for the knots of tables, but at least 1 ps later: no wing has knots closer together.
 template <class T> [[nodiscard]] T knots_reached_at(const T& t) {
   return larger(reached_at(t), T(t + T(1e-12)));
 }

@@ -72,15 +72,6 @@ template <class T>
   return raised(d);
 }
 
-/// The cubic with values a, b and slopes da, db at the ends of a step of h.
-template <class T>
-[[nodiscard]] Quintic<T> cubic_hermite(const T& h, const T& a, const T& da, const T& b,
-                                       const T& db) {
-  const T third = h * (T(1) / T(3)), inner = fused(third, da, a), outer = fused(-third, db, b);
-  return raised<T>(
-      {a, (a + T(3) * inner) / T(4), (inner + outer) / T(2), (T(3) * outer + b) / T(4), b});
-}
-
 /// p/s of a polynomial with p(0) = 0.
 template <class T> [[nodiscard]] Quintic<T> divided_by_s(const Quintic<T>& p) {
   std::array<T, 5> r;

@@ -155,9 +155,9 @@ void inspect(const Joint& joint, const Owner& owner, Inspector& check) {
   check.require(joint.damping >= 0, joint.damping, owner, "joint.damping", ">= 0");
 }
 
-/// A table's angles go from stowed to latched.
-void inspect_way(const HingeTorque& torque, const Hinge& hinge, const Owner& owner,
-                 const char* expected, Inspector& check) {
+/// Refuses a hinge that opens against its torque table: the table's angles go from stowed to latched.
+void inspect_direction(const HingeTorque& torque, const Hinge& hinge, const Owner& owner,
+                       const char* expected, Inspector& check) {
   if (!torque.table || !(std::abs(hinge.latched - hinge.stowed) > 0)) return;
   const std::vector<double>& angle = torque.table->angle();
   const bool same_way = (angle.back() > angle.front()) == (hinge.latched > hinge.stowed);
@@ -175,8 +175,10 @@ void inspect(const Hinge& hinge, Inspector& check) {
   if (hinge.joint) return inspect(*hinge.joint, owner, check);
   check.require(hinge.latched != hinge.stowed, hinge.latched, owner, "angle.latched",
                 "different from angle.stowed");
-  inspect_way(hinge.spring, hinge, owner, "from angle.stowed as the spring's table goes", check);
-  inspect_way(hinge.harness, hinge, owner, "from angle.stowed as the harness's table goes", check);
+  inspect_direction(hinge.spring, hinge, owner,
+                    "on the side of angle.stowed to which the spring's table leads", check);
+  inspect_direction(hinge.harness, hinge, owner,
+                    "on the side of angle.stowed to which the harness's table leads", check);
   check.require(true, hinge.spring.torque_stowed, owner, "spring.torque_stowed", "");
   check.require(true, hinge.spring.torque_latched, owner, "spring.torque_latched", "");
   check.require(true, hinge.spring.scale, owner, "spring.scale", "");

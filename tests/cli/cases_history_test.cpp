@@ -122,6 +122,20 @@ TEST_CASE("a session with one case ends with the verdicts of all", "[cases]") {
   CHECK_THAT(last.error, Catch::Contains("not met: heavy: deployment_time"));
 }
 
+TEST_CASE("a session with one case says why another is not judged", "[cases]") {
+  const Sessions sessions;
+  (void)sessions.run({});
+  const std::string rows = sessions.out + "/heavy/runs.csv", text = read_text(rows).value();
+  std::size_t end = 0;
+  for (int line = 0; line < 11; ++line) end = text.find('\n', end) + 1;
+  write_file(rows, text.substr(0, end)); // as an interruption leaves it
+  for (const char* file : {"/heavy/summary.json", "/cases.json"})
+    std::filesystem::remove(sessions.out + file);
+  const Finished done = sessions.run({"--resume", "--case", "light"});
+  CHECK(done.code == 1);
+  CHECK_THAT(done.error, Catch::Contains("not met: heavy: not judged: it has 10 of 24 runs"));
+}
+
 TEST_CASE("analyze and merge know of the runs that a case lacks, as run does", "[cases]") {
   const Sessions sessions;
   (void)sessions.run({});

@@ -153,7 +153,7 @@ class Manners(unittest.TestCase):
 
     def test_numbers_that_are_none_are_refused(self):
         model = wingspread.Model(SCENE, ["hinges.*.spring.scale"])
-        for odd in (None, "0.9", 1j):
+        for odd in (None, "0.9", 1j, 10**400):
             with self.assertRaisesRegex(wingspread.SpecError, "--x: found"):
                 model(np.array([[odd], [1.0]], dtype=object))
         np.testing.assert_equal(model(np.array([[1], [0.9]], dtype=object)), model([[1.0], [0.9]]))

@@ -4,6 +4,7 @@ SLURM's get stand-ins for its commands. `studies/cluster/try` runs all of them, 
     /usr/bin/python3 tests/ranks/recipes_test.py     from the repository's root
 """
 
+import contextlib
 import json
 import os
 import pathlib
@@ -32,7 +33,7 @@ STAND_INS = {
         trap 'exit 130' TERM
         echo >"$SAID.begun"
         while :; do sleep 0.01; done""",
-    "mpirun": 'while [ "$1" != wingspread ]; do shift; done; exec "$@"',
+    "mpirun": 'while [ $# -gt 0 ] && [ "$1" != wingspread ]; do shift; done; exec "$@"',
     "squeue": 'echo "$STATE"',
     "scontrol": 'echo "$@" >>"$SAID.scontrol"',
 }
@@ -71,10 +72,21 @@ class Recipes(unittest.TestCase):
             (self.folder / name).chmod(0o755)
         said = self.folder / "said"
         variables = {"PATH": f"{self.folder}:{os.environ['PATH']}", "SAID": said, "LONG": "", "STATE": "RUNNING", "SLURM_JOB_ID": "7",
-                     "SLURM_NTASKS": "8", "SLURM_CPUS_PER_TASK": "4", "SLURM_ARRAY_TASK_ID": "2"} | environment
+                     "SLURM_NTASKS": "8", "SLURM_CPUS_PER_TASK": "4", "SLURM_ARRAY_TASK_ID": "2",
+                     "WINGSPREAD": "wingspread", "WINGSPREAD_MPI": "wingspread"} | environment
         said.unlink(missing_ok=True)
-        return said, subprocess.Popen(["bash", RECIPES / recipe, "a campaign.json", "its results", *options],
-                                      env=os.environ | variables, start_new_session=True)
+        others = {name: value for name, value in os.environ.items() if not name.startswith("WINGSPREAD_")}
+        job = subprocess.Popen(["bash", RECIPES / recipe, "a campaign.json", "its results", *options],
+                               env=others | variables, start_new_session=True)
+        self.addCleanup(self.kill_all, job)
+        return said, job
+
+    @staticmethod
+    def kill_all(job):
+        """Kills a job and whatever it has started, if any of it is left."""
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(job.pid, signal.SIGKILL)
+        job.wait()
 
     def words(self, recipe, *options, **environment):
         """@return the program's arguments"""
@@ -125,7 +137,6 @@ class Recipes(unittest.TestCase):
             for state, calls in (("RUNNING", "requeue 7\n"), ("COMPLETING", "")):
                 with self.subTest(recipe=recipe, state=state):
                     said, job = self.start(recipe, LONG="yes", STATE=state)
-                    self.addCleanup(job.kill)
                     begun, called = said.with_suffix(".begun"), said.with_suffix(".scontrol")
                     while not begun.exists():
                         self.assertIsNone(job.poll())

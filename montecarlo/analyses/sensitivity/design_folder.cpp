@@ -143,7 +143,7 @@ DesignFolderWriter::DesignFolderWriter(const std::filesystem::path& folder,
   } else {
     write_file(folder / design_file, design_text(design));
   }
-  rows_.open(plan.names());
+  rows_.open();
 }
 
 } // namespace wingspread

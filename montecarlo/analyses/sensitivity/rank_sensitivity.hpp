@@ -39,8 +39,7 @@ struct OutputRanks {
 
 struct RankSensitivity {
   long runs = 0;
-  double confidence =
-      0.95; ///< of the campaign: of a bound over all planned analyses, or over all extensions
+  double confidence = 0.95;  ///< at which a bound holds at all analyses together
   InterimAnalyses interim{}; ///< which share the risk of every bound
   int replicates = 0;        ///< replicates behind the bounds; 0: independent draws
   std::vector<std::string> dispersions;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <sstream>
 
@@ -128,7 +129,7 @@ constexpr double conversion_rounding = 1e-12; // relative: a conversion of units
 /// `sign` 1, above with -1. @param unit of the last digit @param text of a number to nearest
 template <class Text>
 std::string rounded_to(double value, int sign, double unit, const Text& text) {
-  const double nearest = std::stod(text(value));
+  const double nearest = std::strtod(text(value).c_str(), nullptr);
   const bool wrong = sign * (value - nearest) > conversion_rounding * std::abs(value);
   return text(wrong ? nearest + sign * unit : nearest);
 }
@@ -164,11 +165,13 @@ std::string in_digits_beside(double value, double limit, int sign) {
   constexpr int least = 5, most = 17; // all of a double's
   std::string shown = in_digits(value);
   if (!std::isfinite(value) || value == 0) return shown;
+  const auto is_at = [&](double x) {
+    return std::abs(x - limit) <= conversion_rounding * std::abs(limit);
+  };
   for (int digits = least; digits <= most; ++digits) {
     shown = in_digits_towards(value, sign, digits);
-    const bool at_limit = std::abs(value - limit) <= conversion_rounding * std::abs(limit);
-    const double read = std::stod(shown);
-    if (at_limit || (read != limit && (read < limit) == (value < limit))) break;
+    const double read = std::strtod(shown.c_str(), nullptr);
+    if (is_at(value) ? is_at(read) : read != limit && (read < limit) == (value < limit)) break;
   }
   return shown;
 }

@@ -41,7 +41,7 @@ inline constexpr int table_width = 100;
 /// "0.500 %" of 0.005; "–" of NaN. A share below 1 has as many decimals as tell it from 100 %.
 [[nodiscard]] std::string percent(double share, int decimals = 3);
 
-/// A share rounded down in per cent, or up: a lower bound stays one, and an upper bound.
+/// percent() rounded down, so that a lower bound stays one; rounded up, so that an upper bound does.
 [[nodiscard]] std::string percent_at_least(double share, int decimals = 3);
 [[nodiscard]] std::string percent_at_most(double share, int decimals = 3);
 

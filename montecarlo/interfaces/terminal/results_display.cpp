@@ -218,6 +218,10 @@ int judge_results(const StoredCampaign& stored, const Summary& summary) {
 
 int judge_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases) {
   if (!whole.stamp.shard && !cases.empty()) report_cases(cases, may_grow(whole));
+  for (const CaseSummary& each : cases)
+    if (!whole.stamp.is_part() && std::ranges::any_of(each.summary.requirements, &Verdict::of_part))
+      print_message("not met: {}: not judged: it has {} of {} runs\n", each.name, each.summary.runs,
+                    whole.runs().size());
   int worst = exit_code::done;
   for (const CaseSummary& each : cases)
     worst = std::max(worst,

@@ -184,7 +184,7 @@ Dispersion read_row_column(const JsonCursor& at, const std::string& name, Apply 
   return column;
 }
 
-/// The SI unit of a column's values; empty of factors, through tables and of parameters of several units; nothing: not known.
+/// The SI unit of a column's values; empty for factors, tables and parameters of several units; nullopt without a target.
 std::optional<std::string_view> unit_of_column(const Dispersion& column) {
   if (column.apply == Apply::scale || !column.through.empty()) return "";
   if (column.targets.empty()) return std::nullopt;

@@ -107,9 +107,9 @@ private:
         if (!names_.covers(owner.name)) continue;
         const std::string copy = names_.copy_of(owner.name);
         if (!may_be_name(copy))
-          free = at_.member("as").refuse(
-              fmt::format("\"{}\", which makes \"{}\"", names_.as, copy),
-              "a pattern for names, not \"base\", without . * / , \" > and control characters");
+          free = at_.member("as").refuse(fmt::format("\"{}\", which makes \"{}\"", names_.as, copy),
+                                         "a pattern whose copies have no . * / , \" > and control "
+                                         "characters, and are not \"base\"");
         if (std::ranges::any_of(all, [&](const auto& other) { return other.name == copy; }))
           free = at_.member("as").refuse(
               fmt::format("\"{}\", which makes a second \"{}\"", names_.as, copy),

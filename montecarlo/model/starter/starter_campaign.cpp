@@ -102,8 +102,9 @@ AnnotatedLines requirements(const WingDesign& design, const StarterLimits& limit
       {{fmt::format(R"(    {{ "name": "D-2", "output": "deployment_time", "max": "{} s", )"
                     R"({} }})",
                     short_number(limits.deployment_time), share),
-        limits.placeholders ? "the last latch; a placeholder, as the nominal wing does not deploy"
-                            : "the last latch; here twice the time of the slowest nominal case"}});
+        limits.placeholders
+            ? "the last latch; a placeholder: the nominal wing does not deploy in every case"
+            : "the last latch; here twice the time of the slowest nominal case"}});
   const std::vector<DesignedWing> wings = designed_wings(design);
   for (std::size_t w = 0; w < wings.size(); ++w)
     all.push_back(
@@ -112,7 +113,7 @@ AnnotatedLines requirements(const WingDesign& design, const StarterLimits& limit
                       w + 1, wings[w].hinges.front().name,
                       short_number(w < limits.moment.size() ? limits.moment[w] : 0), share),
           w > 0                 ? ""
-          : limits.placeholders ? "what the root may carry; a placeholder too"
+          : limits.placeholders ? "what the root may carry; a placeholder"
                                 : "what the root may carry; here three times that of the worst "
                                   "nominal case"}});
   return joined(std::move(all));

@@ -144,7 +144,7 @@ FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
     write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
   else
     read_existing_rows(plan);
-  rows_.open(plan.names());
+  rows_.open();
 }
 
 void FolderWriter::read_existing_rows(const RunPlan& plan) {

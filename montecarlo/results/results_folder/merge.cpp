@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -144,17 +145,20 @@ void drop_files(const std::filesystem::path& folder) {
 
 /// Removes an earlier preview with its cases. Its campaign.json stays until the next one replaces it: if interrupted
 /// before that, the folder is still one that may be replaced.
-void drop_preview(const std::filesystem::path& folder) {
+/// @param again the cases that are written again: for the same reason their campaign.json stays too
+void drop_preview(const std::filesystem::path& folder, std::span<const Merging> again = {}) {
   if (!is_preview(folder)) return;
   for (const CaseSpec& spec : made_cases(read_stored_campaign(folder))) {
+    const bool stays = std::ranges::any_of(
+        again, [&](const Merging& merging) { return merging.whole.campaign.of_case == spec.name; });
     const std::filesystem::path own = folder / spec.name;
     {
       const FolderLock lock(own);
       drop_files(own);
-      std::filesystem::remove(own / campaign_file);
+      if (!stays) std::filesystem::remove(own / campaign_file);
     }
     std::error_code not_empty; // somebody else's files stay
-    std::filesystem::remove(own, not_empty);
+    if (!stays) std::filesystem::remove(own, not_empty);
   }
   drop_files(folder);
 }
@@ -210,7 +214,7 @@ std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& f
   refuse_finished(out, cases_file);
   const FolderLock lock(out);
   refuse_other_folder(out, text);
-  drop_preview(out);
+  drop_preview(out, mergings);
   write_file(out / campaign_file, text);
   std::vector<CaseSummary> cases;
   for (Merging& merging : mergings) {

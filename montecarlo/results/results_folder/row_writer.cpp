@@ -7,23 +7,11 @@
 #include <utility>
 
 namespace wingspread {
-namespace {
-
-ResultNames names_of(const Results& results) {
-  ResultNames names;
-  for (const Column& column : results.draws) names.draws.push_back(column.name);
-  for (const Column& column : results.outputs) names.outputs.push_back(column.name);
-  names.peaks_final = results.has_peaks_final;
-  return names;
-}
-
-} // namespace
-
 RowWriter::RowWriter(std::filesystem::path file, const ResultNames& names)
-    : file_(std::move(file)), results_(names) {}
+    : file_(std::move(file)), names_(names), results_(names) {}
 
 void RowWriter::continue_after(ResultsFile&& read, long first) {
-  if (read.complete_bytes > 0) refuse_other_columns(file_, names_of(results_));
+  if (read.complete_bytes > 0) refuse_other_columns(file_, names_);
   refuse_gaps(read.results, first, file_);
   std::error_code why;
   if (read.unterminated) std::filesystem::resize_file(file_, read.complete_bytes, why);
@@ -32,11 +20,11 @@ void RowWriter::continue_after(ResultsFile&& read, long first) {
   count_ = std::ssize(results_.runs);
 }
 
-void RowWriter::open(const ResultNames& names) {
+void RowWriter::open() {
   out_.emplace(file_, OutputFile::From::end);
   if (std::filesystem::file_size(file_) > 0) return;
   std::string header;
-  append_header(header, names);
+  append_header(header, names_);
   out_->write(header);
 }
 

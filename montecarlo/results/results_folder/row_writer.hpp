@@ -23,7 +23,7 @@ public:
 
   /// Opens the file; writes the header of a new one. Call once, before the first batch.
   /// @throws as refuse_path (machine_error.hpp) if it cannot be written, here and below
-  void open(const ResultNames& names);
+  void open();
 
   /// Appends the next rows to the file, and keeps them for results(). If memory and temporary files are full, drops all
   /// kept rows and only writes the file from then on. Writes to the device every ten seconds.
@@ -43,6 +43,7 @@ private:
   void keep(const Batch& batch);
 
   std::filesystem::path file_;
+  ResultNames names_;
   Results results_;
   std::optional<OutputFile> out_;
   Clock::time_point synced_ = Clock::now();

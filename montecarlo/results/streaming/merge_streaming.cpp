@@ -26,7 +26,12 @@ std::vector<StoredCampaign> complete_shards(const std::vector<std::filesystem::p
   }
   refuse_other_campaigns(parts, campaign_file);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!is_streaming_folder(parts[i].folder)) continue; // killed before its first statistics
+    if (!is_streaming_folder(parts[i].folder)) { // killed before its first statistics
+      if (parts[i].own.size() == 0)
+        throw SpecError({{parts[i].folder.string(), "", "no statistics",
+                          describe(parts[i].stamp.shard) + ", complete: run it again"}});
+      continue;
+    }
     const StoredStatistics read = read_streaming_statistics(shards[i]);
     if (read.broken_bytes > 0)
       refuse_other_columns(parts[i].folder / broken_runs_file, RunPlan(shards[i].campaign).names());

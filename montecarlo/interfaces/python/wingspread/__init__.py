@@ -242,7 +242,11 @@ class Model:
         objects = given.ravel() if given.dtype == object else ()
         if given.dtype.kind not in "biufO" or not all(isinstance(each, numbers.Real) for each in objects):
             raise _wrong("x", given.dtype, "real numbers")
-        return self._native.evaluate(np.asarray(given, dtype=float), _required("threads", threads, 0, _MOST_THREADS))
+        try:
+            real = np.asarray(given, dtype=float)
+        except OverflowError:
+            raise _wrong("x", "a number beyond double", "real numbers") from None
+        return self._native.evaluate(real, _required("threads", threads, 0, _MOST_THREADS))
 
 
 def evaluate(scene: Source, paths: typing.Sequence[str], x: npt.ArrayLike, outputs: typing.Sequence[str] = (), *,

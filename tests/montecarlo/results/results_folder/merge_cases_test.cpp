@@ -104,7 +104,12 @@ TEST_CASE("a merge removes all that an earlier preview of cases wrote, before it
     CHECK_THROWS((void)merge_cases({a, b}, out));
     std::filesystem::remove_all(obstacle);
   }
-  SECTION("without an interruption"){}(void)merge_cases({a, b}, out);
+  const auto notes = out / "hot" / "notes.txt";
+  bool has_notes = false;
+  SECTION("files of somebody else stay") { write_file(notes, "the user's"), has_notes = true; }
+  SECTION("nothing is in the way") { has_notes = false; }
+  (void)merge_cases({a, b}, out);
+  CHECK(std::filesystem::remove(notes) == has_notes);
   (void)merge_cases({a, b}, folder.path() / "whole");
   for (const char* name : {".", "cold", "hot"})
     CHECK(contents(out / name) == contents(folder.path() / "whole" / name));

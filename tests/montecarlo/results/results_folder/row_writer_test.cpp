@@ -32,7 +32,7 @@ TEST_CASE("rows are kept and appended to their file, which has its header once")
   const auto file = folder.path() / "runs.csv";
   {
     RowWriter rows(file, names);
-    rows.open(names);
+    rows.open();
     rows.add(batch_of(0, 2));
     rows.add(batch_of(2, 1));
     CHECK(rows.results().size() == 3);
@@ -41,7 +41,7 @@ TEST_CASE("rows are kept and appended to their file, which has its header once")
   std::ifstream in(file, std::ios::binary);
   RowWriter rows(file, names);
   rows.continue_after(read_results(in, file.string(), names, UnterminatedRow::drop), 0);
-  rows.open(names);
+  rows.open();
   rows.add(batch_of(3, 1));
   CHECK(rows.results().runs[3] == 3);
   std::string expected;
@@ -91,5 +91,5 @@ TEST_CASE("rows are appended only below a header of the same columns in the same
 TEST_CASE("rows that cannot be written say which file") {
   const Folder folder;
   RowWriter rows(folder.path() / "nowhere" / "runs.csv", names);
-  CHECK_THAT(message_of([&] { rows.open(names); }), Catch::Contains("runs.csv"));
+  CHECK_THAT(message_of([&] { rows.open(); }), Catch::Contains("runs.csv"));
 }
