@@ -246,11 +246,11 @@ TEST_CASE(
     if (seed % 2 == 0) latch.dissipation = 0.3, latch.damping = 0;
     const double h = draws.log_uniform(1e-3, 1), s = draws.uniform(0.1, 0.9);
     const double way = way_of(scene) * 0.1 * epsilon, v = std::abs(way) / h; // away from the latch
-    const double first = scene.hinges[0].latched + way_of(scene) * 0.5 * epsilon;
+    const double first = scene.hinges[0].latched + way_of(scene) * 1.5 * epsilon; // where Ṡ is 1
     const double rise = draws.uniform(0.1, 0.5) * epsilon;
     SmoothedStep step(scene, h, {first, first + way},
                       {epsilon - rise * s, epsilon + rise * (1 - s)});
-    const double y = 0.6 * epsilon;
+    const double y = 1.6 * epsilon;
     const double load = k * y + latch.damping * v + (seed % 2 == 0 ? k * 0.3 * y * v : 0);
     const double tau = std::min(s, 1 - s), passed = rise * tau / epsilon;
     const double inertia = step.wing.bodies[1].central_inertia;
