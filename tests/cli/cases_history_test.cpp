@@ -122,6 +122,18 @@ TEST_CASE("a session with one case ends with the verdicts of all", "[cases]") {
   CHECK_THAT(last.error, Catch::Contains("not met: heavy: deployment_time"));
 }
 
+TEST_CASE("a requirement that a case does not meet names the others that do not show it either",
+          "[cases]") {
+  const Sessions sessions;
+  Json campaign = parse_json_file(sessions.file);
+  campaign["requirements"][0]["probability"] = 0.99; // 24 runs cannot show it
+  (void)sessions.folder.write("c.json", campaign.dump());
+  const Finished done = sessions.run({});
+  CHECK(done.code == 1);
+  CHECK_THAT(done.error,
+             Catch::Contains("not met: heavy: ") && Catch::Contains("(nor met: light)"));
+}
+
 TEST_CASE("a session with one case says why another is not judged", "[cases]") {
   const Sessions sessions;
   (void)sessions.run({});
