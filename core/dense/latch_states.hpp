@@ -6,8 +6,8 @@
 
 namespace wingspread {
 
-/// S of hinge i's smoothed latch over a step, s: its Hermite quintic, for S̈ = ḟ is known at both ends. A cubic was off by
-/// a hundredth of the latch's moment in long steps, whatever the tolerance.
+/// S of hinge i's smoothed latch over a step, s: its Hermite quintic, for S̈ = ḟ is known at both ends. A cubic would be too
+/// coarse for long steps: the latch's weight h(S/ε) is steep.
 /// @pre hinge i has a smoothed latch
 template <class T, class AnySystem>
 [[nodiscard]] Quintic<T> latch_state(const AnySystem& system, const Step<T>& step, int i) {

@@ -23,12 +23,11 @@ from wingspread import _native
 
 
 class Manners(unittest.TestCase):
-    def test_ctrl_c_ends_a_long_run(self):
-        script = ("import sys, wingspread\n"
-                  "print('begun', flush=True)\n"
-                  "wingspread.run(sys.argv[1], runs=50_000_000)")
-        with subprocess.Popen([sys.executable, "-c", script, CAMPAIGN], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True) as process:
+    def assert_ctrl_c_ends(self, file, *lines):
+        """Interrupts a script half a second after it has begun the last of these lines."""
+        script = "\n".join(["import sys, numpy, wingspread", *lines[:-1], "print('begun', flush=True)", lines[-1]])
+        with subprocess.Popen([sys.executable, "-c", script, file], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as process:
             self.assertEqual(process.stdout.readline(), "begun\n")
             time.sleep(0.5)
             began = time.monotonic()
@@ -37,6 +36,13 @@ class Manners(unittest.TestCase):
         self.assertLess(time.monotonic() - began, 30)
         self.assertEqual(process.returncode, -signal.SIGINT)
         self.assertTrue(said.rstrip().endswith("KeyboardInterrupt"))
+
+    def test_ctrl_c_ends_a_long_call(self):
+        self.assert_ctrl_c_ends(CAMPAIGN, "wingspread.run(sys.argv[1], runs=50_000_000)")
+        self.assert_ctrl_c_ends(SCENE, "wingspread.simulate(sys.argv[1], dt=1e-6, t_end=90)")
+        self.assert_ctrl_c_ends(  # few rows, which take minutes
+            SCENE, "model = wingspread.Model(sys.argv[1], ['hinges.*.spring.scale'], method='runge_kutta4', step=2e-6)",
+            "model(numpy.ones((200, 1)), threads=1)")
 
     def test_messages_name_paths_that_are_no_utf8(self):
         with tempfile.TemporaryDirectory() as held:
@@ -60,33 +66,6 @@ class Manners(unittest.TestCase):
                   "    print('refused:', error)\n")
         done = subprocess.run([sys.executable, "-c", script, SCENE], capture_output=True, text=True, timeout=120)
         self.assertTrue(done.stdout.startswith("refused: "), done.stdout + done.stderr)
-
-    def test_ctrl_c_ends_a_long_trajectory(self):
-        script = ("import sys, wingspread\n"
-                  "print('begun', flush=True)\n"
-                  "wingspread.simulate(sys.argv[1], dt=1e-6, t_end=90)")
-        with subprocess.Popen([sys.executable, "-c", script, SCENE], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              text=True) as process:
-            self.assertEqual(process.stdout.readline(), "begun\n")
-            time.sleep(0.5)
-            process.send_signal(signal.SIGINT)
-            _, said = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, -signal.SIGINT)
-        self.assertTrue(said.rstrip().endswith("KeyboardInterrupt"))
-
-    def test_ctrl_c_ends_an_evaluation_of_few_but_slow_rows(self):
-        script = ("import sys, numpy, wingspread\n"
-                  "model = wingspread.Model(sys.argv[1], ['hinges.*.spring.scale'], method='runge_kutta4', step=2e-6)\n"
-                  "print('begun', flush=True)\n"
-                  "model(numpy.ones((200, 1)), threads=1)")
-        with subprocess.Popen([sys.executable, "-c", script, SCENE], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              text=True) as process:
-            self.assertEqual(process.stdout.readline(), "begun\n")
-            time.sleep(0.5)
-            process.send_signal(signal.SIGINT)
-            _, said = process.communicate(timeout=60)  # all rows take minutes
-        self.assertEqual(process.returncode, -signal.SIGINT)
-        self.assertTrue(said.rstrip().endswith("KeyboardInterrupt"))
 
     def test_a_fork_computes_what_its_parent_does(self):
         script = ("import os, sys, numpy, wingspread\n"
