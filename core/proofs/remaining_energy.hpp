@@ -235,12 +235,16 @@ private:
     return false;
   }
 
-  /// The potential of a real hinge whose latch, if it has one, has engaged, with the drive of its motor, J.
+  /// The potential of a real hinge whose latch, if it has one, has engaged, with the drive of its motor, J. Without stops:
+  /// the hinge may touch one now, at an angle from which its rest is far.
   template <class AnySystem>
   [[nodiscard]] static T latched_potential(const AnySystem& system, const State<T>& x, int i) {
-    const T way = x[system.layout().angle(i)] - system.wing().hinges[i].latched;
-    return (hinge_potential(system, x, i) + smoothed_latch_energy(system, x, i)) -
-           system.drive_of_motor(i) * way;
+    const T& angle = x[system.layout().angle(i)];
+    const HingeTerms<T>& hinge = system.wing().hinges[i];
+    const T springs = potential(linear_law(hinge, false), angle) +
+                      real_potential(system.wing().real[i], hinge.latched, angle, HingeMode<T>{});
+    return (springs + (system.latch_energy(x, i) + smoothed_latch_energy(system, x, i))) -
+           system.drive_of_motor(i) * (angle - hinge.latched);
   }
 
   /// Whether a hinge touches a stop, or could with this energy.

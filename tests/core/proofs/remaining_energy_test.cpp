@@ -96,13 +96,18 @@ TEST_CASE("there is no bound of the energy where it may take a hinge to a stop, 
       System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
       system.find_sides({0, 0}); // where it latches
       system.engage(1);
-      RemainingEnergy<double> remaining;
-      remaining.prepare(system);
-      for (const double share : {-1.01, -0.99, 0.5, 0.99, 1.01}) { // either way: the hinge swings
-        State<double> x{share * way, 0};
-        system.find_sides(x);
-        CAPTURE(far, stowed, share);
-        CHECK(remaining.energy(system, x, 0.).has_value() == (std::abs(share) < 1));
+      for (const double prepared_at : {0., 1.01 * way, -1.01 * way}) { // on its stop or not
+        system.find_sides({prepared_at, 0});
+        RemainingEnergy<double> remaining;
+        remaining.prepare(system);
+        for (const double share : {-1.01, -0.99, 0.5, 0.99, 1.01}) { // either way: the hinge swings
+          State<double> x{share * way, 0};
+          system.find_sides(x);
+          CAPTURE(far, stowed, prepared_at, share);
+          const auto left = remaining.energy(system, x, 0.);
+          CHECK(left.has_value() == (std::abs(share) < 1));
+          if (left) CHECK(left->within == Approx(0.5 * hinge.latch->stiffness * x[0] * x[0]));
+        }
       }
     }
 }

@@ -30,6 +30,37 @@ TEST_CASE("a run that asks for latches alone goes on after the last one while it
   }
 }
 
+TEST_CASE("a latch is not final while its hinge, thrown back by a stop, may tear it open") {
+  int torn = 0, final = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Draws draws(seed);
+    Scene scene = latching_panel();
+    Hinge& hinge = scene.hinges[0];
+    hinge.latch = Latch{.stiffness = 100};
+    hinge.latch->damping = draws.uniform(0.1, 0.6);
+    hinge.far_stop = Stop{.stiffness = draws.log_uniform(300, 3000)};
+    hinge.far_stop->gap = draws.log_uniform(0.01, 0.05);
+    hinge.latch->holding_moment = draws.log_uniform(0.5, 3);
+    hinge.spring.torque_stowed = hinge.spring.torque_latched = draws.log_uniform(0.1, 1);
+    const Integration how = within(1e-9, 40);
+    Goal whole;
+    whole.to_t_end = true;
+    const Outcome late = Deployment().run(scene, how, whole);
+    torn += late.let_go.size() > 1;
+    for (const Goal& goal : {latches_only, Goal{}}) {
+      const Outcome early = Deployment().run(scene, how, goal);
+      final += early.t_end < late.t_end;
+      CAPTURE(seed, hinge.latch->holding_moment, early.t_end);
+      CHECK(early.status == late.status);
+      CHECK(early.latches.size() == late.latches.size());
+      REQUIRE(early.let_go.size() == late.let_go.size());
+      for (std::size_t k = 0; k < late.let_go.size(); ++k)
+        CHECK(early.let_go[k].time == late.let_go[k].time);
+    }
+  }
+  CHECK((torn > 5 && final > 20));
+}
+
 TEST_CASE("a run that asks for latches alone waits for a motor's later command to pull one open") {
   for (const double torque : {200.0, 800.0}) {
     Scene scene = latching_panel();
