@@ -177,9 +177,9 @@ private:
     schedule_.restart(sought());
   }
 
-  /// Keeps the time since which every hinge sticks.
+  /// Keeps the time since which every hinge sticks, none is held any more, and no load changes.
   void watch_standstill() {
-    if (run_.system.work().locked < run_.at.bodies)
+    if (!is_stuck())
       standstill_.reset();
     else if (!standstill_)
       standstill_ = run_.step.t;
@@ -290,7 +290,7 @@ private:
   ProofSchedule schedule_;
   FinalPeaks<T, AnySystem> final_peaks_;
   std::optional<std::string> stall_; ///< why no open hinge will latch; none: not proven
-  std::optional<T> standstill_;      ///< since when every hinge sticks, s
+  std::optional<T> standstill_;      ///< since when is_stuck(), s
   bool latches_were_left_ = true;    ///< at the step counted last
   int latches_before_ = 0;           ///< not engaged, at the step before
   bool peaks_are_proven_ = false;    ///< no peak can rise after the present time

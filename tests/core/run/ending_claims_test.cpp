@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <memory>
 #include <string>
 
 using namespace wingspread;
@@ -97,6 +98,34 @@ TEST_CASE("a wing that never moves costs next to nothing, whatever carries it") 
     }
   }
   CHECK(stalled > 150);
+}
+
+TEST_CASE("the reason of a stall says since when no load changes: after a hold, a motor, a base") {
+  Scene scene = latching_panel();
+  rub(scene.hinges[0], 1e3);
+  const auto since = [](const Scene& stuck, const Goal& goal) {
+    const Outcome out = Deployment().run(stuck, within(1e-8, 20), goal);
+    CAPTURE(out.reason, goal.to_t_end);
+    REQUIRE(out.status == Status::stalled);
+    return time_of(out.reason);
+  };
+  for (const Goal& goal : families) {
+    CHECK(since(scene, goal) == 0);
+    Scene held = scene;
+    held.hinges[0].release = Release{.time = 3};
+    CHECK(since(held, goal) == 3);
+    Scene driven = scene;
+    Motor motor{.time = {0, 4}, .rates = {0.5, 0.1}, .interpolation = Interpolation::linear};
+    motor.table = std::make_shared<Curve>(motor.time, motor.rates, motor.interpolation);
+    motor.gain = 1, motor.torque_limit = 10;
+    driven.hinges[0].motor = motor;
+    CHECK(since(driven, goal) == 4);
+    Scene pushed = scene;
+    pushed.base.motion = BaseMotion::prescribed;
+    const BaseTable::Columns columns{{0, 5}, {}, {0.1, 0}, {}};
+    pushed.base.table = std::make_shared<const BaseTable>(columns, Interpolation::linear);
+    CHECK(since(pushed, goal) == 5);
+  }
 }
 
 TEST_CASE("every claim on a run's end holds in the run to t_end") {
