@@ -33,6 +33,8 @@ public:
   /// The events of latches and holds so far.
   [[nodiscard]] LatchRecord record() { return {latches_, missed_, let_go_, releases_}; }
   [[nodiscard]] bool any_latch() const { return !latches_.empty(); }
+  /// How often a latch has engaged or let go.
+  [[nodiscard]] std::size_t latch_events() const { return latches_.size() + let_go_.size(); }
 
   /// Begins a phase, unless the method is that of the last one. @param steps accepted so far
   void begin_phase(Method method, long steps) {

@@ -61,7 +61,7 @@ public:
     final_peaks_.reset();
     standstill_.reset();
     latches_were_left_ = true, peaks_are_proven_ = false;
-    latches_before_ = events_.latches_left();
+    latch_events_before_ = diary_.latch_events();
     schedule_.restart(SoughtProof::stall);
   }
 
@@ -168,8 +168,8 @@ private:
 
   /// Proofs hold for the latches that are engaged.
   void watch_latches() {
-    if (events_.latches_left() == latches_before_) return;
-    latches_before_ = events_.latches_left();
+    if (diary_.latch_events() == latch_events_before_) return;
+    latch_events_before_ = diary_.latch_events();
     if (!may_let_go()) return;
     stall_.reset();
     final_peaks_.reset();
@@ -289,11 +289,11 @@ private:
   const PeakSearch<T, AnySystem>& peaks_;
   ProofSchedule schedule_;
   FinalPeaks<T, AnySystem> final_peaks_;
-  std::optional<std::string> stall_; ///< why no open hinge will latch; none: not proven
-  std::optional<T> standstill_;      ///< since when is_stuck(), s
-  bool latches_were_left_ = true;    ///< at the step counted last
-  int latches_before_ = 0;           ///< not engaged, at the step before
-  bool peaks_are_proven_ = false;    ///< no peak can rise after the present time
+  std::optional<std::string> stall_;    ///< why no open hinge will latch; none: not proven
+  std::optional<T> standstill_;         ///< since when is_stuck(), s
+  bool latches_were_left_ = true;       ///< at the step counted last
+  std::size_t latch_events_before_ = 0; ///< at the step before
+  bool peaks_are_proven_ = false;       ///< no peak can rise after the present time
 };
 
 } // namespace wingspread
