@@ -88,7 +88,12 @@ template <class L> void check_law(const L& law, Checker& checker) {
   for (const auto& parameter : L::parameters())
     checker.expect_range(law.*parameter.member, parameter.range, std::string(parameter.name));
   if constexpr (requires { law.lower; })
-    if (all_finite({law.lower, law.upper})) checker.expect_order(law.lower, law.upper, "");
+    if (all_finite({law.lower, law.upper})) {
+      checker.expect_order(law.lower, law.upper, "");
+      checker.expect(law.upper - law.lower <= std::numeric_limits<double>::max(), "upper",
+                     text(law.upper),
+                     joined({"a finite distance to lower (", text(law.lower), ")"}));
+    }
   if constexpr (requires { law.mode; })
     if (all_finite({law.lower, law.mode, law.upper}) && law.lower < law.upper)
       checker.expect(

@@ -75,6 +75,12 @@ TEST_CASE("what must be finite is") {
 
 TEST_CASE("bounds are in order, with the mode between them") {
   CHECK(report(Uniform{1, 1}) == "upper: 1, > lower (1)");
+  CHECK(report(Uniform{1e308, -1e308}) == "upper: -1e+308, > lower (1e+308)");
+  CHECK(report(Uniform{-8e307, 8e307}).empty());
+  for (const std::string& wide :
+       {report(Uniform{-1e308, 1e308}), report(Triangular{-1e308, 0, 1e308}),
+        report(Beta{1, 1, -1e308, 1e308})})
+    CHECK(wide == "upper: 1e+308, a finite distance to lower (-1e+308)");
   CHECK(report(Beta{1, 1, 2, 1}) == "upper: 1, > lower (2)");
   CHECK(report(Triangular{0, 1.5, 1}) == "mode: 1.5, in [lower, upper] = [0, 1]");
   CHECK(report(Triangular{0, -0.1, 1}) == "mode: -0.1, in [lower, upper] = [0, 1]");

@@ -27,7 +27,9 @@ struct FirstRuns {
   long deployed = 0;
 };
 
-FirstRuns first_runs(const Campaign& campaign, ThreadPool pool, const std::atomic<bool>& stop) {
+/// Runs of the campaign's laws; a design has all of them, however many runs the campaign has.
+FirstRuns first_runs(Campaign campaign, ThreadPool pool, const std::atomic<bool>& stop) {
+  campaign.sampling.runs = predicted_runs;
   const RunPlan plan(campaign);
   const std::vector<std::string>& names = plan.names().outputs;
   FirstRuns first{std::vector<OutputOfRuns>(names.size())};

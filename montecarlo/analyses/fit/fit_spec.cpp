@@ -7,6 +7,7 @@
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/quantity.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <fmt/format.h>
@@ -358,18 +359,25 @@ private:
   bool correlated_ = true;
 };
 
-void refuse_few_data(const FitSpec& spec, const std::string& file, std::vector<Problem>& problems) {
-  std::size_t data = 0, parameters = spec.parameters.size(); // one of "own" counts for each test
-  bool is_noise_known = true;
-  for (const FitTest& test : spec.tests) {
-    data += test.values.size() + test.times.size() * test.columns.size();
-    parameters += test.own.size();
-    for (const FitColumn& column : test.columns) is_noise_known = is_noise_known && column.std;
+/// Refuses a column of unknown noise that the unknowns which act on its test can fit exactly: the noise would be 0.
+void refuse_few_samples(const FitSpec& spec, const std::string& file,
+                        std::vector<Problem>& problems) {
+  for (std::size_t t = 0; t < spec.tests.size(); ++t) {
+    const FitTest& test = spec.tests[t];
+    std::set<std::size_t> parameters(spec.parameters.begin(), spec.parameters.end());
+    parameters.insert(test.own.begin(), test.own.end());
+    for (const FitColumn& column : test.columns) {
+      const std::size_t unknowns =
+          parameters.size() + (test.time_offset_std > 0) + (column.offset_std > 0);
+      if (column.std || test.times.size() > unknowns) continue;
+      problems.push_back(
+          {file, fmt::format("/tests/{}/trace/columns{}", t, pointer_token(column.name)),
+           fmt::format("{} for {}, offsets included",
+                       counted(static_cast<long>(test.times.size()), "sample", "samples"),
+                       counted(static_cast<long>(unknowns), "unknown", "unknowns")),
+           "more samples than unknowns, or the noise \"std\""});
+    }
   }
-  if (data < parameters && !is_noise_known) // a fit through all numbers would make the noise 0
-    problems.push_back({file, "/tests",
-                        fmt::format("{} numbers for {} parameters", data, parameters),
-                        "as many numbers, or the noise \"std\" of every column"});
 }
 
 } // namespace
@@ -379,7 +387,7 @@ FitSpec read_fit(const Json& document, const std::string& file,
   FitSpec spec;
   std::vector<Problem> problems;
   FitReader(campaign, directory).read(JsonCursor(document, file, problems), spec);
-  if (problems.empty()) refuse_few_data(spec, file, problems);
+  if (problems.empty()) refuse_few_samples(spec, file, problems);
   if (!problems.empty()) throw SpecError(std::move(problems));
   spec.resolved = document;
   return spec;

@@ -107,8 +107,10 @@ std::string sensitivity_table(const SobolSensitivity& all, std::string_view titl
             cut_heading(cut),
         columns, all.dispersions.size(), size, line);
     double sum = 0;
-    for (const SobolEffect& effect : found.effects) sum += effect.first.value;
-    if (!std::isnan(sum))
+    long known = 0;
+    for (const SobolEffect& effect : found.effects)
+      if (!std::isnan(effect.first.value)) sum += effect.first.value, ++known;
+    if (known > 0)
       text += fmt::format("  {:<{}}{:>39.3f}\n", "sum of the first-order", name_width, sum);
   }
   return text;
@@ -159,9 +161,10 @@ std::vector<std::string> warnings(const SobolSensitivity& all) {
   if (const std::vector<std::string> idle = all.idle(); !idle.empty())
     list.push_back(fmt::format("no output of any run changes with {}", quoted(idle)));
   if (!all.unvaried.empty())
-    list.push_back(fmt::format("the draws of {} do not vary in these rows: values that are not "
-                               "drawn have no part in the indices",
-                               quoted(all.unvaried)));
+    list.push_back(
+        fmt::format("the draws of {} do not vary in these rows: their indices are unknown, "
+                    "and values that are not drawn have no part in the others",
+                    quoted(all.unvaried)));
   if (all.bounds.replicates == 1) list.emplace_back(one_replicate);
   if (const std::vector<std::string> names = incomplete(all); !names.empty())
     list.push_back(fmt::format("no indices of {}: some points of the design have no value (rank "

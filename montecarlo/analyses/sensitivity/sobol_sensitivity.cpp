@@ -4,6 +4,7 @@
 #include "montecarlo/results/summary/summary.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace wingspread {
@@ -44,6 +45,11 @@ SobolSensitivity sobol_sensitivity(const Results& results, std::vector<std::stri
   const Column deployed = deployed_column(results);
   if (moments(sorted_present(deployed.values)).std > 0)
     all.outputs.push_back({deployed.name, sobol_indices(deployed.values, d, bounds)});
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < d; ++i)
+    if (std::ranges::find(all.unvaried, all.dispersions[i]) != all.unvaried.end())
+      for (auto& output : all.outputs)
+        output.indices.effects[i] = {{unknown, {}}, {unknown, {}}, false};
   return all;
 }
 

@@ -117,6 +117,22 @@ TEST_CASE(
   CHECK(time.after[2] > time.after[1]);
 }
 
+TEST_CASE("a prediction has the runs of a whole design, however few or many the campaign has") {
+  Json json = panel_campaign(0.3);
+  json["sampling"]["design"] = "latin_hypercube";
+  const auto medians = [&](long runs, long replicates) {
+    json["sampling"]["runs"] = runs, json["sampling"]["replicates"] = replicates;
+    const Campaign campaign = campaign_of(json);
+    const FitPrediction all = predict(campaign, campaign, {.threads = 1}, never);
+    CHECK(all.deployed[0] == all.deployed[1]);
+    return all.outputs.at(0).before;
+  };
+  for (const long replicates : {1, 4}) {
+    const auto whole = medians(predicted_runs, replicates);
+    for (const long runs : {7, 100, 5000}) CHECK(medians(runs, replicates) == whole);
+  }
+}
+
 // Of two campaigns a and b, the runs cut are cut(a) + cut(b), whichever comes first; quantiles change places.
 TEST_CASE("a prediction counts the cut peaks of both campaigns, and has the quantiles of each") {
   Json json = panel_campaign(0.05);

@@ -151,17 +151,28 @@ TEST_CASE("each fault of the tests has its place") {
             .starts_with("tests.json: /candidates/0/own"));
 }
 
-TEST_CASE("fewer numbers than parameters are enough where the noise is known") {
+TEST_CASE("fewer samples than unknowns are enough where the noise is known") {
   const Files files;
-  files.folder.write("short.csv", "t,angle\n0,1.5\n0.5,1.4\n");
+  files.folder.write("short.csv", "t,angle\n0,1.5\n0.5,1.4\n0.7,1.3\n");
   Json tests = parse_json(R"({ "tests": [ { "name": "t", "own": ["friction"],
       "trace": { "file": "short.csv", "time": "t",
-                 "columns": { "root.angle": { "column": "angle", "std": 0.1 } } } } ],
+                 "columns": { "root.angle": { "column": "angle", "std": 0.1 } } },
+      "values": [ { "output": "root.latch_time", "value": 2, "std": 0.1 } ] } ],
     "fit": { "parameters": ["spring", "friction"] } })");
+  Json& trace = tests["tests"][0]["trace"];
+  Json& column = trace["columns"]["root.angle"];
+  const auto refused = [&](const char* what) {
+    return files.problems(tests).starts_with(
+        std::string("tests.json: /tests/0/trace/columns/root.angle: found ") + what);
+  };
+  trace["time_offset_std"] = 0.02, column["offset_std"] = 0.01;
   CHECK(files.problems(tests) == "");
-  tests["tests"][0]["trace"]["columns"]["root.angle"].erase("std");
-  CHECK_THAT(files.problems(tests), Catch::Contains("/tests: found 2 numbers for 3 parameters") &&
-                                        Catch::Contains("\"std\""));
+  column.erase("std"); // the test's own friction replaces that of all tests
+  CHECK(refused("3 samples for 4 unknowns"));
+  column.erase("offset_std");
+  CHECK(refused("3 samples for 3 unknowns"));
+  trace.erase("time_offset_std");
+  CHECK(files.problems(tests) == "");
 }
 
 TEST_CASE("the numbers of a fit are accepted up to their limits, and no further") {

@@ -38,8 +38,12 @@ TEST_CASE("Sobol' indices as JSON, CSV and a table; what does not vary is named"
   CHECK(read["moves_nothing"].empty());
   CHECK(read["warnings"] == Json(warnings(all)));
   const Json& effects = read["outputs"]["root.latch_time"]["dispersions"];
-  CHECK(effects["none"]["total"]["value"] == 0);
-  CHECK(effects["root_spring"]["total"]["value"] > effects["none"]["total"]["value"]);
+  for (const char* index : {"first", "total"})
+    CHECK(effects["none"][index] ==
+          Json{{"value", nullptr}, {"lower", nullptr}, {"upper", nullptr}});
+  CHECK(effects["none"]["inert"] == false);
+  CHECK(effects["root_spring"]["total"]["value"] > 0);
+  CHECK(sensitivity_csv(all).find(",none,12,0,,,,,,\n") != std::string::npos);
   CHECK(sensitivity_csv(all).starts_with(
       "output,dispersion,rows,incomplete,first,first_lower,first_upper,"
       "total,total_lower,total_upper\nroot.latch_time,root_spring,12,0,"));
