@@ -101,6 +101,7 @@ public:
   [[nodiscard]] bool is_due(const T& energy) {
     constexpr int before_first = 2;
     ++refusals_;
+    if (is_last_) return true;
     return refusals_ > before_first && (!below_ || energy <= *below_ || refusals_ >= again_);
   }
   /// Notes that the box proved nothing. @param excess largest ratio of its bounds to the peaks; none: there was no box
@@ -110,7 +111,11 @@ public:
     again_ = 2 * refusals_; // the loads may fall though the energy stays
   }
 
+  /// The run ends here: there is no later attempt to wait for.
+  void end() { is_last_ = true; }
+
 private:
+  bool is_last_ = false;
   int refusals_ = 0, again_ = 0;
   std::optional<T> below_; ///< J; none: not asked yet
 };
@@ -125,6 +130,9 @@ public:
     thorough_ = {};
     proven_ = {false, false};
   }
+
+  /// The run ends here: what `prove` is asked from now on, it tries to prove by all means.
+  void end() { thorough_.end(); }
 
   /// The loads (moments, forces) proven final by any call of `prove` since `reset`, even one that failed for other
   /// peaks.

@@ -261,6 +261,7 @@ private:
   void describe_peaks(Finality& final) {
     if (base_quickens() && !is_stuck()) return;
     const Goal& goal = run_.goal;
+    final_peaks_.end();
     final.peaks = peaks_are_proven_ || is_stuck();
     const bool settled =
         final.peaks || ((latches_left() ? prove_stall() : diary_.any_latch()) && latches_stay());
