@@ -97,7 +97,7 @@ void study_costs(const study::StudyOptions& options) {
   const auto few = reports(plan, kept, 1), many = reports(plan, kept, 64);
   std::size_t bytes = 0;
   for (const std::string& message : many) bytes += message.size();
-  const std::filesystem::path file = options.folder / "runs.csv";
+  const std::filesystem::path file = options.folder / "rank_costs_rows.csv";
   const double of_few = take_in(plan, few, file), of_many = take_in(plan, many, file);
   std::filesystem::remove(file);
   // of_few = kept (a + c), of_many = kept (a/64 + c)

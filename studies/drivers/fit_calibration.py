@@ -10,7 +10,8 @@ parameter's rank among posterior draws is uniform (S. Talts et al., arXiv:1804.0
   seed       three panels; spring, friction and harness of all hinges
   two_wings  two such wings on a free spacecraft; six springs, friction and harness, and unknown offsets of the clock and of four encoders
 
-OUT/CASE.csv gets a row a set as the sets end; a second call makes only the sets that are missing. The table at the end: p-values of
+OUT/CASE.csv gets a row a set as the sets end; a second call makes only the sets that are missing. It refuses rows of another program, seed,
+effective sample size or definition of the case, which OUT/CASE.json names. The table at the end: p-values of
 χ² tests of uniform ranks (20 classes), and the share of sets whose 90 % interval holds the truth, with its 95 % confidence interval. Exits 1
 if a p-value is below 1 % over the number of tests (Bonferroni), or if 90 % is not within the interval of the coverage over all parameters.
 """
@@ -29,6 +30,8 @@ import tempfile
 
 import numpy
 from scipy import stats
+
+import own_folder
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NOISE = math.radians(0.3)  # of an angle's sample, rad
@@ -151,9 +154,18 @@ def add_row(path, row):
         writer.writerow(row)
 
 
+def check_origin(path, made_by):
+    """Ends the driver if the rows of a file were made otherwise; beside a new file, writes how its rows are made."""
+    origin = path.with_suffix(".json")
+    if path.exists() and not (origin.exists() and json.loads(origin.read_text(encoding="utf-8")) == made_by):
+        sys.exit(f"{path}: found rows of another program, seed, sample size or case, expected those of {origin.name}: move both files away")
+    origin.write_text(json.dumps(made_by, indent=1), encoding="utf-8")
+
+
 def make_sets(name, given):
     case, path = CASES[name], pathlib.Path(given.out) / f"{name}.csv"
     path.parent.mkdir(parents=True, exist_ok=True)
+    check_origin(path, {"program": call(given.program, "--version").stdout.strip(), "seed": given.seed, "samples": given.samples, "case": case})
     made = {int(row["set"]) for row in read_csv(path)} if path.exists() else set()
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
@@ -208,6 +220,7 @@ def main():
     given = parser.parse_args()
     if given.quick:
         given.sets, given.out = 2, f"{given.out}/quick"
+        own_folder.begin(given.out)
     p_values, good = [], True
     for name in given.case or CASES:
         found, covers = print_case(name, make_sets(name, given))

@@ -16,11 +16,12 @@ import json
 import math
 import pathlib
 import random
-import shutil
 import subprocess
 import sys
 
 import numpy
+
+import own_folder
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TRUTH = {"spring": 0.96, "friction": 1.5, "harness": 1.25}
@@ -139,8 +140,7 @@ def main():
     given = parser.parse_args()
     if given.quick:
         given.samples, given.runs, given.until = 100, 100, [3]
-    shutil.rmtree(given.out, ignore_errors=True)
-    given.out.mkdir(parents=True)
+    own_folder.begin(given.out)
     campaign = make_campaign(given.runs)
     (given.out / "campaign.json").write_text(json.dumps(campaign, indent=1), encoding="utf-8")
     threads = ["--threads", given.threads] if given.threads else []

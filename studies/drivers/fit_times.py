@@ -15,9 +15,9 @@ import json
 import pathlib
 import random
 import resource
-import shutil
 import time
 
+import own_folder
 from fit_ground_tests import NOISE, ROOT, call, read_csv
 
 SPRING = {"type": "normal", "mean": 1, "std": 0.04, "truncate": {"lower": 0.84, "upper": 1.16}}
@@ -59,8 +59,7 @@ def main():
     given = parser.parse_args()
     for name in given.case or CASES:
         folder = given.out / name
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
+        own_folder.begin(folder)
         make_test(given.program, CASES[name], folder, given.samples or CASES[name]["samples"])
         before, start = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.monotonic()
         call(given.program, "fit", folder / "campaign.json", folder / "tests.json", "--out", folder / "fit", "--threads", given.threads,

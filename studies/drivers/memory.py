@@ -25,8 +25,10 @@ import json
 import os
 import pathlib
 import shutil
+import subprocess
 import sys
-import time
+
+import own_folder
 
 CAMPAIGN = pathlib.Path("studies/campaigns/seed.json")
 CHEAP_SCENE = pathlib.Path("studies/scenes/three_panel.json")
@@ -36,15 +38,26 @@ MOST_BYTES_A_DRAW = 1200  # of margin: up to 256 MiB it holds the margins at all
 MIB = 1024  # ru_maxrss is in KiB
 
 
+# The peak of a child counts from before its exec, so it is at least the peak of the process that starts it. This small Python
+# (10 MiB) starts the program, and prints its exit code, its wall time and its peak.
+STARTER = """
+import os, sys, time
+start = time.monotonic()
+process = os.posix_spawn(sys.argv[1], sys.argv[1:], os.environ,
+                         file_actions=[(os.POSIX_SPAWN_OPEN, fd, os.devnull, os.O_WRONLY, 0) for fd in (1, 2)])
+_, status, usage = os.wait4(process, 0)
+print(os.waitstatus_to_exitcode(status), time.monotonic() - start, usage.ru_maxrss)
+"""
+
+
 def measure(command, *arguments):
     """Runs the program. Returns its wall time, s, and its peak memory, MiB."""
-    start = time.monotonic()
-    process = os.posix_spawn(command, [command, *map(str, arguments)], os.environ | {"OMP_NUM_THREADS": "2"},
-                             file_actions=[(os.POSIX_SPAWN_OPEN, fd, os.devnull, os.O_WRONLY, 0) for fd in (1, 2)])
-    _, status, usage = os.wait4(process, 0)
-    if os.waitstatus_to_exitcode(status) > 1:  # 1: a requirement is not met
-        sys.exit(f"{command} {arguments}: exit code {os.waitstatus_to_exitcode(status)}")
-    return time.monotonic() - start, usage.ru_maxrss / MIB
+    done = subprocess.run([sys.executable, "-I", "-S", "-c", STARTER, command, *map(str, arguments)], env=os.environ | {"OMP_NUM_THREADS": "2"},
+                          stdout=subprocess.PIPE, check=True)
+    code, seconds, peak = done.stdout.decode().split()
+    if code not in ("0", "1"):  # 1: a requirement is not met
+        sys.exit(f"{command} {arguments}: exit code {code}")
+    return float(seconds), int(peak) / MIB
 
 
 def write_cheap_campaign(folder):
@@ -143,8 +156,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/memory"))
     parser.add_argument("--program", default="build/release/wingspread")
     options = parser.parse_args()
-    shutil.rmtree(options.out, ignore_errors=True)
-    options.out.mkdir(parents=True)
+    own_folder.begin(options.out)
     run_sizes, analyze_sizes, margin_sizes = (
         ((40_000, 120_000), (40_000, 200_000), (40_000, 100_000)) if options.quick else
         ((1_000_000, 4_000_000), (1_000_000, 10_000_000), (300_000, 1_000_000)))

@@ -18,6 +18,8 @@ import shutil
 import subprocess
 import sys
 
+import own_folder
+
 CAMPAIGN = pathlib.Path("studies/campaigns/seed.json")
 # Limits fixed beforehand, from the quantiles of 40,000 runs with another seed. The root's latch time has two modes: in
 # one run of 500 the wing's outer panels swing back before the root latches, and no smooth path leads to that mode.
@@ -68,8 +70,7 @@ def main():
     options = parser.parse_args()
     runs = options.runs or (20_000 if options.quick else 2_000_000)
     repeats = options.repeats or (4 if options.quick else 200)
-    shutil.rmtree(options.out, ignore_errors=True)
-    options.out.mkdir(parents=True)
+    own_folder.begin(options.out)
     hits = count(options.program, options.out, runs)
     print(f"{runs} runs counted; {repeats} subset simulations of {options.samples} runs a level")
     print(f"{'event':26}{'counted':>10}{'±':>9}{'estimated':>12}{'±':>9}{'difference':>12}{'sigmas':>8}"

@@ -13,9 +13,9 @@ import argparse
 import csv
 import json
 import pathlib
-import shutil
 import sys
 
+import own_folder
 from memory import measure, write_cheap_campaign
 
 REQUIREMENTS = [{"output": "root.latch_time", "max": 5.0, "probability": 0.9, "confidence": 0.9},
@@ -71,8 +71,7 @@ def main():
     parser.add_argument("--longest", type=int, default=10_000_000)
     options = parser.parse_args()
     out = pathlib.Path(options.out)
-    shutil.rmtree(out, ignore_errors=True)
-    out.mkdir(parents=True)
+    own_folder.begin(out)
     file = write_cheap_campaign(out)
     campaign = json.loads(file.read_text())
     campaign["requirements"] = REQUIREMENTS

@@ -21,7 +21,7 @@ SKIPPED = {"timing.json"}
 
 def call(program, *words):
     done = subprocess.run([program, *map(str, words)], capture_output=True, text=True, check=False)
-    if done.returncode > 1:  # 1: a requirement is not met
+    if done.returncode not in (0, 1):  # 1: a requirement is not met
         sys.exit(f"{program} {' '.join(map(str, words))}: exit code {done.returncode}\n{done.stderr}")
 
 
@@ -39,8 +39,9 @@ def contents(folder):
 
 def compare(name, before, after):
     different = sorted(file for file in before.keys() | after.keys() if before.get(file) != after.get(file))
-    print(f"{name:28} {len(after):3} files   {'the same' if not different else 'DIFFERENT: ' + ', '.join(different)}", flush=True)
-    return not different
+    verdict = "DIFFERENT: " + ", ".join(different) if different else "the same" if after else "NOTHING TO COMPARE"
+    print(f"{name:28} {len(after):3} files   {verdict}", flush=True)
+    return verdict == "the same"
 
 
 def main():
