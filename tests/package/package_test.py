@@ -147,6 +147,15 @@ class Pages(InFolder):
             said = re.sub(r"\s+|.\b", "", done.stdout)
             self.assertGreater(len(said), 100)
 
+    def test_a_path_may_have_blanks(self):
+        program = self.folder / "a build" / "wingspread"
+        program.parent.mkdir()
+        program.symlink_to(PROGRAM)
+        output_of("cmake", f"-DPROGRAM={program}", f"-DOUT={program.parent}/package", "-DGZIP=gzip", "-DHELP2MAN=help2man",
+                  f"-DCHANGELOG={ROOT}/CHANGELOG.md", "-DVERSION=1", "-DMAINTAINER=me", "-P", COMPLETIONS / "make.cmake")
+        made = program.parent / "package/man"
+        self.assertEqual({page.name for page in made.iterdir()}, {page.name for page in (BUILD / "package/man").iterdir()})
+
     def test_a_page_says_what_help_says(self):
         for command in commands():
             with gzip.open(BUILD / f"package/man/wingspread-{command}.1.gz", "rt", encoding="utf-8") as file:

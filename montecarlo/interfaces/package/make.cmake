@@ -7,7 +7,8 @@ function(compress from to)
 endfunction()
 
 # The man page of a command, or of the program for an empty command.
-# help2man takes the page's name from the name of the file that it calls, and keeps lines that begin with "$ " as they are.
+# help2man takes the page's name from the name of the file that it calls, and keeps lines that begin with "$ " as they are. The
+# name goes through a shell: here it has no path, which may have blanks.
 function(make_man_page command)
   set(name wingspread)
   if(command)
@@ -21,7 +22,7 @@ function(make_man_page command)
   # SOURCE_DATE_EPOCH: the page shows its month; the same source gives the same bytes
   execute_process(COMMAND ${CMAKE_COMMAND} -E env SOURCE_DATE_EPOCH=1767225600 LC_ALL=C.UTF-8
     ${HELP2MAN} --locale=C.UTF-8 --no-info --version-string=${version} "--name=${brief}" --output=${OUT}/man/${name}.1
-    ${OUT}/man/${name} COMMAND_ERROR_IS_FATAL ANY)
+    ./${name} WORKING_DIRECTORY ${OUT}/man COMMAND_ERROR_IS_FATAL ANY)
   compress(${OUT}/man/${name}.1 ${OUT}/man/${name}.1.gz)
   file(REMOVE ${OUT}/man/${name} ${OUT}/man/${name}.1)
 endfunction()
