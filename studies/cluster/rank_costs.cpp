@@ -61,14 +61,14 @@ double take_in(const RunPlan& plan, const std::vector<std::string>& messages,
   for (int repeat = 0; repeat < 9; ++repeat) {
     std::filesystem::remove(file);
     RowWriter writer(file, plan.names());
-    writer.open(plan.names());
+    writer.open();
     const BatchSink sink{[&](const Batch& batch) { writer.add(batch); }, true};
     InOrder in_order(sink, 1024);
     least = std::min(least, seconds_of([&] {
                        for (const std::string& message : messages) {
                          Deserializer bytes(message);
                          (void)kind_of(bytes);
-                         for (FinishedChunk& each : take_report(bytes).finished)
+                         for (FinishedChunk& each : read_report(bytes).finished)
                            in_order.finish(each.chunk.number, std::move(each.batch), true);
                        }
                      }));

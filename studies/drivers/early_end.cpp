@@ -1,11 +1,12 @@
 // Measures the work that runs save by ending early, and checks that they lose no result. Makes every run of several
-// campaigns twice: as a campaign does, and to its t_end. No bit of a latch, a peak or an overtravel may differ.
+// campaigns twice: as a campaign does, and to its t_end. No bit of a latch or another event, a peak, an overtravel or a motor's
+// energy may differ, no status, and no run may fail.
 //
 //   build/release/studies/early_end                 some ten thousand runs of each campaign; minutes
 //   build/release/studies/early_end --quick         a hundred of each
 //   build/release/studies/early_end CAMPAIGN.json … all runs of these, with their own t_end and outputs
 //
-// Exits 1 if any bit differs.
+// Exits 1 if any bit differs or a run fails.
 
 #include "core/deployment.hpp"
 #include "montecarlo/engine/runs/run_plan.hpp"
@@ -47,13 +48,15 @@ constexpr Case cases[] = {{"seed", 40000, 30, 11},
                           {"bending_wings", 200, 20, 21}};
 
 struct Found {
-  long runs = 0, deployed = 0, early = 0, lost = 0;
+  long runs = 0, deployed = 0, early = 0, lost = 0, failed = 0;
   double evaluations = 0, of_whole = 0; ///< of all runs: as they end, and to t_end
-  double tail = 0; ///< sum over runs that ended early of the time from last latch to end, s
+  long tails = 0;                       ///< deployed runs that ended early
+  double tail = 0;                      ///< sum over these of the time from last latch to end, s
 
   void add(const Found& other) {
     runs += other.runs, deployed += other.deployed, early += other.early, lost += other.lost;
-    evaluations += other.evaluations, of_whole += other.of_whole, tail += other.tail;
+    failed += other.failed, tails += other.tails, tail += other.tail;
+    evaluations += other.evaluations, of_whole += other.of_whole;
   }
 };
 
@@ -63,18 +66,31 @@ bool same(const std::vector<Peak>& a, const std::vector<Peak>& b) {
   });
 }
 
-/// Whether the run to t_end has the latches, overtravels and asked-for peaks of the early one.
+bool same(const std::vector<LatchEvent>& a, const std::vector<LatchEvent>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
+    return p.hinge == q.hinge && p.time == q.time && p.rates == q.rates;
+  });
+}
+
+bool same(const std::vector<HingeEvent>& a, const std::vector<HingeEvent>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
+    return p.hinge == q.hinge && p.time == q.time && p.rate == q.rate;
+  });
+}
+
+/// Whether the run to t_end has the status, the events and all that was asked for of the early one.
 bool nothing_lost(const Outcome& early, const Outcome& whole, const Goal& goal) {
-  const bool latches =
-      std::equal(early.latches.begin(), early.latches.end(), whole.latches.begin(),
-                 whole.latches.end(), [](const LatchEvent& a, const LatchEvent& b) {
-                   return a.hinge == b.hinge && a.time == b.time;
-                 });
   const auto& [was, is] = std::pair(early.base_peaks, whole.base_peaks);
   const bool base =
       !goal.base_motion || !was || (is && was->angle == is->angle && was->rate == is->rate);
-  return latches && base && early.overtravel == whole.overtravel &&
-         same(early.peak_moment, whole.peak_moment) && same(early.peak_force, whole.peak_force);
+  return early.status == whole.status && base && same(early.latches, whole.latches) &&
+         same(early.let_go, whole.let_go) && same(early.missed, whole.missed) &&
+         same(early.releases, whole.releases) && early.overtravel == whole.overtravel &&
+         early.motor_energy == whole.motor_energy &&
+         (!goal.to_rest || early.final_angle == whole.final_angle) &&
+         same(early.peak_moment, whole.peak_moment) && same(early.peak_force, whole.peak_force) &&
+         same(early.hold_moment, whole.hold_moment) &&
+         same(early.bending_moment, whole.bending_moment);
 }
 
 Found compare(Deployment& deployment, const Scene& scene, const Integration& how, Goal goal,
@@ -84,11 +100,16 @@ Found compare(Deployment& deployment, const Scene& scene, const Integration& how
   const Outcome whole = deployment.run(scene, how, goal);
   Found found;
   found.runs = 1, found.deployed = early.status == Status::deployed;
-  found.early = early.t_end < whole.t_end, found.lost = !nothing_lost(early, whole, goal);
+  found.failed = early.status == Status::failed || whole.status == Status::failed;
+  found.early = early.t_end < whole.t_end;
+  found.lost = !found.failed && !nothing_lost(early, whole, goal);
   found.evaluations = static_cast<double>(early.work.rhs_evaluations);
   found.of_whole = static_cast<double>(whole.work.rhs_evaluations);
-  if (found.early && found.deployed) found.tail = early.t_end - early.latches.back().time;
+  if (found.early && found.deployed)
+    found.tails = 1, found.tail = early.t_end - early.latches.back().time;
   if (found.lost) fmt::print("  run {} has lost something\n", run);
+  if (found.failed)
+    fmt::print("  run {} fails: {}\n", run, early.reason.empty() ? whole.reason : early.reason);
   return found;
 }
 
@@ -123,29 +144,30 @@ Found compare_all(const Campaign& campaign, const Goal& goal) {
 class Report {
 public:
   Report() {
-    fmt::print("{:24} {:>7} {:>8} {:>11} {:>5} {:>8} {:>17} {:>9}\n", "campaign", "runs",
-               "deployed", "ended early", "lost", "tail, s", "evaluations a run", "to t_end");
+    fmt::print("{:24} {:>7} {:>8} {:>11} {:>5} {:>6} {:>8} {:>17} {:>9}\n", "campaign", "runs",
+               "deployed", "ended early", "lost", "failed", "tail, s", "evaluations a run",
+               "to t_end");
   }
 
   void add(const std::string& name, const Found& found) {
     const auto runs = static_cast<double>(found.runs);
-    const double tail = found.tail / static_cast<double>(std::max(1L, found.early));
-    fmt::print("{:24} {:7} {:8} {:11} {:5} {:8.3f} {:17.0f} {:9.0f}\n", name, found.runs,
-               found.deployed, found.early, found.lost, tail, found.evaluations / runs,
-               found.of_whole / runs);
+    const double tail = found.tail / static_cast<double>(std::max(1L, found.tails));
+    fmt::print("{:24} {:7} {:8} {:11} {:5} {:6} {:8.3f} {:17.0f} {:9.0f}\n", name, found.runs,
+               found.deployed, found.early, found.lost, found.failed, tail,
+               found.evaluations / runs, found.of_whole / runs);
     table_.add({name, runs, static_cast<double>(found.deployed), static_cast<double>(found.early),
-                static_cast<double>(found.lost), tail, found.evaluations / runs,
-                found.of_whole / runs});
-    lost_ += found.lost;
+                static_cast<double>(found.lost), static_cast<double>(found.failed), tail,
+                found.evaluations / runs, found.of_whole / runs});
+    faults_ += found.lost + found.failed;
   }
 
   [[nodiscard]] const study::Table& table() const { return table_; }
-  [[nodiscard]] long lost() const { return lost_; }
+  [[nodiscard]] long faults() const { return faults_; }
 
 private:
-  study::Table table_{"campaign", "runs",     "deployed",          "ended early",
-                      "lost",     "tail [s]", "evaluations a run", "to t_end"};
-  long lost_ = 0;
+  study::Table table_{"campaign", "runs",     "deployed",          "ended early", "lost",
+                      "failed",   "tail [s]", "evaluations a run", "to t_end"};
+  long faults_ = 0; ///< runs that lost something or failed
 };
 
 long study_all(const study::StudyOptions& options) {
@@ -163,16 +185,16 @@ long study_all(const study::StudyOptions& options) {
     report.add(one.campaign, compare_all(campaign, {}));
   }
   report.table().write(options.folder / "early_end.csv");
-  return report.lost();
+  return report.faults();
 }
 
 } // namespace
 
 int main(int count, char** arguments) {
-  long lost = 0;
+  long faults = 0;
   const int status = study::run_study(
       count, arguments, "early_end", "What an early end of runs saves, and whether it loses a peak",
-      [&](const study::StudyOptions& options) { lost = study_all(options); },
+      [&](const study::StudyOptions& options) { faults = study_all(options); },
       "Campaigns in place of the study's own");
-  return status != 0 ? status : lost > 0 ? 1 : 0;
+  return status != 0 ? status : faults > 0 ? 1 : 0;
 }

@@ -1,6 +1,6 @@
 """What the studies' scripts and drivers do with folders, programs and words that they do not expect.
 
-    /usr/bin/python3 tests/studies/scripts_test.py PROGRAM      from the repository's root
+    /usr/bin/python3 tests/studies/scripts_test.py PROGRAM EARLY_END      from the repository's root
 """
 
 import json
@@ -12,7 +12,7 @@ import sys
 import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+PROGRAM, EARLY_END = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DRIVERS = ROOT / "studies/drivers"
 sys.path.insert(0, str(DRIVERS))
@@ -41,6 +41,12 @@ class InFolder(unittest.TestCase):
                               capture_output=True, text=True, timeout=120)
         return done.returncode, done.stdout, done.stderr
 
+    def campaign(self, name, **more):
+        campaign = json.loads((ROOT / "studies/campaigns/seed.json").read_text(encoding="utf-8"))
+        campaign |= {"scene": str(ROOT / "studies/scenes/three_panel_flight.json"), "outputs": ["latch_time"], "statistics": {"accuracy_runs": 0},
+                     "sampling": {"runs": 30, "seed": 1}}
+        return self.write(name, json.dumps(campaign | more))
+
 
 class Run(InFolder):
     """studies/run beside stand-ins for what installs and builds."""
@@ -54,12 +60,6 @@ class Run(InFolder):
         (self.folder / "build/release/wingspread").symlink_to(PROGRAM)
         self.stand_in("studies/install", "")
         self.stand_in("bin/cmake", "")
-
-    def campaign(self, name, **more):
-        campaign = json.loads((ROOT / "studies/campaigns/seed.json").read_text(encoding="utf-8"))
-        campaign |= {"scene": str(ROOT / "studies/scenes/three_panel_flight.json"), "outputs": ["latch_time"], "statistics": {"accuracy_runs": 0},
-                     "sampling": {"runs": 30, "seed": 1}}
-        return self.write(name, json.dumps(campaign | more))
 
     def run_campaigns(self, *words, cwd=None):
         return self.run_words(self.folder / "studies/run", *words, cwd=cwd, PATH=f"{self.folder / 'bin'}:{os.environ['PATH']}")
@@ -143,6 +143,11 @@ class Drivers(InFolder):
         fit_calibration.check_origin(rows, made_by)
         with self.assertRaisesRegex(SystemExit, "another program"):
             fit_calibration.check_origin(rows, made_by | {"program": "2"})
+
+    def test_early_end_reports_runs_that_fail(self):
+        code, said, _ = self.run_words(EARLY_END, self.campaign("failing.json", integration={"max_steps": 10}), "--out", self.folder / "out")
+        self.assertEqual(code, 1)
+        self.assertIn("max_steps", said)
 
 
 if __name__ == "__main__":
