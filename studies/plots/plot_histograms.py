@@ -11,13 +11,6 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-UNITS = {"latch_time": "s", "deployment_time": "s", "latch_rate": "rad/s", "rate_at": "rad/s",
-         "peak_moment": "N·m", "peak_force": "N", "overtravel": "rad"}
-
-
-def unit(output):
-    return next((symbol for family, symbol in UNITS.items() if family in output), "")
-
 
 def read_bins(path):
     """The bins of histograms.csv by output: [(lower, upper, density)]."""
@@ -34,7 +27,7 @@ def draw(axes, output, bins, summary):
     axes.set_yticks([])
     if summary["min"] is not None and summary["min"] == summary["max"]:
         axes.set_xticks([])
-        axes.text(0.5, 0.5, f"always {summary['min']:g} {unit(output)}", ha="center", va="center", fontsize=9,
+        axes.text(0.5, 0.5, f"always {summary['min']:g} {summary['unit']}", ha="center", va="center", fontsize=9,
                   transform=axes.transAxes)
         return
     axes.stairs([density for *_, density in bins], [lower for lower, *_ in bins] + [bins[-1][1]],
@@ -43,7 +36,7 @@ def draw(axes, output, bins, summary):
         if quantile["value"] is not None:
             axes.axvline(quantile["value"], color="#a03030", linewidth=0.8,
                          linestyle="-" if quantile["p"] == 0.5 else "--")
-    axes.set_xlabel(unit(output), fontsize=8)
+    axes.set_xlabel(summary["unit"], fontsize=8)
     axes.tick_params(labelsize=7)
 
 
@@ -51,6 +44,9 @@ def main(folder):
     folder = pathlib.Path(folder)
     bins = read_bins(folder / "histograms.csv")
     summary = json.loads((folder / "summary.json").read_text())
+    if not bins:
+        print(f"no histograms drawn: {folder} has no values")
+        return
     columns = min(4, len(bins))
     rows = math.ceil(len(bins) / columns)
     figure, grid = plt.subplots(rows, columns, figsize=(3.2 * columns, 2.2 * rows), squeeze=False)

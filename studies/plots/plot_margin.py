@@ -12,12 +12,13 @@ import sys
 from charts import distinct, plt, read_rows, save
 
 WINDOW, PASS, FAIL, LIMIT = "#dcecd8", "#2f6db0", "#b03030", "0.25"
-UNITS = {"latch_time": "s", "deployment_time": "s", "latch_rate": "rad/s", "rate_at": "rad/s",
-         "peak_moment": "N·m", "peak_force": "N", "overtravel": "rad"}
+UNITS = {"latch_time": "s", "deployment_time": "s", "latch_rate": "rad/s", "rate_at": "rad/s", "peak_rate": "rad/s",
+         "peak_moment": "N·m", "hold_moment": "N·m", "peak_bending_moment": "N·m", "peak_force": "N", "motor_energy": "J",
+         "overtravel": "rad", "final_angle": "rad", "peak_angle": "rad", "frequency": "Hz"}
 
 
 def unit(output):
-    return next((symbol for family, symbol in UNITS.items() if family in output), "")
+    return UNITS.get("rate_at" if ".rate_at." in output else output.split(".")[-1], "")
 
 
 def draw_window(axes, search):

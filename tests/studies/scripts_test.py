@@ -89,6 +89,12 @@ class Run(InFolder):
         self.assertEqual((code, (self.folder / "results/one/runs.csv").read_bytes()), (2, before))
         self.assertIn("results/one is kept", error)
 
+    def test_reports_runs_that_all_fail(self):
+        code, said, error = self.run_campaigns(self.campaign("failing.json", integration={"max_steps": 10}))
+        self.assertEqual(code, 3, error)
+        self.assertIn("no histograms drawn", said)
+        self.assertTrue((self.folder / "results/failing/report.html").exists())
+
     def test_refuses_a_file_that_is_not_there_and_two_of_one_name(self):
         self.write("results/typo/summary.json", "{}")
         for words, said in ((["typo.json"], "typo.json"), ([self.campaign("a/x.json"), self.campaign("b/x.json")], "results/x")):
