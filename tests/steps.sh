@@ -1,8 +1,18 @@
+# shellcheck shell=bash disable=SC2034,SC2154 # variables are those of the scripts that source this
 # The steps that tests/run and tests/nightly are made of. Sourced by both, from the repository's root.
 
 export OMP_WAIT_POLICY=passive # a thread that waits sleeps: spinning, it would take the processor from other tests
 
 tests_from=() # the build whose test objects the sanitizers' builds link
+
+# known_words KNOWN -- WORDS…: refuses all words but KNOWN
+known_words() {
+  local known=$1 word
+  shift 2
+  for word in "$@"; do
+    [ "$word" = "$known" ] || { echo "$0: found $word, expected $known or nothing" >&2; exit 2; }
+  done
+}
 
 # build PRESET TARGETS
 build() {
@@ -34,7 +44,7 @@ check_rooms() {
 
 check_format() {
   echo "== clang-format"
-  git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
+  git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run --Werror
 }
 
 # check_tidy [clang-tidy's options …]: the checks of .clang-tidy on the product's files
@@ -46,10 +56,10 @@ check_tidy() {
   sed -i 's/ -fno-gnu-unique//; s/ --param=[a-z-]*=[0-9]*//' build/lint/compile_commands.json
   # Files as they are compiled, several at once: GCC reports what shadows. Left out: files that montecarlo/CMakeLists.txt
   # excuses, and the report's page, which the build writes.
-  python3 -c 'import json, sys; print(*sorted({unit["file"] for unit in json.load(open(sys.argv[1]))}), sep="\n")' \
-    build/lint/compile_commands.json | grep -E '/(core|distributions|montecarlo)/' |
-    grep -vE '(unity_not_for_clang_cxx\.cxx|montecarlo/page_files\.cpp)$' |
-    xargs -P "$(nproc)" -n 1 clang-tidy -p build/lint --quiet --warnings-as-errors='*' \
+  python3 -c 'import json, sys; print(*sorted({unit["file"] for unit in json.load(open(sys.argv[1]))}), sep="\0", end="\0")' \
+    build/lint/compile_commands.json | grep -zE '/(core|distributions|montecarlo)/' |
+    grep -zvE '(unity_not_for_clang_cxx\.cxx|montecarlo/page_files\.cpp)$' |
+    xargs -0 -P "$(nproc)" -n 1 clang-tidy -p build/lint --quiet --warnings-as-errors='*' \
       --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-shadow "$@"
 }
 

@@ -12,6 +12,7 @@ import json
 import math
 import random
 import subprocess
+import sys
 import tempfile
 
 IMPLICIT_COST = 1.5  # of an evaluation with its solve, made alone
@@ -75,9 +76,11 @@ def cost(program, path, method):
     command = [program, "simulate", path, "--json", "--method", method, "--t-end", "20"]
     try:
         run = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS, check=False)
-        outcome = json.loads(run.stdout)
-    except (subprocess.TimeoutExpired, json.JSONDecodeError):
+    except subprocess.TimeoutExpired:
         return None
+    if run.returncode not in (0, 3):  # 3: the run failed
+        sys.exit(f"{' '.join(command)}: exit code {run.returncode}\n{run.stderr}")
+    outcome = json.loads(run.stdout)
     if outcome["status"] == "failed":
         return None
     evaluations = outcome["work"]["rhs_evaluations"]
@@ -106,6 +109,8 @@ def main():
             failed.append((seed, least))
         elif least is not None:
             ratios.append((chosen / least, seed))
+    if not ratios:
+        sys.exit(f"no wing reaches its end within {SECONDS} s by auto and another method")
     ratios.sort()
     shares = ", ".join(f"{p} % {ratios[min(len(ratios) - 1, len(ratios) * p // 100)][0]:.2f}" for p in (50, 90, 95, 99))
     print(f"auto's cost over the cheapest: {shares}, largest {ratios[-1][0]:.2f}")

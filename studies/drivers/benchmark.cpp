@@ -1,11 +1,12 @@
 // Measures the time of an acceleration evaluation against the number of bodies, and the time of whole runs.
-// Prints JSON. Each figure is the least of several repetitions in one process. Compare ratios: times scatter.
+// Writes benchmark.json. Each figure is the least of several repetitions in one process. Compare ratios: times scatter.
 //
 //   build/release/studies/benchmark                      everything
 //   build/release/studies/benchmark --quick              a tenth of the repetitions
 
 #include "core/deployment.hpp"
 #include "core/mechanics/system.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "studies/peers/dense_chain.hpp"
 #include "studies/support/study.hpp"
@@ -14,8 +15,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
-#include <iostream>
 
 using namespace wingspread;
 using study::stack;
@@ -125,8 +124,8 @@ Json one_run(const std::string& name, const Scene& scene, const Integration& how
           {"ns_per_evaluation", ns / static_cast<double>(out.work.rhs_evaluations)}};
 }
 
-Json runs(const std::string& folder) {
-  const Scene seed = read_scene_file(folder + "/scenes/three_panel.json");
+Json runs() {
+  const Scene seed = study::seed_wing();
   Goal all{.audit = false}, moments{.peak_force = false, .audit = false},
       latches{.peak_moment = false, .peak_force = false, .audit = false},
       whole{.audit = false, .to_t_end = true};
@@ -145,23 +144,21 @@ Json runs(const std::string& folder) {
   }
   for (const char* scene : {"three_panel_flight", "two_wing_free", "prescribed_base", "long_chain"})
     rows.push_back(one_run(std::string(scene) + ", defaults, all outputs",
-                           read_scene_file(folder + "/scenes/" + scene + ".json"), {}, all));
+                           read_scene_file(std::string("studies/scenes/") + scene + ".json"), {},
+                           all));
   return rows;
 }
 
 } // namespace
 
 int main(int count, char** arguments) {
-  std::string folder = "studies";
-  for (int k = 1; k < count; ++k) {
-    if (std::strcmp(arguments[k], "--quick") == 0)
-      effort = 0.1;
-    else
-      folder = arguments[k];
-  }
-  std::cout << Json{{"cycles_per_ns", cycles_per_ns()},
-                    {"evaluation", evaluations()},
-                    {"runs", runs(folder)}}
-                   .dump(2)
-            << '\n';
+  return study::run_study(count, arguments, "benchmark",
+                          "Time of an evaluation against the number of bodies, and of whole runs",
+                          [](const study::StudyOptions& options) {
+                            if (options.quick) effort = 0.1;
+                            const Json found{{"cycles_per_ns", cycles_per_ns()},
+                                             {"evaluation", evaluations()},
+                                             {"runs", runs()}};
+                            write_file(options.folder / "benchmark.json", found.dump(2) + '\n');
+                          });
 }

@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
 #include <map>
 
@@ -219,6 +220,8 @@ void complete(Options& options) {
   const auto or_else = [](long& number, long fallback) { number = number > 0 ? number : fallback; };
   or_else(options.replicates, options.quick ? 8 : 16);
   or_else(options.most, options.quick ? 512 : 4096);
+  options.most =
+      fewest * static_cast<long>(std::bit_floor(static_cast<unsigned long>(options.most / fewest)));
   or_else(options.reference, options.quick ? 8192 : 131'072);
   if (options.out.empty())
     options.out = options.quick ? "results/design_error_quick" : "results/design_error";
@@ -233,7 +236,8 @@ int main(int count, char** arguments) {
   app.add_flag("--quick", options.quick, "8 replicates of up to 512 runs, a coarse reference");
   app.add_option("--replicates", options.replicates, "Of each design (default: 16)")
       ->check(CLI::Range(2L, 10'000L));
-  app.add_option("--runs", options.most, "Largest number of a replicate (default: 4096)")
+  app.add_option("--runs", options.most,
+                 "Largest number of a replicate (default: 4096), rounded down to 64, 128, 256, …")
       ->check(CLI::Range(fewest, 1'000'000L));
   app.add_option("--reference", options.reference,
                  "Runs of the Sobol' campaign that errors are measured from (default: 131072)")

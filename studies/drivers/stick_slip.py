@@ -95,8 +95,8 @@ def measure(given, index):
         hinge["friction"]["static"] = 1.2 * hinge["friction"]["coulomb"]
     with tempfile.TemporaryDirectory() as scratch:
         status, evaluations = simulate(given, scene, pathlib.Path(scratch))
-        _, usual = simulate(given, easy, pathlib.Path(scratch))
-    return index, status, evaluations, evaluations / usual, scene
+        easy_status, usual = simulate(given, easy, pathlib.Path(scratch))
+    return index, "failed" if "failed" in (status, easy_status) else status, evaluations, evaluations / usual, scene
 
 
 def main():

@@ -2,15 +2,16 @@
 // threads. Prints means, because the slowest thread decides. `operations_worth_threads`
 // (montecarlo/foundation/platform/thread_pool.hpp) follows from the figures.
 //
-//   build/release/studies/team_costs
+//   build/release/studies/team_costs            team_costs.csv
+//   build/release/studies/team_costs --quick    a twentieth of the time
 
 #include "montecarlo/foundation/platform/thread_pool.hpp"
+#include "studies/support/study.hpp"
 
 #include <fmt/format.h>
 
 #include <atomic>
 #include <chrono>
-#include <cstdlib>
 #include <thread>
 #include <vector>
 
@@ -67,21 +68,30 @@ double mean_time(int threads, std::size_t operations, double seconds) {
   return 1e6 * since() / static_cast<double>(calls);
 }
 
-} // namespace
-
-int main() {
+void study_costs(const study::StudyOptions& options) {
   const int all = thread_count(0);
+  const double seconds = options.quick ? 0.05 : 1;
+  study::Table table{"operations", "processors free, 1 thread [us]", "processors free, all [us]",
+                     "all wanted, 1 thread [us]", "all wanted, all [us]"};
   fmt::print("{:>12}{:>24}{:>24}\n", "", "processors free, µs", "all wanted, µs");
-  fmt::print("{:>12}{:>12}{:>12}{:>12}{:>12}\n", "operations", "1 thread", fmt::format("{}", all),
-             "1 thread", fmt::format("{}", all));
+  fmt::print("{:>12}{:>12}{:>12}{:>12}{:>12}\n", "operations", "1 thread", all, "1 thread", all);
   for (std::size_t operations = 1 << 10; operations <= 1 << 26; operations *= 4) {
-    fmt::print("{:12}", operations);
+    std::vector<double> times;
     for (const int others : {0, all}) {
       const Others busy(others);
-      for (const int threads : {1, all})
-        fmt::print("{:12.1f}", mean_time(threads, operations, 1.0));
+      for (const int threads : {1, all}) times.push_back(mean_time(threads, operations, seconds));
     }
-    fmt::print("\n");
+    fmt::print("{:12}{:12.1f}{:12.1f}{:12.1f}{:12.1f}\n", operations, times[0], times[1], times[2],
+               times[3]);
+    table.add({static_cast<double>(operations), times[0], times[1], times[2], times[3]});
   }
-  return EXIT_SUCCESS;
+  table.write(options.folder / "team_costs.csv");
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+  return study::run_study(count, arguments, "team_costs",
+                          "What a thread pool costs and gains against the amount of work",
+                          study_costs);
 }

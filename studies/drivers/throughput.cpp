@@ -23,7 +23,9 @@
 #include <atomic>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <map>
+#include <stdexcept>
 #include <thread>
 
 using namespace wingspread;
@@ -53,7 +55,11 @@ long differing(const std::vector<Outcome>& a, const std::vector<Outcome>& b) {
 
 // ---- accuracy: against runs at rtol 1e-13, which the accuracy study compares with its oracles
 
-double relative(double value, double exact) { return std::abs(value - exact) / std::abs(exact); }
+/// Infinite where a value is missing (NaN).
+double relative(double value, double exact) {
+  const double error = value == exact ? 0 : std::abs(value - exact) / std::abs(exact);
+  return error >= 0 ? error : std::numeric_limits<double>::infinity();
+}
 
 double error_of(const Outcome& out, const Outcome& exact) {
   double worst = out.latches.size() == exact.latches.size() ? 0 : 1;
@@ -80,10 +86,11 @@ const std::vector<double> tolerances{3e-4, 1e-4, 3e-5, 1e-5,  3e-6,  1e-6,  3e-7
                                      1e-8, 3e-9, 1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12, 1e-12};
 
 /// The loosest tolerance at which the largest error of 32 units, `judge(rtol)`, stays below the level.
+/// @throws std::runtime_error if none does
 template <class Judge> double loosest(double level, Judge judge) {
   for (const double rtol : tolerances)
     if (judge(rtol) <= level) return rtol;
-  return tolerances.back();
+  throw std::runtime_error(fmt::format("no tolerance brings all errors below {}", level));
 }
 
 class Throughput {

@@ -1,23 +1,25 @@
 """Simulates wings rigid and with panels that bend, and draws when bending matters and what it costs.
 
-    /usr/bin/python3 studies/plots/plot_flexibility.py [PROGRAM] [--quick]     build/release/wingspread by default
+    /usr/bin/python3 studies/plots/plot_flexibility.py [PROGRAM] [--quick]
 
 Writes to results/flexibility: the scenes, segments, rule, wing as PNG and SVG, and tables.md. studies/FLEXIBILITY.md
-shows them. --quick uses fewer segments and variants.
+shows them.
 """
 
+import argparse
 import json
 import math
 import pathlib
 import shutil
 import subprocess
-import sys
 
 from charts import TAB10, plt, save
 
-QUICK = "--quick" in sys.argv
-NAMED = [word for word in sys.argv[1:] if not word.startswith("--")]
-PROGRAM = NAMED[0] if NAMED else "build/release/wingspread"
+PARSER = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+PARSER.add_argument("program", nargs="?", default="build/release/wingspread")
+PARSER.add_argument("--quick", action="store_true", help="fewer segments and variants")
+GIVEN = PARSER.parse_args()
+PROGRAM, QUICK = GIVEN.program, GIVEN.quick
 FOLDER = pathlib.Path("results/flexibility")
 BETA = 1.8751040687119612  # βL of a cantilever's first mode
 LENGTH, MASS = 1.8, 9.5  # of a panel of the yoke wing

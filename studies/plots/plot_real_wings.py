@@ -1,21 +1,22 @@
 """Simulates the yoke wing without its stops, loops, measured springs and damper, one by one, and draws the changes.
 
-    /usr/bin/python3 studies/plots/plot_real_wings.py [PROGRAM]        build/release/wingspread by default
+    /usr/bin/python3 studies/plots/plot_real_wings.py [PROGRAM]
 
 Runs the variants of studies/scenes/yoke_wing.json, a minute in all, and writes to results/real_wings: the scenes,
 trajectories, stops, loops, torques, damper as PNG and SVG, and tables.md. studies/REAL_WINGS.md shows them.
 """
 
-import csv
+import argparse
 import json
 import math
 import pathlib
 import subprocess
-import sys
 
 from charts import TAB10, plt, read_rows, save
 
-PROGRAM = sys.argv[1] if len(sys.argv) > 1 else "build/release/wingspread"
+PARSER = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+PARSER.add_argument("program", nargs="?", default="build/release/wingspread")
+PROGRAM = PARSER.parse_args().program
 FOLDER = pathlib.Path("results/real_wings")
 HINGES = ("root", "h1", "h2", "h3", "h4")
 DEGREES = 180 / math.pi

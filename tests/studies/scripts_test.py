@@ -105,6 +105,30 @@ class Run(InFolder):
         self.assertFalse((self.folder / "results/x").exists())
 
 
+class Fuzz(InFolder):
+    def test_ends_with_1_where_an_input_failed(self):
+        (self.folder / "studies").mkdir()
+        shutil.copy(ROOT / "studies/fuzz", self.folder / "studies")
+        self.stand_in("bin/cmake", "")
+        for fails, code in (("exit 77", 1), ("true", 0)):
+            self.stand_in("build/fuzz/tests/fuzz/fuzz_rows", f'[[ "$*" = *-merge* ]] || {{ echo "ft: 7"; {fails}; }}')
+            found, said, error = self.run_words(self.folder / "studies/fuzz", "--runs", 1, "rows", PATH=f"{self.folder / 'bin'}:{os.environ['PATH']}")
+            self.assertEqual((found, error), (code, ""))
+            self.assertIn("rows", said)
+
+
+class Words(InFolder):
+    def test_tests_refuse_unknown_words(self):
+        self.stand_in("studies/install", "exit 7")
+        for script in ("run", "nightly", "steps.sh"):
+            self.write(f"tests/{script}", (ROOT / "tests" / script).read_text(encoding="utf-8"), 0o755)
+        for script, known in (("run", "--all"), ("nightly", "--quick")):
+            self.assertEqual(self.run_words(self.folder / "tests" / script, known)[0], 7)
+            code, _, error = self.run_words(self.folder / "tests" / script, known[:-1])
+            self.assertEqual(code, 2)
+            self.assertIn(known, error)
+
+
 class Drivers(InFolder):
     def run_driver(self, name, *words):
         return self.run_words(sys.executable, "-B", DRIVERS / f"{name}.py", *words, cwd=ROOT)
