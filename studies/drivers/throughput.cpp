@@ -141,7 +141,7 @@ private:
     for (const InstructionSet set : instruction_sets()) fmt::print("{:>9}", to_string(set));
     for (std::size_t k = 1; k < instruction_sets().size(); ++k) fmt::print("{:>8}", "ratio");
     fmt::print("{:>10}{:>9}{:>8}\n", "lanes", "runs/s", "differ");
-    Table table({"what", "set", "us", "ratio", "lanes full", "steps", "evaluations", "looks",
+    Table table({"what", "set", "us", "ratio", "lanes full", "steps", "evaluations", "returns",
                  "scalar steps"});
     Json rows = Json::array();
     for (const What& what : {every_output, moments_too, latches_only, first_latch, whole_run}) {
@@ -157,15 +157,15 @@ private:
         us[set] = made.us;
         if (set == InstructionSet::scalar) scalar = made;
         differ += differing(scalar.outcomes, made.outcomes);
-        full = made.lanes.tries > 0
-                   ? static_cast<double>(made.lanes.busy) / static_cast<double>(made.lanes.tries)
-                   : 1;
+        full = made.lanes.trial_steps > 0 ? static_cast<double>(made.lanes.busy) /
+                                                static_cast<double>(made.lanes.trial_steps)
+                                          : 1;
         const auto each = [&](long n) {
           return static_cast<double>(n) / static_cast<double>(count);
         };
         table.add({std::string(what.name), std::string(to_string(set)), made.us,
-                   scalar.us / made.us, full, made.steps, made.evaluations, each(made.lanes.looks),
-                   each(made.lanes.scalar)});
+                   scalar.us / made.us, full, made.steps, made.evaluations,
+                   each(made.lanes.returns), each(made.lanes.scalar)});
         row[to_string(set)] = {
             {"us", made.us}, {"ratio", scalar.us / made.us}, {"lanes_full", full}};
       }

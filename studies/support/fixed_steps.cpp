@@ -81,7 +81,7 @@ Step implicit_euler_step(int rows) {
       for (int k = 0; k < n.back(); ++k) {
         system(result, dxdt, t);
         for (std::size_t c = 0; c < x.size(); ++c) change[c] = part * dxdt[c];
-        implicit->solve(system, change);
+        implicit->solve(system, change, part);
         for (std::size_t c = 0; c < x.size(); ++c) result[c] += change[c];
       }
       results.push_back(result);

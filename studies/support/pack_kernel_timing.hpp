@@ -20,8 +20,15 @@ template <class P, int N> struct PackKernel {
     wing.bodies.resize(N + 1);
     for (int i = 1; i <= N; ++i) {
       const double v = 1 + 0.1 * i; // arbitrary numbers of a panel's magnitude
-      wing.bodies[i] = {P(10 * v),         P(3 * v), {P(5 * v), P(0.1)}, {P(v), P(0.02)},
-                        {P(0.5), P(0.01)}, P(0.5),   P(-1 / (3 * v))};
+      wing.bodies[i] = {P(10 * v),
+                        P(3 * v),
+                        {P(5 * v), P(0.1)},
+                        {P(v), P(0.02)},
+                        {P(0.5), P(0.01)},
+                        P(0.5),
+                        P(-1 / (3 * v)),
+                        P(v),
+                        P(0.5)};
       laws[i] = {P(0.1), P(v), P(0.3), P(0.2)};
       angles[i - 1] = P(v), rates[i - 1] = P(0.1 * v);
     }

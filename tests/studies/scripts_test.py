@@ -167,7 +167,7 @@ class Drivers(InFolder):
         self.assertGreater(memory.measure(sys.executable, "-c", "bytearray(100 << 20)")[1], 100)
 
     def test_calibration_keeps_no_rows_of_another_program(self):
-        rows, made_by = self.folder / "seed.csv", {"program": "1", "seed": 1}
+        rows, made_by = self.folder / "seed.csv", {"program": "1", "case": fit_calibration.CASES["two_wings"]}
         fit_calibration.check_origin(rows, made_by)
         rows.touch()
         fit_calibration.check_origin(rows, made_by)
