@@ -84,6 +84,8 @@ class ChangeChecks:
         self.assertIn(f"Too few runs to estimate what would change it: {draws} dispersions, so at least {draws + 11} runs", self.one(".findings .needed").text)
         given('{ for: "limit", runs: 500, explained: 0.1, levers: [] }')
         self.assertIn("a linear fit explains 10 % of the spread. Ask wingspread margin.", self.one(".findings .needed").text)
+        given('{ for: "limit", runs: 500, explained: -0.0054, levers: [] }')
+        self.assertIn("a linear fit explains nothing of the spread. Ask wingspread margin.", self.one(".findings .needed").text)
         given('{ for: "limit", runs: 500, explained: 0.5, levers: [] }')
         self.assertIn("No change of a dispersed input within the values drawn is seen to be enough", self.one(".findings .needed").text)
         given('{ for: "limit", runs: 500, explained: 0.9, levers: [far] }')
@@ -233,11 +235,16 @@ class ChangeChecks:
     def test_folders_with_other_nominal_values_show_their_own(self):
         """A scene lists no zeros: a set that lacks the parameter has 0, or no such parameter."""
         self.open(pages.made_up("cases"))
-        shown = lambda *nominals: (self.run_script("""W.sets.forEach((set, at) => set.inputs.scene = [{ path: "same", label: "same", value: 1, unit: "", case_value: null },
-            ...(arguments[0][at] === null ? [] : [{ path: "hinges.root.latch.damping", label: "damping", value: arguments[0][at], unit: "", case_value: at ? null : 50 }])]); W.inputs()""", nominals),
+        shown = lambda *nominals, same="hinges.root.latch.stiffness": (self.run_script("""W.sets.forEach((set, at) => set.inputs.scene = [{ path: arguments[1], label: "same", value: 1, unit: "", case_value: null },
+            ...(arguments[0][at] === null ? [] : [{ path: "hinges.root.latch.damping", label: "damping", value: arguments[0][at], unit: "", case_value: at ? null : 50 }])]); W.inputs()""", nominals, same),
             self.table("Changes of the nominal scene by case"))[1]
         self.assertEqual(shown(100, 500, 100), [["damping", "", "by folder", "50", "500", "100"]])
-        self.assertEqual(shown(100, None, 100), [["damping", "", "by folder", "50", "0 or none", "100"]])
+        self.assertEqual(shown(100, None, 100), [["damping", "", "by folder", "50", "0", "100"]])
+        self.assertEqual(shown(100, None, 100, same="bodies.root.mass"), [["damping", "", "by folder", "50", "–", "100"]])  # no such hinge
+        differing = lambda path: (self.run_script("""W.sets[1].inputs.scene = [{ path: "bodies.yoke.mass", label: "yoke mass", value: 10, unit: "kg", case_value: null }]; W.sets[0].inputs.scene = [{ ...W.sets[1].inputs.scene[0], path: arguments[0], label: "other", value: 2 }];
+            document.body.append(W.h("div.own", W.designs([{ sets: [0, 1] }])))""", path), dict((row[0], row[2:4]) for row in self.run_script("const own = document.querySelector('.own'), rows = [...[...own.querySelectorAll('table')].pop().tBodies[0].rows].map(row => [...row.cells].map(cell => cell.textContent)); own.remove(); return rows")))[1]
+        self.assertEqual(differing("bodies.yoke.inertia")["yoke mass"], ["0", "10"])
+        self.assertEqual(differing("bodies.panel.mass")["yoke mass"], ["–", "10"])
         self.assertEqual(shown(0, None, 0), [["damping", "", "0", "50", "as nominal", "as nominal"]])
 
     def test_an_order_has_its_gaps(self):

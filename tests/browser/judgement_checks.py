@@ -62,6 +62,9 @@ class JudgementChecks:
                             ((["passed", "failed"], ["failed", "passed"], []), "✕ fail Each of 2 requirements fails in at least one case cold and ambient: 1 fails, 1 passes; hot: no requirements"),
                             ((["open", "passed"], ["passed"] * 2, ["open", "passed"]), "? undecided 1 of 2 requirements is undecided, for too few runs: A cold and hot: 1 undecided, 1 passes; ambient: 2 pass")):
             self.assertEqual(head(*given), text)
+        self.run_script("W.sets.forEach(set => set.case = null)")  # folders
+        self.assertIn("in at least one folder", head(["passed", "failed"], ["failed", "passed"], []))
+        self.assertNotRegex(self.page_text("#verdicts .judgement"), r"\b[Cc]ase\b")
 
     def test_of_one_verdict_the_requirement_that_uses_up_most_of_what_may_break_comes_first(self):
         """Broken runs over those that may break it; where the runs are too few for a pass, over N (1 - p) of the set's own runs."""
@@ -140,6 +143,8 @@ class JudgementChecks:
                   [stated("A", "open", **none, not_deployed=1, broken=1, cut=1, allowed=None)])
         (row,) = self.table("Verdict and distance to the limit by case")
         self.assertEqual([cell[2:].replace("\u00a0", " ").split(" ", 1)[1] for cell in row[1:4]], ["135 peaks cut by t_end", "53 not deployed", "1 not deployed"])
+        self.told("#verdicts", *[[stated("A", limit=190), stated("A", "failed", limit=190.00000001)]] * 3)
+        self.assertEqual(len(self.table("Verdict and distance to the limit by case")), 2)  # the text has fewer digits than the limits
 
     def test_commands_of_the_page_are_quoted_for_a_shell(self):
         self.open(pages.made_up("plain"))
@@ -323,9 +328,11 @@ class JudgementChecks:
     def test_cut_peaks_are_named_where_they_decide(self):
         self.open(pages.made_up("cases"))
         told = lambda **counts: self.run_script("""W.sets.forEach(set => set.requirements = [Object.assign(set.requirements.find(each => each.limit !== null), { verdict: "failed", allowed: 90, margin: null, guaranteed_value: null, observed_value: null }, arguments[0])]);
-            W.outcomes(); return document.querySelector('table.matrix tbody').textContent""", counts)
-        self.assertIn("58 peaks cut by t_end", told(not_deployed=20, cut=58, beyond=40, broken=118))
-        self.assertIn("151 not deployed", told(not_deployed=151, cut=58, beyond=0, broken=209))
+            W.outcomes(); return document.querySelector('table.matrix tbody').textContent + W.verdicts.guaranteed(W.sets[0].requirements[0], W.sets[0])""", counts)
+        for text in ("58 peaks cut by t_end", "none: t_end cut peaks"):  # two cells, one rule
+            self.assertIn(text, told(not_deployed=20, cut=58, beyond=40, broken=118))
+        for text in ("151 not deployed", "too few runs with a value"):
+            self.assertIn(text, told(not_deployed=151, cut=58, beyond=0, broken=209))
         self.assertIn("58 peaks cut by t_end", told(not_deployed=0, cut=58, beyond=100, broken=158))
 
     def test_nothing_that_varies_can_be_changed(self):

@@ -196,9 +196,13 @@ class MarkChecks:
         rows = [row[5] for row in self.table("Least static margins")]
         self.assertEqual(["pass" in text for text in rows], [one["lower"] >= one["required"] for one in static["hinges"]])
         x, y = self.scale("rare", "x"), self.scale("rare", "y", math.log10)
-        points = [(one["threshold"], one["probability"]) for one in rare["levels"]]
-        self.line(self.paths("rare", ".trace")[0], x, y, points, "rare")
-        self.near(self.places("rare", "circle.quantile", "cx", "cy"), [(x(a), y(b)) for a, b in points], "rare")
+        repeats = [[(one["threshold"], one["probability"]) for one in levels] for levels in rare["levels"]]
+        for points, path in zip(repeats, self.paths("rare", ".trace"), strict=True):
+            self.line(path, x, y, points, "rare")
+        mean = (repeats[0][-1][0], rare["probability"])  # of all repeats: the estimate
+        self.near(self.places("rare", "circle.quantile", "cx", "cy"), [(x(a), y(b)) for a, b in [*sum(repeats, []), mean]], "rare")
+        self.near(self.places("rare", "circle.estimate", "cx", "cy"), [(x(mean[0]), y(mean[1]))], "rare")
+        self.assertIn("one of 2 repeats", self.run_script("return document.querySelector('figure.rare > .note').textContent"))
         text = next(one.text for one in self.all("p") if one.text.startswith(rare["text"]))[len(rare["text"]):]
         self.check(text, *(rare[key] for key in ("probability", "lower", "upper")), about=text)
         likeliest = sorted(rare["likeliest"]["draws"], key=lambda one: -abs(one["z"]))
@@ -308,6 +312,7 @@ class MarkChecks:
     def test_sentences_and_small_print(self):
         """On a page whose sets are of every kind: parts of campaigns, designs with replicates, interim analyses, other orders."""
         self.open(pages.made_up("odd"))
+        self.assertIn(r'content: "revision B\a \22 2\22  \3c x>\5c "', self.run_script("return [...document.querySelectorAll('head style')].pop().textContent"))  # a string of CSS
         data = self.run_script("return W.data")
         one = data["sets"][0]
         facts = [fact.text for fact in self.all("#subtitle .facts span")]

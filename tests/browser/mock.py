@@ -211,7 +211,7 @@ def comparison(sets, first, second):
             rows.append({"output": one["name"], "difference": step, "lower": step - half, "upper": step + half,
                          "relative": step / abs(one["mean"]), "runs": one["count"], "magnitude": False})
     rates = [(one["status"], two["rate"] - one["rate"]) for one, two in zip(sets[first]["statuses"], sets[second]["statuses"])]
-    return {"sets": [first, second], "folders": not sets[first]["case"], "paired": True, "runs": sets[second]["runs"], "confidence": 0.95, "outputs": rows,
+    return {"sets": [first, second], "folders": not sets[first]["case"], "paired": True, "why_unpaired": None, "runs": sets[second]["runs"], "confidence": 0.95, "outputs": rows,
             "text": f"{sets[second]['label']} − {sets[first]['label']}, run by run over the {sets[second]['runs']} runs with the same random numbers",
             "statuses": [{"status": s, "difference": d, "lower": d - 0.004, "upper": d + 0.004} for s, d in rates]}
 
@@ -242,7 +242,7 @@ def odd():
                               "among": {key: highest[key] for key in ("value", "lower", "upper")}}
     for place, each in enumerate(one["inputs"]["dispersions"]):
         each |= {"unit": "rad", "low": -0.01 - place, "high": 0.02 + place, "nominal": 0.5 + place, "nominal_unit": "rad", "apply": "add"}
-    return block([one])
+    return block([one]) | {"document": {"revision": 'B\n"2" <x>\\'}}
 
 
 KINDS = {

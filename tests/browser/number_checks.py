@@ -339,7 +339,7 @@ class NumberChecks(Numbers):
         self.same_rows("margin", [[scale, *(cell for one in margin["requirements"] for cell in (one["passed"][at], one["lower"][at], one["upper"][at], one["verdict"][at]))]
                                   for at, scale in enumerate(margin["scales"])])
         self.check(self.run_script("return document.querySelector('figure.margin > .note').textContent"), *margin["window"], margin["recommended"])
-        self.same_rows("rare", [[one["threshold"], one["probability"]] for one in rare["levels"]])
+        self.same_rows("rare", [[at, one["threshold"], one["probability"]] for at, levels in enumerate(rare["levels"], 1) for one in levels])
         for row, one in zip(self.table("Least static margins"), static["hinges"], strict=True):
             for text, key in zip(row[1:4], ("least", "lower", "required")):
                 self.assertLessEqual(abs(parsed(text)[0][0] - one[key]), 0.00501, one["hinge"])
@@ -351,6 +351,11 @@ class NumberChecks(Numbers):
     def test_differences_and_inputs(self):
         self.open(pages.made_up("cases"))
         self.difference_numbers()
+        said, points = self.run_script("""const own = W.data.comparisons[0], shown = { ...own, paired: false, why_unpaired: 'rows were not kept', statuses: [{ status: 'deployed', difference: 1 / 30000, lower: -1e-4, upper: 2e-4 }, { status: 'stalled', difference: -1 / 30000, lower: null, upper: null }] };
+            W.data.comparisons[0] = shown; W.comparison(); const rows = [...document.querySelectorAll('#comparison table')].find(one => one.caption.textContent.startsWith('Differences of the outcomes')).tBodies[0].rows;
+            const found = [document.querySelector('figure.forest > .note').textContent, [...rows].map(row => [...row.cells].map(cell => cell.textContent))]; W.data.comparisons[0] = own; W.comparison(); return found""")
+        self.assertTrue(said.startswith("Not paired: rows were not kept."), said)
+        self.assertEqual(points, [["deployed", "+0.003 points", "−0.010 … 0.020"], ["stalled", "−0.0033 points", "no bounds"]])  # one run of 30,000
         data = self.run_script("return W.data")
         self.run_script("W.choose('set', 0)")
         for row, one in zip(self.table("Scene of cold"), data["sets"][0]["inputs"]["scene"], strict=True):

@@ -130,6 +130,11 @@ class OwnChecks:
                         self.assertIsNone(value, f"{output['name']} of {about}")
                     else:
                         self.assertAlmostEqual(value, recorded, delta=1e-9 * max(1, abs(recorded)), msg=f"{output['name']} of {about}")
+            if campaign == "stall":  # with friction that holds every hinge from t = 0 on
+                status, times = self.driver.execute_async_script("""const done = arguments[0], W = window.wingspread, set = W.set();
+                    W.kernel.of(set).then(kernel => { kernel.median(); const made = kernel.run(set.kernel.hinges.map(hinge => [hinge.friction, 1000])); done([made.status, made.t]); }, error => done([String(error), []]))""")
+                self.assertEqual((status, times[0]), ("stalled", 0))
+                self.assertGreater(times[-1], 0)
 
     def test_the_motion_of_any_run_is_the_program_s(self):
         """Every sample of the kernel in the page lies between nearby rows of the trajectory that `replay` writes."""

@@ -36,7 +36,7 @@ PICTURES = {  # of the page "plain" in degrees, by class: titles of the axes, le
     "margin": ("scale of the springs|share of runs that meet the requirement, logarithmic in 1 - share", "D-1: deployed, 99 % at 90 %|S-1: root.peak_moment ≤ 300 N·m, 99 % at 90 %|window",
                "scale|D-1: deployed, 99 % at 90 %|lower|upper|verdict|S-1: root.peak_moment ≤ 300 N·m, 99 % at 90 %|lower|upper|verdict", "line line rect"),
     "static-margins": ("travel from the stowed angle (deg)|static margin", "root|mid|tip", "hinge|travel deg|static margin|static margin, lower quantile|required", "line"),
-    "rare": ("threshold|probability of exceeding it", "", "threshold|probability", ""), "settling": ("runs|mean (N·m)", "mean|95 % two-sided bounds", "runs|mean N·m|lower|upper", "line rect")}
+    "rare": ("threshold|probability of exceeding it", "", "repeat|threshold|probability", ""), "settling": ("runs|mean (N·m)", "mean|95 % two-sided bounds", "runs|mean N·m|lower|upper", "line rect")}
 NUMBERS = {"Quantile or share", "Distance to the limit", "Runs", "Share", "Std", "Mean", "Nominal", "Median", "Value", "Difference", "Relative", "95 % bounds", "Required"}  # heads of numbers, at the right like them
 
 
@@ -109,6 +109,16 @@ class PartChecks:
             self.numbers_of(row, values, "cases")
         self.assertEqual(self.run_script("return [...document.querySelectorAll('figure.histogram .axis-text')].map(e => e.textContent)"), ["root latch rate (deg/s)", "share of the runs per deg/s"])
         self.assertEqual(self.run_script("return [...document.querySelectorAll('figure.histogram .legend text')].map(e => e.textContent)"), ["cold", "ambient", "hot"])
+        self.assertEqual(self.run_script("return [...document.querySelectorAll('figure.histogram .nominal-text')].map(e => e.textContent)"), ["nominal, cold"])
+        self.run_script("W.output(W.sets[1]).missing = 3; W.choose('output', W.chosen.output)")
+        pages.settle(self.driver)
+        self.assertEqual(self.run_script("return [...document.querySelectorAll('figure.histogram .axis-text')].pop().textContent"), "share of the runs with a value per deg/s")
+        self.run_script("""W.choose('split', 'order'); const one = W.output(); Object.assign(W.set().requirements[0], { limit: 2.3243428, upper: true, abs: false });
+            Object.assign(one, { unit: 's', nominal: null, std: 1e-6, limits: [0], histogram: { edges: d3.range(11).map(k => 2.32434 + 4e-7 * k), counts: d3.range(10).map(() => 9), by_order: [] } }); W.choose('output', one.name)""")
+        pages.settle(self.driver)
+        ((at,),), bins = self.places("histogram", "line.limit", "x1"), self.places("histogram", ".bin", "x")
+        self.assertAlmostEqual(at, bins[7][0], delta=1)  # of a tiny spread too
+        self.assertEqual(self.run_script("return document.querySelector('figure.histogram .limit-text').textContent"), "≤ 2.3243428")
 
     def test_numbers_as_a_table(self):
         """Below a picture, once unfolded: the exported numbers with six digits."""
@@ -156,6 +166,11 @@ class PartChecks:
         self.put("#why .search select", name)
         self.assertEqual(chosen("output"), name)
         self.assertIn(self.run_script("return W.format.nameOf(W.chosen.output)"), self.one("figure.tornado .caption").text)
+        self.run_script("const of = W.set().sensitivity; of.effects = [...of.effects.filter(one => one.output !== W.chosen.output), { ...of.effects[0], output: 'deployed' }]; W.why()")
+        self.assertEqual(self.one("#why .search select").get_attribute("value"), name)  # though nothing moves it
+        self.put("#why .search select", "deployed")  # no output: the other parts keep theirs
+        self.assertEqual(chosen("output"), name)
+        self.assertIn("deployed", self.one("figure.tornado .caption").text)
         self.run_script("const one = document.querySelectorAll('.choice')[2]; one.focus(); one.click()")
         self.assertEqual((chosen("motion"), self.run_script("return [document.activeElement.className, document.activeElement.getAttribute('aria-pressed'), W.player.time]")), (2, ["choice", "true", 0]))
         self.run_script("navigator.clipboard.writeText = text => { window.heard = text; return Promise.resolve(); }")
@@ -288,10 +303,10 @@ class PartChecks:
             self.assertTrue(part.startswith(f"{one['hinge']}: "), part)
             self.check(part.partition("least ")[2], round(one["least"], 2), about=part)
         rare, margin = one_set["rare"], one_set["margin"]
-        levels = [one for one in rare["levels"] if one["threshold"] is not None and one["probability"] > 0]
+        levels = [one for repeat in rare["levels"] for one in repeat if one["threshold"] is not None and one["probability"] > 0]
         times = DEGREES if (rare.get("beyond") or {"unit": ""})["unit"].startswith("rad") else 1
         for part, one in zip(self.described("rare").split("; "), levels, strict=True):
-            self.check(part, one["threshold"] * times, one["probability"], about=part)
+            self.check(part.partition("beyond ")[2], one["threshold"] * times, one["probability"], about=part)
         found = parsed(self.described("margin"))
         for want in (value for value in (*margin["window"], margin["recommended"]) if value is not None):
             self.assertTrue(any(abs(value - want) <= half for value, half in found), f"{want} of {found}")

@@ -31,13 +31,13 @@ FAKE = """const [made, done] = arguments, buffer = new ArrayBuffer(1 << 22), sai
     done();"""
 
 
-def outcome(seed, status, reason, latches, events, final=3):
+def outcome(seed, status, reason, latches, events, final=3, samples=5):
     """An outcome, and the numbers as kernel.cpp writes them: latches (hinge, time), events (kind, hinge, time)."""
     rng = random.Random(seed)
     number = lambda: round(rng.uniform(0.5, 9), 3)
     one = {"status": status, "reason": reason, "t_end": 12.25, "latches": [{"hinge": h, "time": t, "rates": [-number() for _ in HINGES]} for h, t in latches],
            "each": [dict(zip(("peak_moment", "time", "peak_force", "overtravel", "hold_moment", "final_angle", "motor_energy"), [number() for _ in range(7)])) for _ in HINGES],
-           "final": final, "base": {"peak_angle": number(), "peak_rate": number()}, "events": events, "rows": [[0.25 * k, *(number() for _ in range(9)), *(number() for _ in range(3))] for k in range(5)]}
+           "final": final, "base": {"peak_angle": number(), "peak_rate": number()}, "events": events, "rows": [[0.25 * k, *(number() for _ in range(9)), *(number() for _ in range(3))] for k in range(samples)]}
     result = [["deployed", "stalled", "timed_out", "invalid", "failed"].index(status), one["t_end"], final, len(latches)]
     for latch in one["latches"]:
         result += [latch["hinge"], latch["time"], *latch["rates"]]
@@ -53,7 +53,7 @@ def outcome(seed, status, reason, latches, events, final=3):
 RUNS = {"7": outcome(7, "timed_out", "still moving", [(0, 3.5), (1, 4.5), (0, 6.5)], [("released", 2, 1.5), ("missed", 1, 4.25), ("let_go", 0, 5.5)]),
         "7 changed": outcome(8, "deployed", "", [(2, 2.5), (0, 3.25), (1, 4.5)], [("let_go", 2, 3)]),
         "nominal": outcome(9, "deployed", "", [(2, 2.5), (0, 3.25), (1, 4.5)], []), "8": outcome(12, "deployed", "", [(2, 2.5), (0, 3.25), (1, 4.5)], [], 2), "9": outcome(13, "deployed", "", [(2, 2.5), (0, 3.25), (1, 4.5)], [], 1),
-        "nominal changed": outcome(10, "deployed", "", [(2, 2.5)], []), "other": outcome(11, "invalid", "no value", [(2, 2.5)], [])}
+        "nominal changed": outcome(10, "deployed", "", [(2, 2.5)], []), "other": outcome(11, "invalid", "no value", [(2, 2.5)], []), "10": outcome(14, "invalid", "without mass", [], [], 3, 0)}
 
 
 def value_of(one, name):
@@ -202,11 +202,16 @@ class RunChecks:
         self.motion("nominal", "nominal wing", "computed in this page", None, None)
         self.assertEqual([words(part)[0] for part in ("spring", "damper")], ["× 1.00", "× 1.00"])
         self.assertEqual(self.run_script("return W.set().motions.length"), motions + 1)  # the one before made room
+        self.driver.execute_script("arguments[0].value = '10'", field)
+        self.asked(".show-run")
+        self.assertIn("Run 10: invalid, without mass", told())
+        self.run_script("W.wing()")  # an invalid wing has no motion to show: that of the run before stays
+        self.assertEqual(self.run_script("return [W.set().motions.length, W.set().motions.every(one => one.t.length)]"), [motions + 1, True])
 
     def test_a_peak_that_the_end_cuts_shows_no_limit(self):
         """Of moments or of forces; a requirement that the page cannot compute is named."""
         self.opened()
-        self.run_script("W.set().requirements.forEach(one => { if (one.output.endsWith('peak_moment')) one.limit = 1000; })")
+        self.run_script("W.set().requirements.forEach(one => { if (one.output.endsWith('peak_moment')) Object.assign(one, { limit: 1000, abs: true }); })")
         self.run_script("W.set().requirements.push({ ...W.set().requirements[0], id: '', name: 'F-1', output: 'mode_1.frequency' })")
         for run in ("8", "9"):
             self.driver.execute_script("arguments[0].value = arguments[1]", self.one(".any-run input[type=number]"), run)
@@ -214,6 +219,7 @@ class RunChecks:
             self.outputs_table(heads, rows, f"run {run}", RUNS[run][0], None)
             cell = next(row[-1] for row in rows if row[0] == "root peak moment")
             self.assertIn("undecided" if run == "8" else "pass", cell)
+            self.assertIn("|·| ≤ 1000", cell)
         self.assertTrue(self.one(".any-run [aria-live] p").text.endswith("Not computed here: F-1."))
 
     def test_a_run_that_the_kernel_cannot_make_says_so(self):

@@ -38,7 +38,7 @@ class ShapeChecks:
                 self.assertEqual(self.run_script("return W.format.value(...arguments)", value, own, spread), texts[place], f"{value} {own}")
                 text = self.run_script("return W.format.withUnit(...arguments)", value, own, spread)
                 self.assertEqual(text, "–" if value is None else f"{texts[place]} {own.replace('rad', unit).replace(' ', '·')}".strip())
-        for script, wanted in (("F.unit('N m s/rad^2 kg*m')", "N·m·s/rad²·kg·m"), ("F.unit(null)", ""), ("F.level(0.01)", "1 %"), ("F.level(0.995)", "99.5 %"), ("F.level(0.9)", "90 %"), ("F.level(1)", "100 %"), ("F.level(0.9999)", "99.99 %"), ("F.quantileName(0.5)", "Median"), ("F.quantileName(0.25)", "25 % quantile"), ("F.order('a>b>c')", "a › b › c"),
+        for script, wanted in (("F.unit('N m s/rad^2 kg*m')", "N·m·s/rad²·kg·m"), ("F.unit(null)", ""), ("F.level(0.01)", "1 %"), ("F.level(0.995)", "99.5 %"), ("F.level(0.9)", "90 %"), ("F.level(1)", "100 %"), ("F.level(0.00135)", "0.135 %"), ("F.level(0.99865)", "99.865 %"), ("F.written(2.32434212, 's')", "2.32434212 s"), ("F.limit(2.32434212, { unit: 's', std: 1e-6 })", "2.32434212"), ("F.limit(190, { unit: 'N m', std: 1e-3 })", "190"), ("F.limit(1 / 3, { unit: 's', std: null })", "0.333333"), ("F.level(0.9999)", "99.99 %"), ("F.quantileName(0.5)", "Median"), ("F.quantileName(0.25)", "25 % quantile"), ("F.order('a>b>c')", "a › b › c"),
                                ("F.order('no latch')", "no hinge latched"), ("F.order('others')", "other orders"), ("F.runs(1)", "1 run"), ("F.runs(1234)", "1,234 runs"), ("F.counted(2, 'hinge or group', 'many')", "2 many"), ("F.count(null)", "–"), ("F.count(1234567)", "1,234,567"),
                                ("F.axis('a', '')", "a"), ("F.axis('a', 'm')", "a (m)"), ("F.nameOf('left_wing.peak_rate')", "left wing peak rate"), ("F.nameOf('root.latch_time')", "root latch time"), ("F.unitOf('root.latch_time')", "s"), ("F.unitOf('none')", ""), ("F.superscript(-120)", "⁻¹²⁰"),
                                ("F.name({ name: 'a_b.peak_rate', hinge: 'a_b' })", "a_b peak rate"), ("F.name({ name: 'a_b.peak_rate', hinge: null })", "a b peak rate"), ("String(F.grain({ std: 5 }))", "0.5"), ("String(F.grain({ std: 0 }))", "null"), ("String(F.decimals(0.034, 1))", "3"), ("String(F.decimals(0, 123.4))", "1"),
@@ -49,6 +49,9 @@ class ShapeChecks:
             self.assertEqual(self.run_script(f"const F = W.format; return {script}"), wanted, script)
         self.run_script("W.set().wing.hinges = [{ name: 'others' }]")
         self.assertEqual(self.run_script("return W.format.order('others')"), "others")
+        self.run_script("W.set().orders = [{ order: 'others', count: 2000 }]; W.outcomes()")
+        self.assertEqual((self.table("Latch orders")[0][0], self.run_script("return W.marks.ofOrder(W.set(), 0)")), ("others", 0))
+        self.assertTrue(self.run_script("return d3.range(60).every(width => { const text = W.marks.shorten('🛰🛰🛰🛰', width); return encodeURIComponent(text) && text; })"))  # no half of a character
 
     def test_text_is_copied_without_a_clipboard_too(self):
         self.open(pages.made_up("single"))

@@ -47,8 +47,8 @@ class StudyPageChecks:
         words, *_ = rare(reached=False)
         self.assertIn("The event was not reached", words)
         levels = [{"threshold": None, "probability": 1}, {"threshold": 1, "probability": 0.5}, {"threshold": 2, "probability": 0}]
-        self.assertEqual(rare(reached=True, levels=levels, likeliest={"draws": []}), ["", 0, False])
-        self.assertEqual(rare(levels=[*levels, {"threshold": 3, "probability": 0.25}], likeliest=None), ["", 1, False])
+        self.assertEqual(rare(reached=True, levels=[levels], likeliest={"draws": []}), ["", 0, False])
+        self.assertEqual(rare(levels=[[*levels, {"threshold": 3, "probability": 0.25}]], likeliest=None), ["", 1, False])
         missing = lambda script: self.run_script(script + "; W.why(); return [...document.querySelectorAll('#why p.note')].pop().textContent")
         self.assertEqual(missing(""), "Not in this report: a fit to deployment tests (wingspread fit).")
         self.assertEqual(missing("W.set().margin = W.set().rare = W.set().static_margins = null"), "Not in this report: the permissible spring strength (wingspread margin), static margins (motorization in the campaign), rare events (wingspread rare), a fit to deployment tests (wingspread fit).")

@@ -111,14 +111,21 @@ bool fails(const PageSource& source, std::size_t output) {
   });
 }
 
-Json points_json(const PageSource& source, const Column& x, const Column& y) {
+/// The digits of points between these edges.
+int digits_between(const std::vector<double>& edges) {
+  return digits_that_show(edges.back() - edges.front(),
+                          std::max(std::abs(edges.front()), std::abs(edges.back())), 6);
+}
+
+Json points_json(const PageSource& source, const Column& x, const Column& y, int x_digits,
+                 int y_digits) {
   constexpr std::size_t most_points = 400;
   Json json{
       {"run", Json::array()}, {"x", Json::array()}, {"y", Json::array()}, {"order", Json::array()}};
   for (const std::size_t row : scatter_rows(x, y, most_points)) {
     json["run"].push_back(source.results.runs[row]);
-    json["x"].push_back(page_number(x.values[row], 6));
-    json["y"].push_back(page_number(y.values[row], 6));
+    json["x"].push_back(page_number(x.values[row], x_digits));
+    json["y"].push_back(page_number(y.values[row], y_digits));
     json["order"].push_back(source.orders->of_row(row));
   }
   return json;
@@ -140,7 +147,7 @@ Json scatter_json(const PageSource& source, const Pair& pair) {
           {"x_edges", page_numbers(x_edges, digits_that_tell(x_edges, page_digits))},
           {"y_edges", page_numbers(y_edges, digits_that_tell(y_edges, page_digits))},
           {"density", density},
-          {"points", points_json(source, x, y)}};
+          {"points", points_json(source, x, y, digits_between(x_edges), digits_between(y_edges))}};
 }
 
 // ---- needed changes

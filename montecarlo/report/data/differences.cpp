@@ -135,13 +135,21 @@ Difference status_difference(const Sides& sides, std::size_t status) {
                                  sides.confidence);
 }
 
+/// Why the sets are not paired; empty if they are.
+std::string why_unpaired(const Sides& sides) {
+  if (sides.paired) return "";
+  if (!sides.first.has_rows() || !sides.second.has_rows()) return "rows were not kept";
+  return have_same_draws(sides.first, sides.second) ? "the sets have no run in common"
+                                                    : "the sets have different random numbers";
+}
+
 /// Says in words which runs are compared.
 std::string runs_text(const Sides& sides) {
   const long first = sides.first.summary.runs, second = sides.second.summary.runs,
              both = std::ssize(sides.rows.first);
-  if (!sides.first.has_rows() || !sides.second.has_rows())
-    return fmt::format("not paired, because rows were not kept: {} and {} runs", second, first);
-  if (!sides.paired) return fmt::format("draws of their own: {} and {} runs", second, first);
+  if (!sides.paired)
+    return fmt::format("not paired, because {}: {} and {} runs", why_unpaired(sides), second,
+                       first);
   const std::string of =
       both == first && both == second ? "" : fmt::format(" (of {} and {})", second, first);
   return fmt::format("run by run over the {} runs with the same random numbers{}", both, of);
@@ -305,6 +313,7 @@ Json comparison_json(const PageSource& first, const PageSource& second,
   return {{"sets", {places.first, places.second}},
           {"folders", first.argument != second.argument},
           {"paired", sides.paired},
+          {"why_unpaired", sides.paired ? Json(nullptr) : Json(why_unpaired(sides))},
           {"runs", sides.paired ? Json(sides.rows.first.size()) : Json(nullptr)},
           {"text", fmt::format("{} − {}, {}", second.label, first.label, runs_text(sides))},
           {"confidence", sides.confidence},

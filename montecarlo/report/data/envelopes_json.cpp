@@ -58,7 +58,9 @@ Track track_of(const RunPlan& plan, long run, double end) {
   track.latches = outcome.latches;
   track.releases = outcome.releases, track.missed = outcome.missed, track.let_go = outcome.let_go;
   track.end = outcome.t_end;
-  if (track.deployed) track.end = beyond_last_latch * outcome.latches.back().time;
+  if (track.deployed) // beyond t_end no run is known
+    track.end = std::min(beyond_last_latch * outcome.latches.back().time,
+                         plan.campaign().integration.t_end);
   if (outcome.status == Status::failed) return track;
   pin_only(recorder.samples(), {});
   track.samples = resample(recorder.samples(), {hinges}, most_samples);
@@ -158,6 +160,12 @@ Json bands_json(const Bands& bands, std::size_t first, std::size_t count, int di
   return json;
 }
 
+/// Ascending times, with the digits that show their spread.
+Json page_times(const std::vector<double>& times) {
+  const double spread = times.empty() ? 0 : times.back() - times.front();
+  return page_numbers(times, digits_that_show(spread, times.empty() ? 0 : times.back(), 6));
+}
+
 /// The latch times of each hinge, sorted; thinned evenly to `most`, the first and the last among them.
 Json latch_times_json(const std::vector<Track>& tracks, std::size_t hinges, std::size_t most) {
   std::vector<std::vector<double>> times(hinges);
@@ -171,7 +179,7 @@ Json latch_times_json(const std::vector<Track>& tracks, std::size_t hinges, std:
     const std::size_t count = std::min(each.size(), most);
     const std::size_t steps = std::max<std::size_t>(count, 2) - 1;
     for (std::size_t i = 0; i < count; ++i) shown.push_back(each[i * (each.size() - 1) / steps]);
-    json.push_back(page_numbers(shown, 6));
+    json.push_back(page_times(shown));
   }
   return json;
 }
@@ -202,7 +210,7 @@ template <class Events> Json events_json(const std::vector<Track>& tracks, int h
   std::vector<double> shown;
   if (!times.empty())
     for (const double p : sequence_levels) shown.push_back(quantile(times, p));
-  return {{"runs", runs}, {"count", times.size()}, {"times", page_numbers(shown, 6)}};
+  return {{"runs", runs}, {"count", times.size()}, {"times", page_times(shown)}};
 }
 
 /// The nominal release of a hinge; null without one.

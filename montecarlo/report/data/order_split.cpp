@@ -18,12 +18,19 @@ std::size_t bin_of(const Histogram& histogram, double value) {
 
 constexpr const char* separators = "_-. "; // between the parts of a name
 
-/// The common beginning of all names, without separators at its end.
+/// Whether a character of UTF-8 goes on at this place.
+bool goes_on(std::string_view text, std::size_t place) {
+  return place < text.size() && (static_cast<unsigned char>(text[place]) & 0xC0U) == 0x80U;
+}
+
+/// The common beginning of all names, in whole characters, without separators at its end.
 std::string common_beginning(const std::vector<std::string>& names) {
   std::string common = names.front();
-  for (const std::string& name : names)
-    common.resize(
-        static_cast<std::size_t>(std::ranges::mismatch(common, name).in1 - common.begin()));
+  for (const std::string& name : names) {
+    auto same = static_cast<std::size_t>(std::ranges::mismatch(common, name).in1 - common.begin());
+    while (same > 0 && (goes_on(name, same) || goes_on(common, same))) --same;
+    common.resize(same);
+  }
   common.resize(common.find_last_not_of(separators) + 1);
   return common;
 }

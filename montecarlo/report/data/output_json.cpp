@@ -17,19 +17,12 @@
 namespace wingspread {
 namespace {
 
-/// The digits that show three digits of the spread of an output's values: at least those of the page.
-int digits_of(const Moments& m) {
-  const double largest = std::max(std::abs(m.min), std::abs(m.max));
-  if (!(m.std > 0 && largest > 0)) return page_digits;
-  return std::clamp(3 + static_cast<int>(std::ceil(std::log10(largest / m.std))), page_digits, 17);
-}
-
 Json moments_json(const OutputSummary& output) {
   const Moments& m = output.moments;
   const int digits = digits_of(m);
   return {{"count", m.count},
           {"missing", output.missing},
-          {"nominal", output.nominal ? page_number(*output.nominal, digits) : Json(nullptr)},
+          {"nominal", page_number(output.nominal, digits)},
           {"mean", page_number(m.mean, digits)},
           {"mean_error", page_number(output.mean_error)},
           {"std", page_number(m.std)},
@@ -105,19 +98,23 @@ Json curve_json(const PageSource& source, const OutputSummary& output,
   return json;
 }
 
-Json convergence_json(const Convergence& convergence) {
+Json convergence_json(const OutputSummary& output, const Convergence& convergence) {
+  // The mean moves by its standard error, which is less than the values' spread.
+  const Moments& m = output.moments;
+  const double spread = output.mean_error > 0 ? std::min(output.mean_error, m.std) : m.std;
+  const int digits = digits_that_show(spread, std::max(std::abs(m.min), std::abs(m.max)));
   Json json{{"runs", Json::array()},           {"mean", Json::array()},
             {"lower", Json::array()},          {"upper", Json::array()},
             {"quantile_p", convergence.p},     {"quantile", Json::array()},
             {"quantile_lower", Json::array()}, {"quantile_upper", Json::array()}};
   for (const ConvergencePoint& point : convergence.points) {
     json["runs"].push_back(point.runs);
-    json["mean"].push_back(page_number(point.mean));
-    json["lower"].push_back(page_number(point.mean_bounds.lower));
-    json["upper"].push_back(page_number(point.mean_bounds.upper));
-    json["quantile"].push_back(page_number(point.quantile));
-    json["quantile_lower"].push_back(page_number(point.quantile_bounds.lower));
-    json["quantile_upper"].push_back(page_number(point.quantile_bounds.upper));
+    json["mean"].push_back(page_number(point.mean, digits));
+    json["lower"].push_back(page_number(point.mean_bounds.lower, digits));
+    json["upper"].push_back(page_number(point.mean_bounds.upper, digits));
+    json["quantile"].push_back(page_number(point.quantile, digits));
+    json["quantile_lower"].push_back(page_number(point.quantile_bounds.lower, digits));
+    json["quantile_upper"].push_back(page_number(point.quantile_bounds.upper, digits));
   }
   return json;
 }
@@ -158,7 +155,7 @@ void add_pictures(const PageSource& source, std::size_t index, const PageDetail&
                              distribution_curve(sorted_column.sorted, sorted_column.replicated,
                                                 source.replication.replicates, source.confidence,
                                                 detail.knots));
-  json["convergence"] = convergence_json(sorted_column.convergence);
+  json["convergence"] = convergence_json(source.summary.outputs[index], sorted_column.convergence);
   column.values.release();
 }
 
@@ -189,6 +186,10 @@ Json output_json(const PageSource& source, std::size_t index, const PageDetail& 
 }
 
 } // namespace
+
+int digits_of(const Moments& m) {
+  return digits_that_show(m.std, std::max(std::abs(m.min), std::abs(m.max)));
+}
 
 std::vector<std::size_t> shown_outputs(const PageSource& source, const PageDetail& detail) {
   std::vector<std::size_t> shown(source.results.outputs.size());

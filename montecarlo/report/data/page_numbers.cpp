@@ -1,11 +1,19 @@
 #include "montecarlo/report/data/page_numbers.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace wingspread {
+
+int digits_that_show(double spread, double largest, int least) {
+  if (!(spread > 0 && largest > 0)) return least;
+  return std::clamp(3 + static_cast<int>(std::ceil(std::log10(largest / spread))), least, 17);
+}
 
 Json page_number(double value, int digits) { return json_number(value, digits); }
 
-Json page_number(const std::optional<double>& value) {
-  return value ? page_number(*value) : Json(nullptr);
+Json page_number(const std::optional<double>& value, int digits) {
+  return value ? page_number(*value, digits) : Json(nullptr);
 }
 
 Json page_numbers(std::span<const double> values, int digits) {
@@ -27,8 +35,8 @@ void add_share_bounds(Json& json, const Bounds& bounds) {
 }
 
 void add_bounds(Json& json, const Bounds& bounds, int digits) {
-  json["lower"] = bounds.lower ? page_number(*bounds.lower, digits) : Json(nullptr);
-  json["upper"] = bounds.upper ? page_number(*bounds.upper, digits) : Json(nullptr);
+  json["lower"] = page_number(bounds.lower, digits);
+  json["upper"] = page_number(bounds.upper, digits);
 }
 
 std::string page_text(const Json& json) {

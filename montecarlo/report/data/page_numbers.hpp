@@ -14,12 +14,15 @@ namespace wingspread {
 /// Significant digits: tables show at most 7, and curves need 4 on a screen of 4000 pixels.
 inline constexpr int page_digits = 7;
 
+/// The digits of values up to `largest` that show three digits of their spread: at least `least`, at most 17.
+[[nodiscard]] int digits_that_show(double spread, double largest, int least = page_digits);
+
 /// The value rounded to significant digits. NaN and infinities stay.
 [[nodiscard]] double rounded(double value, int digits = page_digits);
 
 /// The rounded number; null if not finite or absent.
 [[nodiscard]] Json page_number(double value, int digits = page_digits);
-[[nodiscard]] Json page_number(const std::optional<double>& value);
+[[nodiscard]] Json page_number(const std::optional<double>& value, int digits = page_digits);
 [[nodiscard]] Json page_numbers(std::span<const double> values, int digits = page_digits);
 
 /// A share with seven digits of its distance to 0 or 1, whichever is less; null if not finite.

@@ -155,23 +155,32 @@ Json wing_orders_json(const PageSource& source) {
   return json;
 }
 
-Json run_json(const JudgedRun& each) {
-  return {{"run", each.run}, {"value", page_number(each.value)}};
+Json run_json(const JudgedRun& each, int digits) {
+  return {{"run", each.run}, {"value", page_number(each.value, digits)}};
+}
+
+/// The digits of a requirement's values: those of its output.
+int requirement_digits(const PageSource& source, const Requirement& requirement) {
+  const auto output =
+      std::ranges::find(source.summary.outputs, requirement.output, &OutputSummary::name);
+  return output == source.summary.outputs.end() ? page_digits : digits_of(output->moments);
 }
 
 /// The page's keys about the runs that break a requirement.
 Json broken_json(const Verdict& verdict, const PageSource& source) {
   constexpr std::size_t most_broken_shown = 5;
   const BrokenRuns broken = broken_runs_of(source, verdict, most_broken_shown);
+  const int digits = requirement_digits(source, verdict.requirement);
   Json json{{"broken", verdict.failures()},
             {"not_deployed", broken.not_deployed},
             {"without_value", broken.without_value},
             {"cut", broken.cut},
             {"beyond", broken.beyond},
-            {"worst", broken.worst ? run_json(*broken.worst) : Json(nullptr)},
+            {"worst", broken.worst ? run_json(*broken.worst, digits) : Json(nullptr)},
             {"beyond_runs", Json::array()},
             {"not_deployed_runs", Json::array()}};
-  for (const JudgedRun& each : broken.beyond_runs) json["beyond_runs"].push_back(run_json(each));
+  for (const JudgedRun& each : broken.beyond_runs)
+    json["beyond_runs"].push_back(run_json(each, digits));
   for (const auto& [run, latched] : broken.not_deployed_runs)
     json["not_deployed_runs"].push_back({{"run", run}, {"latched", latched}});
   return json;
@@ -216,12 +225,13 @@ Json asked_json(const Requirement& requirement) {
 
 Json requirement_json(const Verdict& verdict, const PageSource& source) {
   Json json = asked_json(verdict.requirement);
+  const int digits = requirement_digits(source, verdict.requirement);
   json.update({{"verdict", verdict_words[static_cast<std::size_t>(verdict.decision)]},
                {"disproved", verdict.disproved},
                {"observed", page_share(verdict.share)},
                {"guaranteed", page_share(verdict.guaranteed_share)},
-               {"observed_value", page_number(verdict.observed)},
-               {"guaranteed_value", page_number(verdict.guaranteed)},
+               {"observed_value", page_number(verdict.observed, digits)},
+               {"guaranteed_value", page_number(verdict.guaranteed, digits)},
                {"sure", page_number(verdict.confidence_alone)},
                {"margin", page_number(verdict.margin)},
                {"runs", verdict.runs},

@@ -230,8 +230,10 @@ private:
     double end = outcome.t_end;
     while (!cut_at_end_of_ring(recorder.samples(), layout, since) &&
            end < campaign_.integration.t_end) {
+      const double next = since + 2 * (end - since) + 0.1 * since;
+      // A run that stalls at t = 0 has no length to double.
       how.t_end = end =
-          std::min(campaign_.integration.t_end, since + 2 * (end - since) + 0.1 * since);
+          next > end ? std::min(campaign_.integration.t_end, next) : campaign_.integration.t_end;
       recorder = MotionRecorder(layout.hinges);
       (void)integrate(campaign_.scene, how, goal, recorder.observer());
     }

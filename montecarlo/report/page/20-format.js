@@ -34,10 +34,10 @@
     if (size < -4 || size > 7) return power(value.toExponential(digits - 1).replace(/\.?0+e/, "e"));
     return F.fixed(value, digits - 1 - size);
   };
-  // An input as its author wrote it: at most seven significant digits, no trailing zeros.
-  F.given = function (value) {
+  // An input as its author wrote it: at most seven significant digits, or as many as are asked for; no trailing zeros.
+  F.given = function (value, digits = 7) {
     if (!W.isNumber(value)) return F.none;
-    const short = Number(value.toPrecision(7));
+    const short = Number(value.toPrecision(digits));
     return Math.abs(short) >= 1e7 || (short !== 0 && Math.abs(short) < 1e-4)
       ? power(short.toExponential())
       : grouped(String(short));
@@ -70,7 +70,7 @@
   };
 
   // The level of a quantile: "1 %", "99.5 %".
-  F.level = (p) => F.share(p).replace(/\.0+ %$|(\.\d*[1-9])0+ %$/, "$1 %");
+  F.level = (p) => `${F.given(100 * p, 12)} %`;
   F.quantileName = (p) => (p === 0.5 ? "Median" : `${F.level(p)} quantile`);
 
   // Units: "N m" reads N·m; radians may be shown in degrees.
@@ -83,7 +83,7 @@
   // A limit as its author wrote it: in degrees where that is the shorter number, "5 deg/s". The displayed unit follows in
   // brackets if it is another.
   // A number with more than ten digits comes from a conversion to SI and is shown with six: 56.4924 N·m of "500 in*lbf".
-  const givenDigits = (value) => F.given(String(value).replace(/\D/g, "").length > 10 ? Number(value.toPrecision(6)) : value);
+  const givenDigits = (value) => F.given(String(value).replace(/\D/g, "").length > 10 ? Number(value.toPrecision(6)) : value, 10);
   F.written = function (value, unit) {
     if (!F.angular(unit)) return `${givenDigits(value)} ${F.unit(unit)}`.trim();
     const degrees = Number((value * F.DEGREES).toPrecision(12)),
@@ -113,6 +113,12 @@
 
   // Precision of a column: a tenth of its standard deviation, so that values show three digits of their spread.
   F.grain = (output) => (W.isNumber(output.std) && output.std > 0 ? output.std / 10 : null);
+  // A limit among the values of an output, in the displayed unit: as precise as they are, with six digits at least.
+  F.limit = function (value, output) {
+    const shown = value * F.shown(output.unit).factor,
+      needed = shown ? Math.floor(Math.log10(Math.abs(shown))) + 1 + F.decimals(F.grain(output) * F.shown(output.unit).factor) : 0;
+    return F.given(shown, Math.max(6, Math.min(15, needed)));
+  };
   F.name = (output) =>
     output.hinge && output.name.startsWith(output.hinge + ".")
       ? `${output.hinge} ${words(output.name.slice(output.hinge.length + 1))}`
@@ -128,8 +134,8 @@
   // A wing of one hinge has one order: its name, which may be "others".
   const isHinge = (name) =>
     W.sets.some((set) => [((set.wing || {}).hinges || []).map((one) => one.name), ...(set.wing_orders || []).map((wing) => wing.hinges)].some((names) => names.length === 1 && names[0] === name));
-  F.order = (order) =>
-    order === "no latch" ? "no hinge latched" : order === "others" && !isHinge(order) ? "other orders" : order.replace(/>/g, " › ");
+  F.isOthers = (order) => order === "others" && !isHinge(order);
+  F.order = (order) => (order === "no latch" ? "no hinge latched" : F.isOthers(order) ? "other orders" : order.replace(/>/g, " › "));
 
   // A number beside its axis, with the digits that tell ticks a step apart.
   F.tick = function (value, step) {

@@ -146,15 +146,15 @@
   };
   M.shorten = function (text, width, size = 12) {
     if (M.textWidth(text, size) <= width) return text;
-    let kept = text;
-    while (kept.length > 1 && M.textWidth(kept + "…", size) > width) kept = kept.slice(0, -1);
-    return kept + "…";
+    const kept = [...text]; // characters: half of a pair of surrogates is none
+    while (kept.length > 1 && M.textWidth(kept.join("") + "…", size) > width) kept.pop();
+    return kept.join("") + "…";
   };
 
   // The colour number of a latch order of the set: -1 (grey) for "no latch", the last for "others".
   M.ofOrder = function (set, at) {
     const name = ((set.orders || [])[at] || { order: "no latch" }).order;
-    return name === "no latch" ? -1 : name === "others" ? 6 : at;
+    return name === "no latch" ? -1 : W.format.isOthers(name) ? 6 : at;
   };
 
   const SHAPES = "Circle Triangle Square Diamond Cross Star Wye".split(" ").map((name) => d3[`symbol${name}`]);

@@ -103,7 +103,7 @@
     const failing = W.sets.filter((_, at) =>
       rows.some((row) => row.at === at && verdictOf(row.requirement.verdict) === "failed"),
     );
-    const where = !several ? "" : failing.length === 1 ? ` in ${failing[0].label}` : " in at least one case";
+    const where = !several ? "" : failing.length === 1 ? ` in ${failing[0].label}` : ` in at least one ${W.kindOfSets()}`;
     const all = total === 1 ? "The requirement" : worst === "passed" ? `All ${total} requirements` : `Each of ${total} requirements`;
     const one = (count, many, single) => (count === 1 ? single : many);
     // Few requirements that decide the verdict are named.
@@ -124,7 +124,7 @@
         counts.open === total
           ? `${all} is undecided: ${why}`
           : `${counts.open} of ${total} requirements ${one(counts.open, "are", "is")} undecided, for ${why}${named}`,
-      passed: `${all} ${one(total, "pass", "passes")}${several ? (everywhere ? " in every case" : ` in every case that states ${one(total, "them", "it")}`) : ""}`,
+      passed: `${all} ${one(total, "pass", "passes")}${several ? (everywhere ? ` in every ${W.kindOfSets()}` : ` in every ${W.kindOfSets()} that states ${one(total, "them", "it")}`) : ""}`,
     }[worst];
     return h(
       "p",
@@ -140,7 +140,7 @@
     );
   }
   // Requirements of two sets are the same if they limit the same output at the same level.
-  const keyOf = (one) => one.text;
+  const keyOf = (one) => `${one.text} ${W.isNumber(one.limit) ? Number(one.limit.toPrecision(12)) : ""}`; // the text may round the limit
   const shortOf = (one) => one.id || one.name || F.nameOf(one.output);
 
   const listed = (names) =>
@@ -176,6 +176,9 @@
     );
     return `${decimals > 7 ? F.number(value * factor, 4) : F.fixed(value * factor, decimals)} ${unit}`.trim();
   }
+  // Whether enough runs keep the limit but for peaks that t_end cut.
+  const cutDecides = (one) =>
+    one.allowed !== null && one.cut > 0 && (verdictOf(one.verdict) === "open" || one.broken - one.cut <= one.allowed || !one.not_deployed);
   const observed = (one, set) =>
     W.isNumber(one.observed_value) ? valueText(one.observed_value, one, set) : F.share(one.observed);
   function guaranteed(one, set) {
@@ -183,7 +186,7 @@
     if (W.isNumber(one.limit))
       return W.isNumber(one.guaranteed_value)
         ? valueText(one.guaranteed_value, one, set)
-        : one.allowed !== null && one.cut > 0
+        : cutDecides(one)
           ? "none: t_end cut peaks"
           : one.not_deployed || one.without_value
             ? "too few runs with a value"
@@ -256,7 +259,7 @@
     const columns = [
       "Requirement",
       "Verdict",
-      several && "Case",
+      several && W.headOfSets(),
       number(quantityOf(rows)),
       number(boundName(rows)),
       number("Distance to the limit"),
@@ -295,8 +298,7 @@
   // Why a requirement has no margin to show: peaks that t_end cut where they decide, then wings that did not deploy; else
   // there are too few runs.
   function whyNone(one) {
-    const cutDecides = verdictOf(one.verdict) === "open" || one.broken - one.cut <= one.allowed || !one.not_deployed;
-    if (one.allowed !== null && one.cut > 0 && cutDecides) return `${F.count(one.cut)} ${one.cut === 1 ? "peak" : "peaks"} cut by t_end`;
+    if (cutDecides(one)) return `${F.count(one.cut)} ${one.cut === 1 ? "peak" : "peaks"} cut by t_end`;
     if (one.not_deployed) return `${F.count(one.not_deployed)} not deployed`;
     return verdictOf(one.verdict) === "open" && !one.one_run ? "too few runs" : F.none;
   }
@@ -317,7 +319,7 @@
       return h("span.cell", W.verdictBadge(one.verdict, true), " ", known ? margin : whyNone(one));
     };
     return W.table(
-      "Verdict and distance to the limit by case",
+      `Verdict and distance to the limit by ${W.kindOfSets()}`,
       ["Requirement", ...[...W.sets, ...unmade].map((set) => number(set.label))],
       texts.map((text) => [words(text), ...W.sets.map((set, at) => cell(text, at)), ...unmade.map(() => "no runs")]),
       { class: "matrix", showCaption: true, stacks: true },
@@ -358,7 +360,7 @@
       rows.length > shown.length
         ? h(
             "details.printed",
-            h("summary", `Every requirement in every case (${rows.length} verdicts)`),
+            h("summary", `Every requirement in every ${W.kindOfSets()} (${rows.length} verdicts)`),
             requirementTable(rows),
           )
         : null;
@@ -368,7 +370,7 @@
       W.unjudged(),
       W.staticShortfall(),
       W.findings(rows),
-      several ? h("h3", "The worst case of each requirement") : null,
+      several ? h("h3", `The worst ${W.kindOfSets()} of each requirement`) : null,
       requirementTable(shown),
       together(),
       h(

@@ -59,7 +59,7 @@
       h("h3", "Outcomes"),
       W.table(
         `Outcomes by ${W.kindOfSets()}, with ${confidence}`,
-        [W.kindOfSets() === "case" ? "Case" : "Folder", number("Runs"), ...statuses.map((status) => number(nameOf(status)))],
+        [W.headOfSets(), number("Runs"), ...statuses.map((status) => number(nameOf(status)))],
         W.sets.map((set) => [set.label, F.count(set.runs), ...statuses.map((status) => cell(set, status))]),
       ),
       h(
@@ -133,7 +133,7 @@
     const total = d3.sum(set.orders, (one) => one.count) + without,
       colour = (at) => W.marks.colour(W.marks.ofOrder(set, at));
     const rows = set.orders.map((one, at) => [
-      h("span", key("", `background:${colour(at)}`), one.order === "others" ? others(set) : F.order(one.order), gapsOf(one)),
+      h("span", key("", `background:${colour(at)}`), F.isOthers(one.order) ? others(set) : F.order(one.order), gapsOf(one)),
       F.count(one.count),
       F.share(one.count / total),
     ]);
@@ -192,7 +192,7 @@
           "li",
           text,
           sets.length > 1
-            ? h("span.faint", ` (${W.sets.length > 1 && where.length === W.sets.length && W.sets.every((set) => where.includes(set.label)) ? "every case" : where.join(", ")}${other.length ? `; numbers of ${same.join(", ")}` : ""})`)
+            ? h("span.faint", ` (${W.sets.length > 1 && where.length === W.sets.length && W.sets.every((set) => where.includes(set.label)) ? `every ${W.kindOfSets()}` : where.join(", ")}${other.length ? `; numbers of ${same.join(", ")}` : ""})`)
             : null,
         );
       }),

@@ -179,19 +179,21 @@
       number("Drawn"),
       "Drawn beyond it",
       ...(limited ? [] : [number("Not deployed / deployed had")]),
-      ...(several ? ["Other cases that fail"] : []),
+      ...(several ? [`Other ${W.kindOfSets()}s that fail`] : []),
     ];
     return [
       W.table(`Estimated: what would make ${one.name || F.nameOf(one.output)} pass`, heads, rows, { class: "needed-table", stacks: true }),
       h(
         "p.note",
-        `An estimate from ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `: a linear fit, which explains ${F.share(block.explained, 0)} of the spread, and a quadratic along each change` : ""}. The stated change is the far bound. There, by this estimate, a new campaign of as many runs passes with ${F.given(Number((50 * (1 + set.confidence)).toPrecision(6)))} % probability. ${block.levers.some((lever) => lever.scaled) ? "× multiplies every value drawn, and so their spread too. " : ""}`,
+        `An estimate from ${F.runs(block.runs)}${W.isNumber(block.explained) && limited ? `: a linear fit, which explains ${explained(block)} of the spread, and a quadratic along each change` : ""}. The stated change is the far bound. There, by this estimate, a new campaign of as many runs passes with ${F.given(Number((50 * (1 + set.confidence)).toPrecision(6)))} % probability. ${block.levers.some((lever) => lever.scaled) ? "× multiplies every value drawn, and so their spread too. " : ""}`,
         unknown ? "Not known: the runs are too few, the change leads beyond the values drawn, or wings drawn there do not deploy. " : null,
         h("a", { href: "#why" }, "More causes"),
         ".",
       ),
     ];
   }
+  // The adjusted coefficient of determination is below 0 where the fit is no better than the mean.
+  const explained = (block) => (block.explained >= 0.005 ? F.share(block.explained, 0) : "nothing");
   // Why there is no estimate.
   function unknown(one, set, block, limited) {
     const all = (set.inputs || {}).dispersions || [],
@@ -200,7 +202,7 @@
       return "No dispersion varies, so these runs do not show what would change it.";
     if (!limited && one.not_deployed === set.runs) return "No run deploys: these runs do not show what would change it.";
     if (block.runs && limited && block.explained < 0.5)
-      return `These runs do not show what would change it: a linear fit explains ${F.share(block.explained, 0)} of the spread. Ask wingspread margin.`;
+      return `These runs do not show what would change it: a linear fit explains ${explained(block)} of the spread. Ask wingspread margin.`;
     return block.runs
       ? "No change of a dispersed input within the values drawn is seen to be enough; beyond them it is not known. The inputs of the runs that fail are among the causes. wingspread margin tries other springs."
       : `Too few runs to estimate what would change it: ${F.counted(draws, "dispersion")}, so at least ${F.runs(draws + 11)} with a value.`;

@@ -33,6 +33,7 @@
   W.confidences = () => [...new Set(W.sets.map(W.confidenceOf))];
   // What the sets are: cases of a campaign, or folders.
   W.kindOfSets = () => (W.sets.some((set) => set.case) ? "case" : "folder");
+  W.headOfSets = () => (W.kindOfSets() === "case" ? "Case" : "Folder");
   // "requirements at 90 % confidence, two-sided bounds at 95 %": both, where they differ.
   function confidences() {
     const levels = W.confidences(),

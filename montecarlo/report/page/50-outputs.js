@@ -213,9 +213,9 @@
       grain = d3.min(found, (one) => F.grain(one.output) || Infinity), // the same decimals in every row
       text = (value) => F.value(value, unit, isFinite(grain) ? grain : null);
     return W.table(
-      `${name} by case`,
+      `${name} by ${W.kindOfSets()}`,
       [
-        "Case",
+        W.headOfSets(),
         number("Nominal", F.shown(unit).unit),
         number("Mean"),
         ...levels.map((p) => number(F.quantileName(p))),
@@ -262,7 +262,7 @@
       W.sets.length > 1
         ? W.buttons(
             "Colour",
-            Object.entries({ order: "by latch order", case: "by case, overlaid" }),
+            Object.entries({ order: "by latch order", case: `by ${W.kindOfSets()}, overlaid` }),
             W.chosen.split,
             (value) => W.choose("split", value),
           )
@@ -312,7 +312,7 @@
           W.sets.every((set) => set.rows === false)
             ? W.withoutRows(W.set(), "A histogram by latch order")
             : "Colours show the latch order.",
-          ` Nominal: the run with every dispersion at the median of its law${W.sets.length > 1 ? " in its case" : ""}.`,
+          ` Nominal: the run with every dispersion at the median of its law${W.sets.length > 1 ? ` in its ${W.kindOfSets()}` : ""}.`,
           " Choose an output from the list.",
         ),
         listHost,

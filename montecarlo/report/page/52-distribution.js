@@ -16,10 +16,9 @@
       });
     return [...new Map(found.map((one) => [`${one.value} ${one.upper}`, one])).values()];
   }
-  const shownLimit = (limit, factor) => Number((limit.value * factor).toPrecision(6));
-  const limitText = (limit, factor) => `${limit.upper ? "≤" : "≥"} ${F.given(shownLimit(limit, factor))}`;
+  const limitText = (limit, output) => `${limit.upper ? "≤" : "≥"} ${F.limit(limit.value, output)}`;
 
-  W.limits = { of: limitsOf, shown: shownLimit, text: limitText };
+  W.limits = { of: limitsOf, text: limitText };
 
   // The data of both pictures: the chosen output in the displayed unit, and the overlaid cases.
   // `reach` has the values that the x axis must contain: the ends of the histogram, and the nominal run and those limits
@@ -55,11 +54,11 @@
   function drawMarks(svg, box, view, x, low) {
     const nominal = view.output.nominal * view.factor;
     const lines = view.limits.map((one) => ({
-      x: x(shownLimit(one, view.factor)),
-      text: limitText(one, view.factor),
+      x: x(one.value * view.factor),
+      text: limitText(one, view.output),
       kind: "limit",
     }));
-    if (W.isNumber(view.output.nominal)) lines.unshift({ x: x(nominal), text: "nominal", kind: "nominal" });
+    if (W.isNumber(view.output.nominal)) lines.unshift({ x: x(nominal), text: view.cases ? `nominal, ${view.set.label}` : "nominal", kind: "nominal" });
     M.uprights(svg, box, lines, low);
   }
 
@@ -90,7 +89,7 @@
       printed: 440,
       class: "histogram",
       note:
-        view.beyond.map((one) => `The limit ${limitText(one, factor)} ${unit} lies outside the picture.`).join(" ") ||
+        view.beyond.map((one) => `The limit ${limitText(one, output)} ${unit} lies outside the picture.`).join(" ") ||
         null,
       description: () =>
         `${F.runs(output.count)} from ${value(output.min)} to ${value(output.max)}, mean ${value(output.mean)}; ` +
@@ -100,7 +99,7 @@
       table: () =>
         cases
           ? {
-              columns: ["case", `from ${unit}`, `to ${unit}`, "runs"],
+              columns: [W.kindOfSets(), `from ${unit}`, `to ${unit}`, "runs"],
               rows: cases.flatMap((one) =>
                 bins(one.output.histogram, (from, to, count) => [one.set.label, from, to, count]),
               ),
@@ -182,7 +181,7 @@
       box = M.boxFor(y, width, top, 250);
     const ends = outlines.flatMap((one) => d3.extent(one.points, (point) => point[0])),
       x = M.linear([...view.reach, ...ends], [box.left, box.right]);
-    M.axes(svg, box, x, y, { xText: view.axis, yText: `share of the runs per ${view.unit || "unit"}` });
+    M.axes(svg, box, x, y, { xText: view.axis, yText: `share of the runs ${view.cases.some((one) => one.output.missing) ? "with a value " : ""}per ${view.unit || "unit"}` });
     for (const one of outlines)
       M.put(svg, "path.outline", {
         d: M.line(x, y)(one.points),
@@ -226,7 +225,7 @@
     const { band } = output.curve,
       // The curve is over the runs with a value, and so are the quantiles on it.
       quantiles = (output.quantiles || []).map((one) => ({ ...one, ...one.among })).filter((one) => W.isNumber(one.value));
-    const text = (one) => `${F.share(one.p)}: ${F.withUnit(one.value, output.unit, F.grain(output))}`,
+    const text = (one) => `${F.level(one.p)}: ${F.withUnit(one.value, output.unit, F.grain(output))}`,
       partly = cases.filter((one) => one.output.missing).map((one) => `${F.count(one.output.count)} of ${F.runs(one.set.runs)}${cases.length > 1 ? ` of ${one.set.label}` : ""}`);
     return W.figure({
       title: `Distribution function: ${F.name(output)}`,

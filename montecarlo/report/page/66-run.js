@@ -201,7 +201,7 @@
       (output.limits || [])
         .map((at) => set.requirements[at])
         .filter((one) => W.isNumber(one.limit))
-        .map((one) => [W.badge(verdictOf(one, output, made, value), true), ` ${one.upper ? "≤" : "≥"} ${F.written(one.limit, output.unit)} `]);
+        .map((one) => [W.badge(verdictOf(one, output, made, value), true), ` ${one.abs ? "|·| " : ""}${one.upper ? "≤" : "≥"} ${F.written(one.limit, output.unit)} `]);
     const levels = (shown.map((output) => output.quantiles || []).find((list) => list.length) || []).map((one) => one.p);
     const columns = [
       "Output",
@@ -272,9 +272,10 @@
           table(set, made, plain, label),
           drawsTable(set, kernel.draws()),
         );
+        if (!made.t.length) return; // an invalid wing has no motion: the one before stays
         const others = set.motions.filter((one) => !one.computed);
         set.motions = [...others, motionOf(set, made, changes.length ? `${label}, changed` : label, why, run, changes.length > 0)];
-        if (made.t.length) W.choose("motion", set.motions.length - 1);
+        W.choose("motion", set.motions.length - 1);
       } catch (error) {
         console.error(error);
         W.fill(host, h("p.nothing", `The run could not be computed: ${error.message}.`));

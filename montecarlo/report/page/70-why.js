@@ -194,13 +194,15 @@
     );
 
   const chooserHost = h("div.controls");
-  const choose = (set) =>
+  // The chosen output is in the list even if nothing moves it; `deployed`, which is no output, is chosen for this part alone.
+  function choose(set) {
+    const names = [...new Set([...W.effectOutputs(set), W.chosen.output])].filter(Boolean),
+      isOutput = (name) => W.outputsOf(set).some((one) => one.name === name);
     W.fill(
       chooserHost,
-      W.effectOutputs(set).length > 1
-        ? W.chooser(W.effectOutputs(set), W.chosen.output, (name) => W.choose("output", name))
-        : null,
+      names.length > 1 ? W.chooser(names, W.chosen.output, (name) => (isOutput(name) ? W.choose("output", name) : fillTornado(set, name))) : null,
     );
+  }
   W.why = function () {
     if (W.onlyStudies) {
       W.fill(W.section("why"), W.studies(W.studySets));

@@ -256,22 +256,32 @@
       { factor, unit } = F.shown(beyond ? beyond.unit : ""),
       event = beyond ? `${beyond.abs ? `|${F.nameOf(beyond.output)}|` : F.nameOf(beyond.output)} ${beyond.above ? ">" : "<"} ${F.written(beyond.limit, beyond.unit)}` : rare.text,
       bounds = W.isNumber(rare.confidence) ? `${F.given(100 * rare.confidence)} % bounds` : "bounds";
-    const drawn = (rare.levels || [])
-        .filter((one) => W.isNumber(one.threshold) && one.probability > 0)
-        .map((one) => ({ ...one, threshold: one.threshold * factor })),
+    // Of each repeat the levels that can be drawn.
+    const repeats = (rare.levels || [])
+        .map((levels, at) => levels.filter((one) => W.isNumber(one.threshold) && one.probability > 0).map((one) => ({ repeat: at + 1, threshold: one.threshold * factor, probability: one.probability })))
+        .filter((levels) => levels.length),
+      drawn = repeats.flat(),
+      several = (rare.levels || []).length > 1,
       likeliest = rare.likeliest && rare.likeliest.draws,
       strata = rare.strata || [];
+    // The mean stands at the threshold that every repeat has reached. Strata add up to more than their first one's mean.
+    const end = drawn.length ? repeats[0][repeats[0].length - 1].threshold : null,
+      mean = several && rare.reached && !strata.length && repeats.every((levels) => levels[levels.length - 1].threshold === end);
     const figure =
-      drawn.length < 2
-        ? null
-        : W.figure({
+      d3.max(repeats, (levels) => levels.length) > 1
+        ? W.figure({
             title: "Rare event: probability of each level",
             class: "rare",
+            note: several
+              ? `Each thin line is one of ${F.counted(rare.levels.length, "repeat")}${strata.length ? " of the draws with no rare value" : ""}.${mean ? " The large point is the estimate, their mean." : ""}`
+              : null,
             description: () =>
-              drawn.map((one) => `beyond ${F.number(one.threshold, 4)}: ${F.number(one.probability, 2)}`).join("; "),
+              repeats
+                .map((levels) => (several ? `repeat ${levels[0].repeat}: ` : "") + levels.map((one) => `beyond ${F.number(one.threshold, 4)}: ${F.number(one.probability, 2)}`).join("; "))
+                .join("; "),
             table: () => ({
-              columns: [unit ? `threshold ${unit}` : "threshold", "probability"],
-              rows: drawn.map((one) => [one.threshold, one.probability]),
+              columns: ["repeat", unit ? `threshold ${unit}` : "threshold", "probability"],
+              rows: drawn.map((one) => [one.repeat, one.threshold, one.probability]),
             }),
             draw: function (svg, width) {
               const box = { left: 62, right: width - 14, top: 22, bottom: 240 },
@@ -287,13 +297,13 @@
                 yValues: decades,
                 yFormat: (value) => `10${F.superscript(Math.round(Math.log10(value)))}`,
               });
-              M.trace(svg, M.line(x, y)(drawn.map((one) => [one.threshold, one.probability])), 0);
-              drawn.forEach((one) =>
-                M.put(svg, "circle.quantile", { cx: x(one.threshold), cy: y(one.probability), r: 3.5 }),
-              );
+              for (const levels of repeats) M.trace(svg, M.line(x, y)(levels.map((one) => [one.threshold, one.probability])), 0, several ? "path.trace.thin" : "path.trace");
+              drawn.forEach((one) => M.put(svg, "circle.quantile", { cx: x(one.threshold), cy: y(one.probability), r: several ? 2 : 3.5 }));
+              if (mean) M.put(svg, "circle.quantile.estimate", { cx: x(end), cy: y(rare.probability), r: 4.5 });
               return box.bottom + 40;
             },
-          });
+          })
+        : null;
     const bias = rare.reached && rare.bias > 0 ? ` Bias: such estimates are too large by about ${F.fixed(100 * rare.bias, 1)} % on average.` : "",
       reached =
         rare.reached === false && strata.length === 0 && rare.probability > 0

@@ -10,7 +10,7 @@
     const [low, high] = d3.extent(values.filter(W.isNumber)),
       room = 2 * (high - low) || Math.abs(high),
       { factor } = F.shown(output.unit);
-    const limits = W.limits.of(set, output).map((one) => ({ at: W.limits.shown(one, factor), text: W.limits.text(one, factor) }));
+    const limits = W.limits.of(set, output).map((one) => ({ at: one.value * factor, text: W.limits.text(one, output) }));
     const isNear = ({ at }) => at > low - room && at < high + room;
     return { near: limits.filter(isNear), far: limits.filter((one) => !isNear(one)) };
   }

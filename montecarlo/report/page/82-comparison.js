@@ -40,7 +40,7 @@
           title: `Change of the means: ${W.sets[j].label} against ${W.sets[i].label}`,
           class: "forest",
           printed: 860,
-          note: `${comparison.paired ? `Paired over the ${F.count(comparison.runs)} runs of both sets with the same random numbers, so scatter between runs cancels. Each difference is over the runs that have the output in both sets.` : "Not paired: the sets have different random numbers."}${rows.length > drawn.length ? ` The picture has the ${drawn.length} largest of ${rows.length} changes; the table has all.` : ""}`,
+          note: `${comparison.paired ? `Paired over the ${F.count(comparison.runs)} runs of both sets with the same random numbers, so scatter between runs cancels. Each difference is over the runs that have the output in both sets.` : `Not paired: ${comparison.why_unpaired}.`}${rows.length > drawn.length ? ` The picture has the ${drawn.length} largest of ${rows.length} changes; the table has all.` : ""}`,
           description: () =>
             drawn
               .slice(0, 12)
@@ -127,13 +127,16 @@
             ? W.table(
                 `Differences of the outcomes: ${comparison.text}`,
                 ["Outcome", number("Difference"), number(`${level}, percentage points`)],
-                statuses.map((one) => [
-                  one.status.replace("_", " "),
-                  `${sign(one.difference, F.fixed(100 * one.difference, 2))} points`,
-                  W.isNumber(one.lower)
-                    ? `${F.fixed(100 * one.lower, 2)} … ${F.fixed(100 * one.upper, 2)}`
-                    : "no bounds",
-                ]),
+                statuses.map(function (one) {
+                  const half = W.isNumber(one.lower) ? (one.upper - one.lower) / 2 : 0,
+                    decimals = Math.max(2, F.decimals(100 * (half || Math.abs(one.difference)))),
+                    points = (share) => F.fixed(100 * share, decimals);
+                  return [
+                    one.status.replace("_", " "),
+                    `${sign(one.difference, points(one.difference))} points`,
+                    W.isNumber(one.lower) ? `${points(one.lower)} … ${points(one.upper)}` : "no bounds",
+                  ];
+                }),
               )
             : null,
         ),
@@ -190,7 +193,7 @@
         ? [
             h(
               "p.lead",
-              "Differences of the means with confidence intervals. Filled point: the interval excludes zero. |Output|: its magnitudes are compared. “By case, overlaid” above compares the distributions.",
+              `Differences of the means with confidence intervals. Filled point: the interval excludes zero. |Output|: its magnitudes are compared. “By ${W.kindOfSets()}, overlaid” above compares the distributions.`,
             ),
             comparisons.map((one, at) => compared(one, folders.length ? one.folders : at < 2)),
           ]

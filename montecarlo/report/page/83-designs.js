@@ -8,6 +8,12 @@
     typeof value === "number" ? F.given(value) : value === null || value === undefined ? F.none : String(value);
   const knots = (table) => table.at.map((x, k) => `${F.given(x)}: ${F.given(table.value[k])}`).join(" · ");
 
+  // A parameter that the list of a scene lacks: the list has no zeros, and none of a hinge or body that the wing lacks.
+  W.unlisted = function (set, path) {
+    const [kind, owner] = path.split("."),
+      all = (set.inputs || {}).scene || [];
+    return !/^(hinges|bodies|synchronisations)$/.test(kind) || all.some((one) => one.path.startsWith(`${kind}.${owner}.`)) ? 0 : null;
+  };
   // The listed inputs of a set, by a key that names each one once: { list, name, label, unit, value }. `name` is the path of
   // what stands in the scene.
   function listOf(set) {
@@ -53,10 +59,10 @@
       .map(function ({ key, one, values: [x, y] }) {
         const change = typeof x === "number" && typeof y === "number" && x !== 0 ? (100 * (y - x)) / Math.abs(x) : null,
           inScene = ["scene", "tables"].includes(one.list),
-          text = (value) => textOf(one.list === "scene" ? (value ?? 0) : value), // the scene's list has no zeros
+          text = (value, set) => textOf(one.list === "scene" ? (value ?? W.unlisted(set, one.name)) : value),
           [, owner, ...field] = one.name.split(".");
         return {
-          cells: [one.label, F.unit(one.unit), text(x), text(y), W.isNumber(change) ? `${change > 0 ? "+" : ""}${F.number(change, 3)} %` : ""],
+          cells: [one.label, F.unit(one.unit), text(x, first), text(y, second), W.isNumber(change) ? `${change > 0 ? "+" : ""}${F.number(change, 3)} %` : ""],
           kind: inScene ? `${one.list} ${field.join(".")}` : key,
           owner,
           what: field.join(" ").replace(/_/g, " "),

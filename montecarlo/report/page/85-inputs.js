@@ -22,17 +22,18 @@
         : null;
     const paths = [...new Set(sets.flatMap((set) => set.inputs.scene.filter(isChanged).map((one) => one.path)))];
     const find = (set, path) => (set.inputs.scene || []).find((one) => one.path === path);
-    // Folders may have different nominal values: then each set shows its own. The list of a scene has no zeros.
+    // Folders may have different nominal values: then each set shows its own.
     const rows = paths.map(function (path) {
       const found = W.sets.map((set) => set.inputs && find(set, path)),
         first = found.find(Boolean),
-        nominals = new Set(found.map((one) => either(one ? one.value : 0)));
+        nominal = (one, at) => either(one ? one.value : W.unlisted(W.sets[at], path)),
+        nominals = new Set(found.map(nominal));
       return [
         h("span", first.label),
         F.unit(first.unit),
         nominals.size > 1 ? "by folder" : either(first.value),
-        ...found.map((one) =>
-          one && isChanged(one) ? h("b", either(one.case_value)) : nominals.size > 1 ? (one ? either(one.value) : "0 or none") : "as nominal",
+        ...found.map((one, at) =>
+          one && isChanged(one) ? h("b", either(one.case_value)) : nominals.size > 1 ? nominal(one, at) : "as nominal",
         ),
       ];
     });

@@ -37,7 +37,7 @@
     const label = document.getElementById("case-switch"),
       select = label.querySelector("select");
     label.hidden = W.sets.length < 2;
-    label.querySelector("span").textContent = W.sets.some((set) => set.case) ? "Case" : "Folder";
+    label.querySelector("span").textContent = W.headOfSets();
     W.fill(
       select,
       W.sets.map((set, at) => h("option", { value: at }, set.label)),
@@ -123,7 +123,8 @@
     const words = W.data.document || {},
       text = [words.organisation, words.document, words.revision && `revision ${words.revision}`, words.date].filter(Boolean).join(" · ");
     if (!text) return;
-    document.head.append(h("style", `@page { @bottom-left { content: ${JSON.stringify(text).replace(/</g, "\\3c ")}; } }`));
+    const string = text.replace(/["\\<\u0000-\u001f]/g, (letter) => `\\${letter.charCodeAt(0).toString(16)} `);
+    document.head.append(h("style", `@page { @bottom-left { content: "${string}"; } }`));
   }
 
   // Print all inputs, folded ones too.

@@ -256,6 +256,13 @@ Json levels_json(const Json& repeat) {
   return levels;
 }
 
+/// The levels of every repeat.
+Json repeats_json(const Json& repeats) {
+  Json json = Json::array();
+  for (const Json& repeat : repeats) json.push_back(levels_json(repeat));
+  return json;
+}
+
 /// The strata of a rare event, the largest part of the sum first.
 Json strata_json(const Json& study) {
   constexpr std::size_t most = 12;
@@ -265,8 +272,8 @@ Json strata_json(const Json& study) {
     // Of a plain sample without the event (`reached`, for its bounds hold) the upper bound says more than the share 0.
     const bool hit = part.at("reached").get<bool>() && part.at("event").get<double>() > 0;
     strata.push_back({{"text", part.at("draws")},
-                      {"probability", page_number(part.at("probability"), 6)},
-                      {"event", page_number(part.at(hit ? "event" : "upper"), 6)},
+                      {"probability", page_number(part.at("probability").get<double>(), 6)},
+                      {"event", page_number(part.at(hit ? "event" : "upper").get<double>(), 6)},
                       {"reached", hit}});
   }
   std::ranges::stable_sort(strata, std::ranges::greater{}, [](const Json& part) {
@@ -288,7 +295,6 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
                              [](const Json& draw) { return std::abs(draw["z"].get<double>()); });
     likeliest = {{"distance", run.at("distance")}, {"draws", draws}};
   }
-  const Json& repeats = study.at("repeats");
   set["rare"] = {{"text", study.at("event")},
                  {"beyond", study.value("beyond", Json(nullptr))},
                  {"case", study.value("case", Json(nullptr))},
@@ -298,7 +304,7 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
                  {"upper", study.at("upper")},
                  {"reached", study.at("reached")},
                  {"bias", study.value("bias", Json(nullptr))},
-                 {"levels", repeats.empty() ? Json::array() : levels_json(repeats.front())},
+                 {"levels", repeats_json(study.at("repeats"))},
                  {"warnings", study.value("warnings", Json::array())},
                  {"strata", strata_json(study)},
                  {"likeliest", std::move(likeliest)}};

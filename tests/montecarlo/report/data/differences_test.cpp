@@ -148,6 +148,7 @@ TEST_CASE("sets are paired where their draws are the same", "[page]") {
   const auto stronger = made(json);
   const Json paired = comparison_json(*first, *stronger, {0, 1});
   CHECK(paired["paired"] == true);
+  CHECK(paired["why_unpaired"].is_null());
   CHECK(paired["sets"] == Json{0, 1});
   CHECK(paired["text"] ==
         "set − set, run by run over the 20 runs with the same random numbers (of 20 and 30)");
@@ -161,7 +162,13 @@ TEST_CASE("sets are paired where their draws are the same", "[page]") {
   json["sampling"]["seed"] = 8;
   const Json apart = comparison_json(*first, *made(json), {0, 1});
   CHECK(apart["paired"] == false);
-  CHECK(apart["text"] == "set − set, draws of their own: 20 and 30 runs");
+  CHECK(apart["text"] ==
+        "set − set, not paired, because the sets have different random numbers: 20 and 30 runs");
+  CHECK_THAT(apart["why_unpaired"].get<std::string>(), Catch::Contains("random numbers"));
+  const auto later = made(quick_campaign(20)); // a shard's runs
+  for (long& run : later->results.runs) run += 30;
+  CHECK_THAT(comparison_json(*first, *later, {0, 1})["why_unpaired"].get<std::string>(),
+             Catch::Contains("no run in common"));
   const auto width = [](const Json& entry) {
     return entry["upper"].get<double>() - entry["lower"].get<double>();
   };

@@ -40,6 +40,20 @@ TEST_CASE("envelopes are quantiles of runs made again, on any number of threads"
   CHECK(json["latch_times"][0] == page_numbers(times, 6));
 }
 
+TEST_CASE("envelopes end with the runs, and no run that times out rests before", "[page]") {
+  const auto whole = made(quick_campaign(30));
+  std::vector<double> times = sorted_present(whole->results.outputs.back().values);
+  Json json = quick_campaign(30);
+  const double t_end = 1.001 * times[20];
+  json["integration"]["t_end"] = t_end;
+  const auto source = made(json);
+  REQUIRE(std::ranges::count(source->results.status, Status::timed_out) > 3);
+  REQUIRE(std::ranges::count(source->results.status, Status::deployed) > 3);
+  const Json found = envelopes_json(*source, PageDetail(), 1);
+  CHECK(found["t"].back().get<double>() == Approx(t_end).epsilon(1e-5));
+  CHECK(std::abs(found["rates"][2][0].back().get<double>()) > 0.1); // the tip still opens
+}
+
 TEST_CASE("the envelope of a single run is its motion in closed form, from the first instant on",
           "[page]") {
   Json json = panel_campaign();

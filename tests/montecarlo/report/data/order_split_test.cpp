@@ -37,6 +37,21 @@ TEST_CASE("histograms by order of latching add up to the histogram, by hand", "[
   CHECK(counts == std::vector<std::vector<long>>{{1, 2}, {1, 1}, {0, 1}});
 }
 
+// α and γ begin with the same byte as β and δ.
+TEST_CASE("names of wings and hinges keep whole characters", "[page]") {
+  Scene scene;
+  scene.bodies.resize(4);
+  for (const auto& [name, parent, child] :
+       {std::tuple("α", base_index, 0), std::tuple("β", 0, 1), std::tuple("xγ", base_index, 2),
+        std::tuple("xδ", 2, 3)}) {
+    Hinge hinge;
+    hinge.name = name, hinge.parent = parent, hinge.child = child;
+    scene.hinges.push_back(hinge);
+  }
+  const Results results = rows_with({{"α>xγ>β>xδ", 0}});
+  CHECK(OrderSplit(results, scene).groups()[0].name == "α: α>β · x: γ>δ");
+}
+
 TEST_CASE("each wing has its own orders, by hand", "[page]") {
   Scene scene;
   scene.bodies.resize(4);

@@ -1,6 +1,7 @@
 #include "montecarlo/report/data/causes_json.hpp"
 #include "montecarlo/report/data/output_json.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
+#include "montecarlo/report/data/set_json.hpp"
 #include "tests/montecarlo/report/data/page_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -106,6 +107,43 @@ TEST_CASE("values of a tiny spread have the digits that tell them apart", "[page
   CHECK(std::ranges::adjacent_find(x, std::ranges::greater_equal{}) == x.end());
   CHECK(output["curve"]["steps"] == true);
   CHECK(output["quantiles"][0]["value"] < output["quantiles"].back()["value"]);
+  const auto means = output["convergence"]["mean"].get<std::vector<double>>(); // of rising values
+  CHECK(std::ranges::adjacent_find(means, std::ranges::greater_equal{}) == means.end());
+  CHECK(output["convergence"]["lower"].back() < output["convergence"]["mean"].back());
+}
+
+TEST_CASE("points, verdicts and latch times of a tiny spread have the digits that tell them apart",
+          "[page]") {
+  Json json = quick_campaign(40);
+  json["dispersions"][0]["distribution"]["std"] = 1e-6;
+  json["dispersions"][1]["distribution"] =
+      parse_json(R"({ "type": "uniform", "lower": 10, "upper": 10.00001 })");
+  json["integration"]["rtol"] = 1e-9;
+  json["requirements"] = parse_json(
+      R"([ { "output": "root.latch_time", "max": 1, "probability": 0.5, "confidence": 0.5 } ])");
+  const auto source = made(json);
+  const auto& values = source->results.outputs[0].values; // root.latch_time
+  const std::vector<double> times = sorted_present(values);
+  const double spread = times.back() - times.front();
+  REQUIRE((spread > 0 && spread < 1e-5 * times.front()));
+  const Json set = set_json(*source, {}, 1), &one = set["requirements"][0];
+  CHECK(one["observed_value"].get<double>() ==
+        Approx(source->summary.requirements[0].observed.value()).epsilon(0).margin(1e-2 * spread));
+  CHECK(
+      one["guaranteed_value"].get<double>() ==
+      Approx(source->summary.requirements[0].guaranteed.value()).epsilon(0).margin(1e-2 * spread));
+  CHECK(one["worst"]["value"].get<double>() ==
+        Approx(times.back()).epsilon(0).margin(1e-2 * spread));
+  CHECK(set["envelopes"]["latch_times"][0].back().get<double>() ==
+        Approx(times.back()).epsilon(0).margin(1e-2 * spread));
+  REQUIRE_FALSE(set["scatters"].empty());
+  for (const Json& pair : set["scatters"])
+    for (const char* axis : {"x", "y"}) {
+      auto points = pair["points"][axis].get<std::vector<double>>();
+      std::ranges::sort(points);
+      points.erase(std::unique(points.begin(), points.end()), points.end());
+      CHECK(points.size() > 30);
+    }
 }
 
 TEST_CASE("of too many outputs those with a requirement are shown first, in the columns' order",

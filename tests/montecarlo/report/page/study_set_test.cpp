@@ -33,7 +33,7 @@ Json rare_study() {
     "event": "not deployed", "beyond": null, "case": "cold", "confidence": 0.9,
     "probability": 2e-5, "lower": 1e-5, "upper": 4e-5, "reached": true, "bias": 0.125,
     "repeats": [ { "levels": [ { "share": 0.5, "threshold": 3.5 }, { "share": 0.125, "threshold": 0 } ] },
-                 { "levels": [] } ],
+                 { "levels": [ { "share": 0.25, "threshold": 1 } ] } ],
     "strata": [
       { "draws": "no rare value", "probability": 0.9, "event": 1e-6, "upper": 2e-6, "reached": true },
       { "draws": "a = 1, b = 9000", "probability": 1e-3, "event": 0, "upper": 0.25, "reached": false },
@@ -110,8 +110,9 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
     CHECK(rare[key] == study[key]);
   }
   CHECK(rare["text"] == "not deployed");
-  CHECK(rare["levels"] == parse_json(R"([ { "threshold": 3.5, "probability": 0.5 },
-                                          { "threshold": 0, "probability": 0.0625 } ])"));
+  CHECK(rare["levels"] == parse_json(R"([ [ { "threshold": 3.5, "probability": 0.5 },
+                                            { "threshold": 0, "probability": 0.0625 } ],
+                                          [ { "threshold": 1, "probability": 0.25 } ] ])"));
   // by their parts of the sum: 2.5e-4 at most, 1e-5, 9e-7
   CHECK(rare["strata"] == parse_json(R"([
     { "text": "a = 1, b = 9000", "probability": 1e-3, "event": 0.25, "reached": false },
@@ -145,9 +146,10 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
   CHECK((little["strata"].empty() && little["levels"].empty() && little["likeliest"].is_null()));
   for (const char* pointer :
        {"/event", "/probability", "/lower", "/upper", "/reached", "/repeats", "/repeats/0/levels",
-        "/repeats/0/levels/1/share", "/repeats/0/levels/1/threshold", "/strata/1/draws",
-        "/strata/1/probability", "/strata/1/upper", "/strata/1/reached", "/likeliest",
-        "/likeliest/distance", "/likeliest/draws", "/likeliest/z", "/likeliest/z/b"}) {
+        "/repeats/0/levels/1/share", "/repeats/1/levels/0/share", "/repeats/0/levels/1/threshold",
+        "/strata/1/draws", "/strata/1/probability", "/strata/1/upper", "/strata/1/reached",
+        "/likeliest", "/likeliest/distance", "/likeliest/draws", "/likeliest/z",
+        "/likeliest/z/b"}) {
     CAPTURE(pointer);
     CHECK_THAT(message_of([&] {
                  return set_of(spoil(study, {pointer, "", ""}));
