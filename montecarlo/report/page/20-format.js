@@ -34,14 +34,15 @@
     if (size < -4 || size > 7) return power(value.toExponential(digits - 1).replace(/\.?0+e/, "e"));
     return F.fixed(value, digits - 1 - size);
   };
-  // An input as its author wrote it: at most seven significant digits, or as many as are asked for; no trailing zeros.
-  F.given = function (value, digits = 7) {
+  // At most so many significant digits, without trailing zeros; an input as its author wrote it has seven at most.
+  F.given = (value) => inDigits(value, 7);
+  function inDigits(value, digits) {
     if (!W.isNumber(value)) return F.none;
     const short = Number(value.toPrecision(digits));
     return Math.abs(short) >= 1e7 || (short !== 0 && Math.abs(short) < 1e-4)
       ? power(short.toExponential())
       : grouped(String(short));
-  };
+  }
   // Decimals that show two significant digits of the spread.
   F.decimals = function (spread, value) {
     if (W.isNumber(spread) && spread > 0) return Math.max(0, 1 - Math.floor(Math.log10(spread)));
@@ -70,7 +71,7 @@
   };
 
   // The level of a quantile: "1 %", "99.5 %".
-  F.level = (p) => `${F.given(100 * p, 12)} %`;
+  F.level = (p) => `${inDigits(100 * p, 12)} %`;
   F.quantileName = (p) => (p === 0.5 ? "Median" : `${F.level(p)} quantile`);
 
   // Units: "N m" reads N·m; radians may be shown in degrees.
@@ -83,7 +84,7 @@
   // A limit as its author wrote it: in degrees where that is the shorter number, "5 deg/s". The displayed unit follows in
   // brackets if it is another.
   // A number with more than ten digits comes from a conversion to SI and is shown with six: 56.4924 N·m of "500 in*lbf".
-  const givenDigits = (value) => F.given(String(value).replace(/\D/g, "").length > 10 ? Number(value.toPrecision(6)) : value, 10);
+  const givenDigits = (value) => inDigits(value, String(value).replace(/\D/g, "").length > 10 ? 6 : 10);
   F.written = function (value, unit) {
     if (!F.angular(unit)) return `${givenDigits(value)} ${F.unit(unit)}`.trim();
     const degrees = Number((value * F.DEGREES).toPrecision(12)),
@@ -117,7 +118,7 @@
   F.limit = function (value, output) {
     const shown = value * F.shown(output.unit).factor,
       needed = shown ? Math.floor(Math.log10(Math.abs(shown))) + 1 + F.decimals(F.grain(output) * F.shown(output.unit).factor) : 0;
-    return F.given(shown, Math.max(6, Math.min(15, needed)));
+    return inDigits(shown, Math.max(6, Math.min(15, needed)));
   };
   F.name = (output) =>
     output.hinge && output.name.startsWith(output.hinge + ".")
