@@ -128,10 +128,10 @@ TEST_CASE("points, verdicts and latch times of a tiny spread have the digits tha
   REQUIRE((spread > 0 && spread < 1e-5 * times.front()));
   const Json set = set_json(*source, {}, 1), &one = set["requirements"][0];
   CHECK(one["observed_value"].get<double>() ==
-        Approx(source->summary.requirements[0].observed.value()).epsilon(0).margin(1e-2 * spread));
+        Approx(source->summary.requirements[0].observed.value()).epsilon(0).margin(1e-3 * spread));
   CHECK(
       one["guaranteed_value"].get<double>() ==
-      Approx(source->summary.requirements[0].guaranteed.value()).epsilon(0).margin(1e-2 * spread));
+      Approx(source->summary.requirements[0].guaranteed.value()).epsilon(0).margin(1e-3 * spread));
   CHECK(one["worst"]["value"].get<double>() ==
         Approx(times.back()).epsilon(0).margin(1e-2 * spread));
   CHECK(set["envelopes"]["latch_times"][0].back().get<double>() ==
