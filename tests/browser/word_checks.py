@@ -42,6 +42,10 @@ class WordChecks:
                 self.check(row[1], count, about=name)
                 self.check(row[2], count / total, share=True, about=name)
         self.assertEqual(self.run_script("return document.querySelector('small.gaps').title"), "root to tip")
+        self.run_script("W.set().more_order_kinds = true; W.outcomes()")
+        self.assertIn("other orders, or not told apart", [row[0] for row in self.table("Wing left")])
+        self.assertTrue(any("more than 1 order" in text for text in self.run_script("return [...document.querySelectorAll('#verdicts summary')].map(one => one.textContent)")))
+        self.run_script("delete W.set().more_order_kinds; W.outcomes()")
         self.assertIn("All wings together: 1 order", self.run_script("return [...document.querySelectorAll('#verdicts summary')].map(one => one.textContent)"))
 
     def test_runs_without_rows_say_what_they_lack(self):
@@ -121,6 +125,7 @@ class WordChecks:
             self.assertIn(words, self.verdicts("W.set().accuracy = arguments[0]", {**accuracy, **change}))
         self.assertNotIn("moves by more than 1 %", self.verdicts("W.set().accuracy = arguments[0]", {**accuracy, "moved": {"runs": 0, "share_at_most": 0.1}}))
         self.assertNotIn("could not be repeated", self.verdicts("W.set().accuracy = arguments[0]", {**accuracy, "unreached": 0}))
+        self.assertIn("Unknown: 16 runs could not be repeated", self.verdicts("W.set().accuracy = arguments[0]", {**accuracy, "runs": 0, "unreached": 16, "outputs": []}))
 
     def test_the_title_says_what_there_is(self):
         self.open(pages.made_up("cases"))

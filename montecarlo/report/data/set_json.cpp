@@ -300,6 +300,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   Json wings = wing_orders_json(source);
   json["orders"] = orders_json(source, !wings.empty());
   json["order_kinds"] = source.orders->kinds();
+  if (summary.more_order_kinds) json["more_order_kinds"] = true;
   json["without_latch"] = summary.without_latch;
   json["wing_orders"] = std::move(wings);
   json["warnings"] = all_warnings(source, detail);

@@ -109,9 +109,11 @@
     );
   }
 
+  // Without rows, orders beyond the first 100,000 are not told apart.
+  const moreThan = (set) => (set.more_order_kinds ? "more than " : "");
   function others(set) {
     const kinds = set.order_kinds - set.orders.filter((one) => !["others", "no latch"].includes(one.order)).length;
-    return kinds === 1 ? "one other order" : `${kinds} other orders`;
+    return `${moreThan(set)}${kinds === 1 ? "one other order" : `${kinds} other orders`}`;
   }
   // A short time in the unit that suits it: "1.3 s", "31 ms", "31 µs".
   function duration(seconds) {
@@ -149,7 +151,7 @@
     return [
       title,
       set.wing_orders.map((wing) => ordersOfWing(wing, total)),
-      h("details", h("summary", `All wings together: ${F.counted(set.order_kinds, "order")}`), table),
+      h("details", h("summary", `All wings together: ${moreThan(set)}${F.counted(set.order_kinds, "order")}`), table),
     ];
   }
   // The orders of one wing's hinges among themselves.
@@ -163,7 +165,8 @@
       left = total - listed - wing.without_latch;
     const counts = (count) => [F.count(count), F.share(count / total)];
     const rows = wing.orders.map((one) => [h("span", short(one.order), gapsOf(one)), ...counts(one.count)]);
-    if (left > 0) rows.push([F.counted(wing.order_kinds - wing.orders.length, "other order"), ...counts(left)]);
+    const others = F.counted(wing.order_kinds - wing.orders.length, "other order");
+    if (left > 0) rows.push([W.set().more_order_kinds ? "other orders, or not told apart" : others, ...counts(left)]);
     if (wing.without_latch) rows.push(["no hinge latched", ...counts(wing.without_latch)]);
     return W.table(`Wing ${wing.wing}`, ["Order", number("Runs"), number("Share")], rows, {
       class: "long-names",
@@ -212,7 +215,11 @@
       one = set.accuracy;
     const title = h("h3", "Numerical against statistical error");
     const rows = ((one && one.outputs) || []).filter((row) => W.isNumber(row.largest));
-    if (!rows.length) return [title, h("p", "No runs were repeated at a tighter tolerance.")];
+    if (!rows.length)
+      return [
+        title,
+        h("p", one && !one.runs && one.unreached ? `Unknown: ${F.runs(one.unreached)} could not be repeated at a tighter tolerance.` : "No runs were repeated at a tighter tolerance."),
+      ];
     const share = (row) =>
       W.isNumber(row.standard_error) && row.standard_error > 0 ? row.largest / row.standard_error : null;
     const ordered = rows.slice().sort((a, b) => (share(b) || 0) - (share(a) || 0)),

@@ -7,7 +7,8 @@
 #include "montecarlo/results/streaming/streaming_folder.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <span>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -58,6 +59,23 @@ void refuse_other_folder_without_rows(const std::filesystem::path& out, const st
     refuse_used_folder(out, "a new or an empty folder");
 }
 
+/// Statistics of all shards.
+struct MergedStatistics {
+  StreamingStatistics all;
+  std::vector<std::uint64_t> broken_bytes; ///< of each shard's broken_runs.csv
+};
+
+MergedStatistics add_statistics(const std::vector<StoredCampaign>& shards) {
+  StoredStatistics first = read_streaming_statistics(shards.front());
+  MergedStatistics merged{std::move(first.statistics), {first.broken_bytes}};
+  for (const StoredCampaign& shard : std::span(shards).subspan(1)) {
+    const StoredStatistics read = read_streaming_statistics(shard);
+    merged.all.add(read.statistics);
+    merged.broken_bytes.push_back(read.broken_bytes);
+  }
+  return merged;
+}
+
 /// Appends the first bytes of one shard's broken_runs.csv. @return bytes written
 std::uint64_t append_broken(const StoredCampaign& part, std::uint64_t bytes, bool with_header,
                             OutputFile& to) {
@@ -84,24 +102,17 @@ Summary merge_streaming(const std::vector<std::filesystem::path>& folders,
   refuse_other_folder_without_rows(out, text);
   const FolderLock lock(out);
   refuse_other_folder_without_rows(out, text);
-  std::filesystem::remove(out / statistics_file); // of an interrupted merge
+  const MergedStatistics merged = add_statistics(parts); // before anything is written: may refuse
+  std::filesystem::remove(out / statistics_file);        // of an interrupted merge
   write_file(out / campaign_file, text);
   OutputFile broken(out / broken_runs_file, OutputFile::From::beginning);
-  std::optional<StoredStatistics> all;
-  for (const StoredCampaign& part : parts) {
-    StoredStatistics read = read_streaming_statistics(part);
-    const std::uint64_t bytes = append_broken(part, read.broken_bytes, !all, broken);
-    if (all)
-      all->statistics.add(read.statistics);
-    else
-      all.emplace(StoredStatistics{std::move(read.statistics)});
-    all->broken_bytes += bytes;
-  }
+  std::uint64_t bytes = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    bytes += append_broken(parts[i], merged.broken_bytes[i], i == 0, broken);
   broken.sync();
   broken.close();
-  write_file(out / statistics_file,
-             streaming_statistics_text(whole, all->statistics, all->broken_bytes));
-  return write_streaming_statistics(whole, all->statistics, whole.campaign.statistics);
+  write_file(out / statistics_file, streaming_statistics_text(whole, merged.all, bytes));
+  return write_streaming_statistics(whole, merged.all, whole.campaign.statistics);
 }
 
 } // namespace wingspread

@@ -201,7 +201,10 @@ void StreamingStatistics::add_correlations(const ResultRow& row) {
 }
 
 void StreamingStatistics::add(const StreamingStatistics& other) {
-  if (other_orders_ + other.other_orders_ > 0)
+  const auto is_new = [&](const auto& entry) { return !orders_.contains(entry.first); };
+  const auto kinds =
+      orders_.size() + static_cast<std::size_t>(std::ranges::count_if(other.orders_, is_new));
+  if (other_orders_ + other.other_orders_ > 0 || kinds > most_order_kinds)
     throw SpecError({{"", "", "more than " + std::to_string(most_order_kinds) + " latch orders",
                       "fewer: orders beyond this number share one count, which cannot be merged"}});
   runs_ += other.runs_;

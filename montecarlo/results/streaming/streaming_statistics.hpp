@@ -21,7 +21,7 @@
 namespace wingspread {
 
 /// Most kinds of latch orders counted separately; kinds that appear later are counted together. Heuristic: 100,000
-/// texts take some 10 MB. With more kinds, merging shards is refused, because the common count cannot be split.
+/// texts take some 10 MB. With more kinds, of one shard or of all, merging is refused: the common count cannot be split.
 inline constexpr std::size_t most_order_kinds = 100'000;
 /// Most pairs of draws and outputs; with more pairs no correlations are computed. A pair takes 5 exact sums of 544
 /// bytes: 40,000 pairs are 109 MB.
@@ -81,7 +81,7 @@ public:
   /// @return whether the run's row is to be kept: it did not deploy, or breaks a requirement
   bool add(const ResultRow& row, std::span<const double> margins);
   /// @pre of the same campaign and other runs
-  /// @throws SpecError if more than most_order_kinds latch orders were counted
+  /// @throws SpecError if both together have more than most_order_kinds latch orders; then nothing is changed
   void add(const StreamingStatistics& other);
   void write(StateWriter& to) const;
 

@@ -209,6 +209,7 @@ void add_counts(const StreamingStatistics& statistics, double confidence, Summar
     else
       summary.latch_orders.push_back({order, count});
   summary.latch_order_kinds = std::ssize(summary.latch_orders);
+  summary.more_order_kinds = statistics.other_orders() > 0;
   std::ranges::stable_sort(summary.latch_orders, std::greater{}, &LatchOrderCount::count);
   if (summary.latch_orders.size() > most_latch_orders)
     summary.latch_orders.resize(most_latch_orders);

@@ -104,8 +104,9 @@ std::string latch_orders(const Summary& summary, bool all) {
     others -= count;
   }
   if (others > 0)
-    line(counted(summary.latch_order_kinds - static_cast<long>(shown), "other order",
-                 "other orders"),
+    line((summary.more_order_kinds ? "more than " : "") +
+             counted(summary.latch_order_kinds - static_cast<long>(shown), "other order",
+                     "other orders"),
          others);
   if (summary.without_latch > 0) line("no latch", summary.without_latch);
   return text;

@@ -1,6 +1,8 @@
 #include "montecarlo/results/results_folder/parts.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
 #include "montecarlo/results/streaming/streaming_folder.hpp"
+#include "montecarlo/results/streaming/streaming_summary.hpp"
+#include "montecarlo/results/summary/table.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -180,4 +182,59 @@ TEST_CASE("an interrupted merge without rows is repeated, a finished folder is n
                (void)merge_streaming({a, b}, out);
              }),
              Catch::Contains("a new or an empty folder"));
+}
+
+TEST_CASE("shards whose latch orders together exceed the limit are not merged") {
+  constexpr long half = 60'000;
+  const Folder folder;
+  Json json = quick_campaign(2 * half);
+  json["outputs"] = {"latch_time"};
+  const Campaign campaign = campaign_of(json);
+  const ResultNames names = RunPlan(campaign).names();
+  std::string header;
+  append_header(header, names);
+  const auto row = [&](long run, long order) {
+    return ResultRow{run,
+                     Status::deployed,
+                     std::vector<double>(names.draws.size(), 1.0),
+                     std::vector<double>(names.outputs.size(), 1.0),
+                     "order" + std::to_string(order),
+                     ""};
+  };
+  std::vector<std::filesystem::path> parts;
+  std::vector<StreamingStatistics> statistics;
+  const auto write_shard = [&](const Shard& shard, long first_order) {
+    const StoredCampaign stored{parts.emplace_back(folder.path() / std::to_string(parts.size())),
+                                campaign, stamp_of(campaign, shard)};
+    StreamingStatistics& made = statistics.emplace_back(campaign, names, Results(names));
+    for (long run = stored.runs().first; run < stored.runs().last; ++run)
+      (void)made.add(row(run, first_order + run % half), {});
+    make_folder(stored.folder);
+    write_file(stored.folder / campaign_file, campaign_text(campaign, stored.stamp));
+    write_file(stored.folder / broken_runs_file, header);
+    write_file(stored.folder / statistics_file,
+               streaming_statistics_text(stored, made, header.size()));
+  };
+  statistics.reserve(3);
+  write_shard({1, 2}, 0);
+  write_shard({2, 2}, half);
+  const auto out = folder.path() / "out";
+  CHECK_THAT(message_of([&] { (void)merge_streaming(parts, out); }),
+             Catch::Contains("more than 100000 latch orders"));
+  CHECK_FALSE(std::filesystem::exists(out));
+  CHECK_THROWS_AS(statistics[0].add(statistics[1]), SpecError);
+  CHECK(statistics[0].runs() == half);
+  CHECK(statistics[0].latch_orders().size() == half);
+
+  write_shard({2, 2}, half / 2); // 30,000 orders of the first shard, and 30,000 others
+  const Summary merged = merge_streaming({parts[0], parts[2]}, out);
+  CHECK(merged.latch_order_kinds == 3 * half / 2);
+  CHECK_THAT(summary_table(merged, "title", ""), !Catch::Contains("more than"));
+
+  for (long run = half; run < 2 * half; ++run) (void)statistics[0].add(row(run, run), {});
+  CHECK(statistics[0].other_orders() == 20'000);
+  const StoredCampaign whole{"whole", campaign, stamp_of(campaign, {})};
+  CHECK_THAT(
+      summary_table(streaming_summary(whole, statistics[0], campaign.statistics), "title", ""),
+      Catch::Contains("more than 99992 other orders"));
 }
