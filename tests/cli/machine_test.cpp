@@ -111,22 +111,30 @@ TEST_CASE("a file on a full device is the machine's refusal") {
   }
 }
 
+namespace {
+
+/// The largest size of a file for the programs that are started while this lives.
+struct FileSizeLimit {
+  explicit FileSizeLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit lower{bytes, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &lower);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before); }
+  rlimit before{};
+};
+
+} // namespace
+
 TEST_CASE("a file that may grow no more is the machine's refusal, and what is done is kept") {
   const Folder folder;
   const std::string campaign = folder.write("c.json", quick_campaign(100).dump());
   const auto whole = folder.path() / "whole", cut = folder.path() / "cut";
   REQUIRE(run_program(folder, {"run", campaign, "--out", whole}).code == 0);
-  struct Limit { // for the programs that are started while this lives
-    explicit Limit(rlim_t bytes) {
-      getrlimit(RLIMIT_FSIZE, &before);
-      const rlimit lower{bytes, before.rlim_max};
-      setrlimit(RLIMIT_FSIZE, &lower);
-    }
-    ~Limit() { setrlimit(RLIMIT_FSIZE, &before); }
-    rlimit before{};
-  };
   {
-    const Limit limit(6000);
+    const FileSizeLimit limit(6000);
     const auto [code, out, error] = run_program(folder, {"run", campaign, "--out", cut});
     CHECK(code == 4);
     CHECK_THAT(error, Catch::Contains("File too large"));
@@ -139,7 +147,7 @@ TEST_CASE("a file that may grow no more is the machine's refusal, and what is do
     }
   }
   if (has_hdf5()) { // below the limit nothing changes
-    const Limit limit(10'000'000);
+    const FileSizeLimit limit(10'000'000);
     CHECK(run_program(folder, {"export", whole, "--out", folder.path() / "limited.h5"}).code == 0);
   }
   if (has_hdf5()) {
@@ -151,6 +159,74 @@ TEST_CASE("a file that may grow no more is the machine's refusal, and what is do
   if (has_campaign) again.emplace_back("--resume");
   CHECK(run_program(folder, again).code == 0);
   CHECK(read_text(cut / runs_file) == read_text(whole / runs_file));
+}
+
+TEST_CASE(
+    "statistics that the machine refused to write elsewhere are written by the same command") {
+  const Folder folder;
+  Json json = quick_campaign(100);
+  json["cases"] = {{{"name", "hot"}}, {{"name", "cold"}}};
+  const std::string with_cases = folder.write("cases.json", json.dump()),
+                    campaign = folder.write("c.json", quick_campaign(100).dump());
+  const auto rows = folder.path() / "rows", none = folder.path() / "none",
+             cases = folder.path() / "cases";
+  REQUIRE(run_program(folder, {"run", campaign, "--out", rows}).code == 0);
+  REQUIRE(run_program(folder, {"run", campaign, "--out", none, "--no-rows"}).code == 0);
+  REQUIRE(run_program(folder, {"run", with_cases, "--out", cases}).code == 0);
+  for (const auto& [from, command] :
+       {std::pair(rows, "analyze"), {none, "analyze"}, {cases, "analyze"}, {rows, "sensitivity"}}) {
+    const std::filesystem::path out = from.string() + "_" + command;
+    CAPTURE(out.string());
+    const std::vector<std::string> words{command, from, "--out", out};
+    const auto whole = [&, from = from] { // the sizes of the files, without words of the command
+      const std::filesystem::path other = out.string() + "_whole";
+      if (!exists(other)) REQUIRE(run_program(folder, {words[0], from, "--out", other}).code == 0);
+      return contents(other);
+    }();
+    std::vector<std::uintmax_t> sizes;
+    for (const auto& [name, text] : whole) sizes.push_back(text.size());
+    std::ranges::sort(sizes);
+    for (const std::uintmax_t size : {sizes.back() - 1, sizes[sizes.size() / 2] - 1}) {
+      {
+        const FileSizeLimit limit(size);
+        const auto refused = run_program(folder, words);
+        CHECK(refused.code == 4);
+        CHECK_THAT(refused.error, HasFacts({out, "File too large"}));
+      }
+      CHECK(run_program(folder, words).code == 0);
+      CHECK(contents(out) == whole);
+      std::filesystem::remove_all(out);
+    }
+  }
+}
+
+TEST_CASE("statistics are written only beside the rows that they are of") {
+  const Folder folder;
+  const std::string campaign = folder.write("c.json", quick_campaign(20).dump()),
+                    from = folder.path() / "from", out = folder.path() / "out";
+  REQUIRE(run_program(folder, {"run", campaign, "--out", from}).code == 0);
+  REQUIRE(run_program(folder, {"analyze", from, "--out", out}).code == 0);
+  const auto refused = [&] {
+    const auto before = contents(out);
+    const auto [code, text, error] = run_program(folder, {"analyze", from, "--out", out});
+    CHECK_THAT(error, HasFacts({out, "a new or an empty folder"}));
+    CHECK(contents(out) == before);
+    return code == 2;
+  };
+  CHECK(refused()); // it is finished
+  std::filesystem::remove(out + "/histograms.csv");
+  const std::string rows = read_text(out + "/runs.csv").value();
+  write_file(out + "/runs.csv", rows.substr(0, rows.size() / 2)); // other rows
+  CHECK(refused());
+  write_file(out + "/runs.csv", rows);
+  std::filesystem::remove(from + "/histograms.csv");
+  CHECK(run_program(folder, {"analyze", from, "--out", from}).code != 0);
+  CHECK(run_program(folder, {"analyze", from, "--out", out}).code == 0);
+  REQUIRE(run_program(folder, {"sensitivity", from, "--out", out + "s"}).code == 0);
+  std::filesystem::remove(out + "s/sensitivity.csv");
+  write_file(out + "s/sensitivity.json", "{}"); // of another study
+  CHECK(run_program(folder, {"sensitivity", from, "--out", out + "s"}).code == 2);
+  CHECK(read_text(out + "s/sensitivity.json") == "{}");
 }
 
 TEST_CASE("an edited row that contradicts itself is refused in a folder of the program's own") {

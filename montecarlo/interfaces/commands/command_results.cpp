@@ -89,7 +89,8 @@ int merge(const MergeOptions& options) {
                                          : merge_folders(options.folders, options.out, kind);
     return show_results(read_stored_campaign(options.out), summary, options.display);
   } catch (const MissingRuns& missing) {
-    const bool has_preview = !without_rows && !is_design_folder(options.folders.front());
+    const bool has_preview =
+        missing.can_preview() && !without_rows && !is_design_folder(options.folders.front());
     return print_missing(missing,
                          has_preview ? ", or use --preview to see the runs made so far" : "");
   }
@@ -189,10 +190,28 @@ void warn_of_cases_file(const StoredCampaign& stored) {
       (whole / cases_file).string(), stored.campaign.of_case, shell_word(whole.string()));
 }
 
+/// Refuses to write the statistics of `from` into a folder with content, unless an interrupted `analyze` of the same rows
+/// left it.
+void refuse_other_folder(const std::filesystem::path& from, const std::filesystem::path& out) {
+  const char* last = is_cases_folder(from)       ? cases_file
+                     : is_streaming_folder(from) ? extremes_file
+                                                 : histograms_csv_file;
+  std::vector<std::filesystem::path> folders{""};
+  if (is_cases_folder(from))
+    for (const CaseSpec& spec : made_cases(read_stored_campaign(from)))
+      folders.emplace_back(spec.name);
+  const auto may_be_written = [&](const std::filesystem::path& each) {
+    return is_new_folder(out / each) || is_copy(from / each, out / each);
+  };
+  const bool is_same = exists(out) && equivalent(from, out);
+  if (is_same || exists(out / last) || !std::ranges::all_of(folders, may_be_written))
+    refuse_used_folder(out, "a new or an empty folder");
+}
+
 int analyze(const AnalyzeOptions& options) {
   (void)read_any_campaign(options.folder); // before the lock makes a file in some other folder
   const bool elsewhere = !options.out.empty();
-  if (elsewhere) refuse_used_folder(options.out, "a new or an empty folder");
+  if (elsewhere) refuse_other_folder(options.folder, options.out);
   const FolderLock lock(options.folder, lock_purpose(options), statistics_elsewhere);
   std::optional<FolderLock> other;
   if (elsewhere) other.emplace(options.out);

@@ -65,7 +65,9 @@ public:
   explicit AnalysisFolders(const SensitivityOptions& options)
       : to_(options.out.empty() ? options.from : options.out) {
     const bool elsewhere = !options.out.empty();
-    if (elsewhere) refuse_used_folder(options.out, "a new or an empty folder");
+    const bool interrupted = std::filesystem::exists(options.out / sensitivity_json_file) &&
+                             !std::filesystem::exists(options.out / sensitivity_csv_file);
+    if (elsewhere && !interrupted) refuse_used_folder(options.out, "a new or an empty folder");
     from_.emplace(options.from, elsewhere ? FolderLock::For::reading : FolderLock::For::writing,
                   "a folder that can be written; --out DIR writes the tables elsewhere");
     if (elsewhere) other_.emplace(options.out);
@@ -83,6 +85,9 @@ void show_analysis(const Sensitivity& all, const Json& about, const std::string&
                    const std::filesystem::path& folder, const SensitivityOptions& options) {
   const std::string text = json_text(sensitivity_json(all, about));
   if (!folder.empty()) {
+    const bool elsewhere = std::filesystem::is_directory(options.from) && folder != options.from;
+    if (elsewhere && read_text(folder / sensitivity_json_file).value_or(text) != text)
+      refuse_used_folder(folder, "a new or an empty folder"); // not this command's, interrupted
     write_file(folder / sensitivity_json_file, text);
     write_file(folder / sensitivity_csv_file, sensitivity_csv(all));
   }

@@ -17,7 +17,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -119,6 +121,26 @@ StoredCampaign read_campaign_of(const std::filesystem::path& folder, bool may_be
   return stored;
 }
 
+/// What a copy of the rows has, in the order of copying.
+constexpr std::array copied_files{campaign_file, runs_file, statistics_file, broken_runs_file};
+
+bool have_same_bytes(const std::filesystem::path& a, const std::filesystem::path& b) {
+  if (!std::filesystem::exists(a) || !std::filesystem::exists(b)) return false;
+  InputFile of_a(a), of_b(b);
+  using Bytes = std::istreambuf_iterator<char>;
+  return of_a.size() == of_b.size() && std::equal(Bytes(of_a), Bytes(), Bytes(of_b), Bytes());
+}
+
+/// Copies a file block by block: std::filesystem::copy_file loses the reason of a failed write.
+void copy_whole(const std::filesystem::path& from, const std::filesystem::path& to) {
+  InputFile in(from);
+  WholeFile out(to);
+  std::vector<char> block(std::size_t{1} << 16);
+  while (in.read(block.data(), std::ssize(block)), in.gcount() > 0)
+    out.write({block.data(), static_cast<std::size_t>(in.gcount())});
+  out.finish();
+}
+
 /// @throws SpecError that says how the file is made again
 Json parse_summary(const std::filesystem::path& path) {
   try {
@@ -162,15 +184,15 @@ StoredCampaign as_analyzed(StoredCampaign stored) {
 
 void copy_rows(const std::filesystem::path& from, const std::filesystem::path& to) {
   make_folder(to);
-  for (const char* name : {campaign_file, runs_file, statistics_file, broken_runs_file}) {
-    if (!std::filesystem::exists(from / name)) continue;
-    WholeFile whole(to / name);
-    std::error_code why;
-    std::filesystem::copy_file(from / name, whole.part(),
-                               std::filesystem::copy_options::overwrite_existing, why);
-    if (why) refuse_path(to / name, why.value(), "a file that can be written");
-    whole.finish();
-  }
+  for (const char* name : copied_files)
+    if (std::filesystem::exists(from / name)) copy_whole(from / name, to / name);
+}
+
+bool is_copy(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const auto is_alike = [&](const char* name) {
+    return !std::filesystem::exists(to / name) || have_same_bytes(from / name, to / name);
+  };
+  return std::filesystem::exists(to / campaign_file) && std::ranges::all_of(copied_files, is_alike);
 }
 
 bool is_complete(const StoredCampaign& stored, const Results& results) {

@@ -57,6 +57,9 @@ void judge_by(std::vector<Requirement> requirements, StoredCampaign& stored);
 /// @throws MachineError if a file cannot be copied
 void copy_rows(const std::filesystem::path& from, const std::filesystem::path& to);
 
+/// Whether `to` has what an interrupted copy_rows() leaves: the same campaign.json, and no other rows.
+[[nodiscard]] bool is_copy(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Whether no run is missing: the results have all of the folder's runs, or those up to the interim analysis at which
 /// the campaign stops.
 /// @pre the results are the folder's first runs
