@@ -19,6 +19,11 @@ TEST_CASE("merge puts shards together, and says where the files are") {
   CHECK_THAT(refused.error, HasFacts({"runs 10 to 19", "20 runs", "1 command", "--preview",
                                       "\n  wingspread run " + a + "/campaign.json --out " +
                                           folder.path().string() + "/shard_2_of_2 --shard 2/2\n"}));
+  std::filesystem::create_directory(folder.path() / "begun");
+  std::filesystem::copy_file(a + "/campaign.json", folder.path() / "begun/campaign.json");
+  const auto begun = run_program(folder, {"merge", folder.path() / "begun", "--out", out});
+  CHECK_THAT(begun.error, HasFacts({"no runs 0 to 9", "2 commands", "--resume"}));
+  CHECK_THAT(begun.error, !Catch::Contains("--preview")); // of no runs
   const auto onto_itself = run_program(folder, {"merge", a, b, "--out", a});
   CHECK(onto_itself.code == 2);
   CHECK_THAT(onto_itself.error, HasFacts({"--out", a, "which is read", "another folder"}));

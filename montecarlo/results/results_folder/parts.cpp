@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -99,10 +100,15 @@ std::string command_for(const ShardMaker& maker, const Part& sibling, const Shar
   return command(maker, out, shard, std::filesystem::exists(out));
 }
 
+/// The first of so many shards that does not begin before the run.
+Shard first_shard_from(long run, long runs, long of) {
+  return {(run * of + runs - 1) / runs + 1, of};
+}
+
 /// The largest shard that begins with the first of the missing runs and has no others; nothing if none does.
 std::optional<Shard> largest_shard_in(const RunRange& missing, long runs) {
   for (long of = std::max(1L, runs / missing.size()); of <= std::min(runs, most_shards); ++of) {
-    const Shard shard{(missing.first * of + runs - 1) / runs + 1, of};
+    const Shard shard = first_shard_from(missing.first, runs, of);
     const RunRange own = shard_runs(runs, shard);
     if (own.first == missing.first && own.size() > 0 && own.last <= missing.last) return shard;
   }
@@ -119,9 +125,11 @@ void add_commands(const std::vector<Part>& parts, const std::vector<RunRange>& m
   for (const RunRange& missing : missing_ranges) {
     long next = missing.first; // first run that no command makes yet
     for (const auto& [of, sibling] : siblings)
-      for (Shard shard{1, of}; shard.index <= of && next < missing.last; ++shard.index) {
+      for (Shard shard = first_shard_from(next, runs, of); shard.index <= of && next < missing.last;
+           ++shard.index) {
         const RunRange own = shard_runs(runs, shard);
-        if (own.first != next || own.size() == 0 || own.last > missing.last) continue;
+        if (own.first > next) break;
+        if (own.size() == 0 || own.last > missing.last) continue;
         faults.add(command_for(maker, *sibling, shard));
         next = own.last;
       }
@@ -149,17 +157,15 @@ long Part::count() const {
 }
 
 void PartFaults::add(Problem problem) {
-  const auto is_same = [&](const Problem& other) { return to_string(other) == to_string(problem); };
-  if (std::ranges::none_of(problems_, is_same)) problems_.push_back(std::move(problem));
+  if (known_.insert(to_string(problem)).second) problems_.push_back(std::move(problem));
 }
 
 void PartFaults::add(std::string command) {
-  if (std::ranges::find(commands_, command) == commands_.end())
-    commands_.push_back(std::move(command));
+  if (known_.insert(command).second) commands_.push_back(std::move(command));
 }
 
 void PartFaults::refuse() const {
-  if (!commands_.empty()) throw MissingRuns(problems_, commands_);
+  if (!commands_.empty()) throw MissingRuns(problems_, commands_, can_preview_);
   if (!problems_.empty()) throw SpecError(problems_);
 }
 
@@ -221,21 +227,34 @@ void refuse_other_campaigns(const std::vector<Part>& parts, const char* file) {
 }
 
 void find_doubles(const std::vector<Part>& parts, PartFaults& faults) {
+  struct Owned {
+    RunRange runs;
+    std::size_t part;
+  };
+  std::vector<Owned> all;
   for (std::size_t p = 0; p < parts.size(); ++p)
-    for (std::size_t q = 0; q < p; ++q) {
-      RunList twice;
-      for (const RunRange& here : parts[p].present)
-        for (const RunRange& there : parts[q].present) twice.add(common(here, there));
-      if (!twice.empty())
-        faults.add(Problem{
-            parts[p].folder.string(), "",
-            fmt::format("runs {}, which {} has too", twice.text(), parts[q].folder.string()),
-            "each run in one folder: shards of one division, as 1/N to N/N"});
-    }
+    for (const RunRange& runs : parts[p].present) all.push_back({runs, p});
+  std::ranges::stable_sort(all, {}, [](const Owned& each) { return each.runs.first; });
+  std::map<std::pair<std::size_t, std::size_t>, RunList> twice; // the later folder first
+  std::vector<Owned> open;                                      // those that reach the next one
+  for (const Owned& here : all) {
+    std::erase_if(open, [&](const Owned& each) { return each.runs.last <= here.runs.first; });
+    for (const Owned& there : open)
+      twice[std::minmax(here.part, there.part, std::greater{})].add(common(here.runs, there.runs));
+    open.push_back(here);
+  }
+  for (const auto& [both, runs] : twice)
+    faults.add(Problem{
+        parts[both.first].folder.string(), "",
+        fmt::format("runs {}, which {} has too", runs.text(), parts[both.second].folder.string()),
+        "each run in one folder: shards of one division, as 1/N to N/N"});
+  if (!twice.empty()) faults.forbid_preview();
 }
 
 void find_missing(const std::vector<Part>& parts, long runs, const ShardMaker& maker,
                   PartFaults& faults) {
+  if (std::ranges::all_of(parts, [](const Part& part) { return part.present.empty(); }))
+    faults.forbid_preview();
   std::vector<RunRange> present;
   for (const Part& part : parts) {
     present.push_back(part.own);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace wingspread {
@@ -33,14 +34,17 @@ struct Part {
 /// Runs are missing, and the commands that make them are known.
 class MissingRuns : public SpecError {
 public:
-  MissingRuns(std::vector<Problem> problems, std::vector<std::string> commands)
-      : SpecError(std::move(problems)), commands_(std::move(commands)) {}
+  MissingRuns(std::vector<Problem> problems, std::vector<std::string> commands, bool can_preview)
+      : SpecError(std::move(problems)), commands_(std::move(commands)), can_preview_(can_preview) {}
 
   /// A command for each missing or unfinished shard, ready to type; none for runs without a shard.
   [[nodiscard]] const std::vector<std::string>& commands() const { return commands_; }
+  /// Whether the folders have runs, and each of them once.
+  [[nodiscard]] bool can_preview() const { return can_preview_; }
 
 private:
   std::vector<std::string> commands_;
+  bool can_preview_;
 };
 
 /// Collects the reasons why parts cannot be merged.
@@ -49,12 +53,16 @@ public:
   /// A problem that several cases share is listed once.
   void add(Problem problem);
   void add(std::string command);
+  /// Notes that a preview would be refused too.
+  void forbid_preview() { can_preview_ = false; }
   /// @throws MissingRuns if commands would help, else SpecError; does nothing without a problem
   void refuse() const;
 
 private:
   std::vector<Problem> problems_;
   std::vector<std::string> commands_;
+  std::unordered_set<std::string> known_; ///< both, as texts
+  bool can_preview_ = true;
 };
 
 /// The command that makes a shard.

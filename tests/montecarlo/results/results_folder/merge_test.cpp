@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <ctime>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -275,4 +277,54 @@ TEST_CASE("a preview too refuses runs that two folders have, and wants one run")
     return merge_folders({shards.parts[0]}, shards.out, MergeKind::preview);
   })) == "part1: found no runs, expected at least one");
   CHECK_FALSE(std::filesystem::exists(shards.out));
+}
+
+TEST_CASE("a preview is advised only if it can be made") {
+  const Shards shards;
+  const auto can_preview = [&](const std::vector<std::filesystem::path>& folders) {
+    try {
+      (void)merge_folders(folders, shards.out);
+    } catch (const MissingRuns& missing) {
+      return missing.can_preview();
+    }
+    FAIL("runs are missing");
+    return false;
+  };
+  CHECK(can_preview({shards.parts[0]}));
+  CHECK_FALSE(can_preview({shards.parts[0], shards.parts[0]}));
+  std::filesystem::remove(shards.parts[0] / runs_file);
+  CHECK_FALSE(can_preview({shards.parts[0]}));
+  CHECK(can_preview({shards.parts[0], shards.parts[1]}));
+}
+
+TEST_CASE("the commands of very many missing shards take no longer than their number") {
+  constexpr long of = 60'000;
+  const ShardMaker maker{"wingspread run c.json"};
+  const auto commands = [&](const std::vector<Part>& parts) {
+    PartFaults faults;
+    find_doubles(parts, faults);
+    find_missing(parts, 2 * of, maker, faults);
+    try {
+      faults.refuse();
+    } catch (const MissingRuns& missing) {
+      return missing.commands();
+    }
+    return std::vector<std::string>{};
+  };
+  const auto part = [&](long index) {
+    const std::string folder = "no_such/part" + std::to_string(index);
+    Stamp stamp;
+    stamp.shard = Shard{index, of};
+    const RunRange own = shard_runs(2 * of, stamp.shard);
+    return Part{folder, folder, stamp, own, {own}};
+  };
+  const std::clock_t start = std::clock();
+  const std::vector<std::string> but_one = commands({part(7)});
+  REQUIRE(but_one.size() == of - 1);
+  CHECK(but_one[6] == fmt::format("wingspread run c.json --out no_such/part8 --shard 8/{}", of));
+  std::vector<Part> odd;
+  for (long index = 1; index <= of; index += 2) odd.push_back(part(index));
+  CHECK(commands(odd).size() == of / 2);
+  // 0.3 s of processor time; half a minute, if each looked at those before it
+  CHECK(static_cast<double>(std::clock() - start) < 8.0 * CLOCKS_PER_SEC);
 }
