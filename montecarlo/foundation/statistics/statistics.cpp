@@ -13,16 +13,18 @@ namespace wingspread {
 namespace {
 
 /// The mean as shift + rest. Subtracting the shift, one of the values, is exact if the values are close to each other,
-/// so deviations lose no digits.
+/// so deviations lose no digits. The shift is the middle value, of a sorted sample its median: from an end of a long
+/// tail, the subtraction would cost every other value its last digits.
 struct ShiftedMean {
   double shift, rest;
   [[nodiscard]] double deviation(double value) const { return (value - shift) - rest; }
 };
 
 ShiftedMean shifted_mean(std::span<const double> values) {
+  const double shift = values[values.size() / 2];
   Sum sum;
-  for (const double value : values) sum.add(value - values.front());
-  return {values.front(), sum.value() / static_cast<double>(values.size())};
+  for (const double value : values) sum.add(value - shift);
+  return {shift, sum.value() / static_cast<double>(values.size())};
 }
 
 /// Largest |deviation|. Sums of powers of deviations divided by it neither overflow nor vanish.

@@ -43,9 +43,9 @@ struct Moments {
   double kurtosis;
 };
 
-/// Moments of finite values, in two passes about the first value, scaled by the largest deviation. So a standard
-/// deviation of 1 about a mean of 1e9 has all the digits that the values themselves have. Cost O(n). Source: D. N.
-/// Joanes, C. A. Gill, The Statistician 47 (1998) 183–189.
+/// Moments of finite values, in two passes about the middle value (of a sorted sample its median), scaled by the largest
+/// deviation. So a standard deviation of 1 about a mean of 1e9 has all the digits that the values themselves have. Cost
+/// O(n). Source: D. N. Joanes, C. A. Gill, The Statistician 47 (1998) 183–189.
 [[nodiscard]] Moments moments(std::span<const double> values);
 
 /// Sets skewness and kurtosis from central moments m_2 > 0, m_3, m_4 in any one unit. @pre the count is set

@@ -1,6 +1,7 @@
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "tests/montecarlo/sample_support.hpp"
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -15,6 +16,8 @@ using namespace wingspread;
 using namespace wingspread::test;
 
 namespace {
+
+using Quad = boost::multiprecision::cpp_bin_float_quad;
 
 /// NIST's NumAcc: `centre`, then centre − 0.1 and centre + 0.1 alternating, 1001 values.
 std::vector<double> numacc(double centre, double below, double above) {
@@ -57,6 +60,35 @@ TEST_CASE("moments: small noise on a mean of 1e9 costs nothing") {
   CHECK(m.std == within(expected.std, 8 * epsilon));
   CHECK(m.skewness == Approx(expected.skewness).margin(1e-12));
   CHECK(m.kurtosis == within(expected.kurtosis, 1e-12));
+}
+
+// Deviations from the smallest value would leave the mean an error of 2e-12.
+TEST_CASE("moments: a sorted sample and its mirror image have the digits of quad sums") {
+  std::vector<double> values = uniforms(8, 20'001);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = i < 3 ? -1e4 * (1 + values[i]) : i % 2 == 0 ? 1.1 : 1.3;
+  for (const double sign : {1.0, -1.0}) {
+    CAPTURE(sign);
+    std::vector<double> sorted;
+    for (const double value : values) sorted.push_back(sign * value);
+    sort_values(sorted);
+    const auto n = static_cast<Quad>(sorted.size());
+    Quad mean = 0, m2 = 0, m3 = 0, m4 = 0;
+    for (const double value : sorted) mean += value / n;
+    for (const double value : sorted) {
+      const Quad d = value - mean;
+      m2 += d * d / n, m3 += d * d * d / n, m4 += d * d * d * d / n;
+    }
+    const Moments found = moments(sorted);
+    const auto expected = [&](const Quad& value) {
+      return within(static_cast<double>(value), 1e-14);
+    };
+    CHECK(found.mean == expected(mean));
+    CHECK(found.std == expected(sqrt(m2 * n / (n - 1))));
+    CHECK(found.skewness == expected(m3 / (m2 * sqrt(m2)) * sqrt(n * (n - 1)) / (n - 2)));
+    CHECK(found.kurtosis ==
+          expected((n - 1) / ((n - 2) * (n - 3)) * ((n + 1) * (m4 / (m2 * m2) - 3) + 6)));
+  }
 }
 
 // Microsoft's documentation of Excel's SKEW and KURT prints 0.359543 and −0.151799637; the digits
