@@ -1,4 +1,4 @@
-/// The cost of runs, estimated from one nominal run.
+/// The cost of runs, estimated from one nominal run and the draws of a few.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -15,7 +15,7 @@ struct NominalRuns {
   /// One for each nominal wing that does not deploy: "the nominal wing of case cold does not deploy: stalled (…)"; or whose
   /// run was given up.
   std::vector<std::string> notes;
-  double seconds = 0;    ///< of the nominal run of the first case
+  double seconds = 0;    ///< of the nominal run of the first case and of a run's draws
   bool at_least = false; ///< that run was given up: it takes longer
 };
 
@@ -26,7 +26,7 @@ struct NominalRuns {
 [[nodiscard]] NominalRuns try_nominal(const Scene& scene, const Integration& integration);
 
 /// Runs the nominal wing of every case. The cost is that of all runs on this machine's threads, estimated from the
-/// first case: an upper estimate, because runs in packs are cheaper.
+/// first case: an upper estimate, because runs in packs are cheaper. The time of files and statistics is not in it.
 [[nodiscard]] NominalRuns try_nominal(const Campaign& campaign);
 
 } // namespace wingspread

@@ -1,10 +1,13 @@
 #include "montecarlo/engine/runs/run_cost.hpp"
+#include "montecarlo/engine/runs/run_plan.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <omp.h>
 
 using namespace wingspread;
@@ -62,6 +65,31 @@ TEST_CASE("the cost of a campaign names its runs, its threads, and the nominal r
                                                        time_of_runs(tried, 30),
                                                        counted(threads, "thread", "threads"))));
   }
+}
+
+TEST_CASE("the cost of a campaign has the time of its draws") {
+  Json json = quick_campaign(30);
+  for (int i = 0; i < 3000; ++i) // beta laws, whose quantiles take longest
+    json["dispersions"].push_back(
+        {{"name", "d" + std::to_string(i)},
+         {"distribution",
+          {{"type", "beta"}, {"alpha", 2.5}, {"beta", 3.5}, {"lower", 0}, {"upper", 1e-9}}},
+         {"apply", "add"},
+         {"to", {"bodies.panel_1.mass"}}});
+  const Campaign campaign = campaign_of(json);
+  const RunPlan plan(campaign);
+  std::vector<double> draws(campaign.dispersions.size());
+  double shortest = 1e9;
+  for (long run = 0; run < 20; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    plan.draw(run, draws);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    shortest = std::min(shortest, taken.count());
+  }
+  const NominalRuns tried = try_nominal(campaign);
+  CHECK(tried.seconds > 0.8 * shortest);
+  CHECK_THAT(tried.cost, Catch::Contains(", its draws "));
+  CHECK_THAT(try_nominal(campaign_of(quick_campaign(30))).cost, !Catch::Contains("draws"));
 }
 
 TEST_CASE("a nominal wing that does not deploy is said, with its status") {
