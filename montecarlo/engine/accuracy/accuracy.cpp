@@ -189,21 +189,28 @@ Accuracy compare_with_reference(const Campaign& campaign, std::span<const Result
   const ResultNames names = RunPlan(campaign).names();
   std::vector<long> runs;
   std::ranges::transform(rows, std::back_inserter(runs), &ResultRow::run);
-  Accuracy accuracy;
   const long steps = steps_allowed(campaign, runs);
+  const std::size_t first = std::min(runs.size(), probed);
+  Integration best;
+  std::vector<ResultRow> made; // by the best reference
+  long finished = -1;          // of them
   for (Integration reference : references_of(campaign.integration)) {
     reference.max_steps = steps;
-    const std::size_t first = std::min(runs.size(), probed);
-    std::vector<ResultRow> made =
+    std::vector<ResultRow> probe =
         repeat_runs(campaign, reference, std::span(runs).first(first), pool);
-    if (made.front().status == Status::failed) continue;
-    std::ranges::move(repeat_runs(campaign, reference, std::span(runs).subspan(first), pool),
-                      std::back_inserter(made));
-    accuracy = compare_rows(names, rows, made, campaign.integration);
-    accuracy.reference_method = reference.method;
-    accuracy.reference_rtol = reference.rtol;
-    break;
+    const bool finishes_first = probe.front().status != Status::failed;
+    const long count =
+        std::ssize(probe) - std::ranges::count(probe, Status::failed, &ResultRow::status);
+    if (finishes_first || count > finished)
+      best = reference, made = std::move(probe), finished = count;
+    if (finishes_first) break;
   }
+  if (finished > 0)
+    std::ranges::move(repeat_runs(campaign, best, std::span(runs).subspan(first), pool),
+                      std::back_inserter(made));
+  Accuracy accuracy = compare_rows(names, rows.first(made.size()), made, campaign.integration);
+  accuracy.reference_method = best.method;
+  accuracy.reference_rtol = best.rtol;
   accuracy.method = campaign.integration.method;
   accuracy.rtol = campaign.integration.rtol;
   return accuracy;
@@ -228,7 +235,7 @@ std::optional<Accuracy> measure_accuracy(const Campaign& campaign, const Results
   Accuracy accuracy = compare_with_reference(campaign, rows, pool);
   accuracy.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  return accuracy.runs > 0 ? std::optional(std::move(accuracy)) : std::nullopt;
+  return accuracy;
 }
 
 } // namespace wingspread

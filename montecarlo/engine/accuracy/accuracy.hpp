@@ -79,10 +79,10 @@ inline constexpr double moved_share = 0.01;
                                                  std::span<const long> runs,
                                                  const ThreadPool& pool);
 
-/// Compares rows with the first usable reference. A reference is unusable if it cannot finish the first of the runs
-/// within 100 times the steps of the campaign's method (at least 20,000 steps).
+/// Compares rows with the first reference that can finish the first of the runs within 100 times the steps of the
+/// campaign's method (at least 20,000 steps). If none can: with the one that finishes the most of the first 16 runs.
 /// @param rows of the campaign, at its own integration; at least one, in the order of runs
-/// @return `runs` is 0 if no reference is usable
+/// @return if no reference finishes any of these 16: `runs` is 0, and they are `unreached`
 [[nodiscard]] Accuracy compare_with_reference(const Campaign& campaign,
                                               std::span<const ResultRow> rows,
                                               const ThreadPool& pool);
@@ -92,7 +92,7 @@ inline constexpr double moved_share = 0.01;
 /// most 3 % of all runs have one (95 % confidence); with 10 repeated runs at most 26 %.
 [[nodiscard]] std::size_t count_repeated(const Campaign& campaign, std::size_t runs);
 
-/// The accuracy of these results. Nothing if the campaign wants none, or no run could be repeated. Cost: a repeated run
+/// The accuracy of these results. Nothing if the campaign wants none, or has no run to repeat. Cost: a repeated run
 /// takes several times as long as the run itself; README.md has the measured share of a campaign's time.
 /// @pre the results were computed with the campaign's own integration
 [[nodiscard]] std::optional<Accuracy>

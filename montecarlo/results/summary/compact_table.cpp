@@ -174,14 +174,15 @@ std::string in_two_digits(double error) {
 /// The largest errors of the integration. An output that does not vary, or of a single run or replicate, has no
 /// standard error: its error is compared with its value.
 struct LargestErrors {
-  double of_standard_error =
-      undefined;               ///< over the standard error of the mean; NaN if no output has one
+  /// Over the standard error of the mean; NaN if no output has one, infinite if no run could be repeated.
+  double of_standard_error = undefined;
   double of_value = undefined; ///< over |mean|, of outputs without one; NaN if there are none
   std::string of_zero;         ///< "1e-12 rad of base.peak_angle", an output that is 0; or empty
 };
 
 LargestErrors largest_errors(const Summary& summary) {
   LargestErrors found;
+  if (summary.accuracy->runs == 0) found.of_standard_error = HUGE_VAL;
   for (std::size_t i = 0; i < summary.accuracy->outputs.size(); ++i) {
     const auto& [name, runs, error, rms] = summary.accuracy->outputs[i];
     const double sampling = summary.outputs[i].mean_error;
@@ -247,8 +248,8 @@ std::string accuracy_lines(const Summary& summary) {
 /// The largest error, and the runs that it does not hold for.
 std::string accuracy_line(const Summary& summary) {
   const Accuracy& found = *summary.accuracy;
-  std::string line =
-      fmt::format("integration errors {} {}", errors_text(summary), errors_where(summary));
+  if (found.runs == 0) return fmt::format("unknown: 0 of {} repeated runs ended", found.unreached);
+  std::string line = "integration errors " + errors_text(summary) + ' ' + errors_where(summary);
   const auto add = [&](std::size_t runs, const char* one, const char* many) {
     if (runs > 0)
       line += fmt::format("; {} of {} repeated {}", runs, found.runs, runs == 1 ? one : many);
@@ -280,12 +281,10 @@ std::string accuracy_note(const Summary& summary) {
     return percent_at_most(share_at_most(found, runs, summary.confidence_of_bound()), 2);
   };
   std::string note = fmt::format(
-      "{} of {}, drawn at random, repeated by {} at rtol {:g} (campaign: {} at {:g}); ratio "
-      "is "
-      "RMS error to standard error of the mean. At most {} of all runs have an error beyond the "
+      "{} of {}, drawn at random, repeated by {} at rtol {:g} (campaign: {} at {:g}); ratio is RMS "
+      "error to standard error of the mean. At most {} of all runs have an error beyond the "
       "largest, and at most {} an output that moves by more than 1 % ({:g} % confidence). Runs "
-      "that "
-      "move so: {}. Runs whose status or latch order differs: {}.",
+      "that move so: {}. Runs whose status or latch order differs: {}.",
       found.runs, counted(summary.runs, "run", "runs"), found.reference_method,
       found.reference_rtol, found.method, found.rtol, at_most(0), at_most(found.moved.size()),
       100 * summary.confidence,
@@ -300,7 +299,8 @@ std::string accuracy_note(const Summary& summary) {
 
 std::string accuracy_text(const Summary& summary, bool all) {
   if (!summary.accuracy) return "";
-  if (!all) return "\nACCURACY  " + wrapped(accuracy_line(summary), 10) + '\n';
+  const bool in_full = all && summary.accuracy->runs > 0;
+  if (!in_full) return "\nACCURACY  " + wrapped(accuracy_line(summary), 10) + '\n';
   return fmt::format("\n{:<38}{:<6}{:>14}{:>14}{:>18}{:>10}\n", "ACCURACY of the integration",
                      "unit", "largest error", "RMS error", "std error of mean", "ratio") +
          accuracy_lines(summary) + "  " + wrapped(accuracy_note(summary), 2) + '\n';

@@ -7,7 +7,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 using namespace wingspread;
@@ -277,6 +279,36 @@ TEST_CASE("the first and the middle run decide how many steps a reference may ta
     CHECK(found.reference_method == "dopri5");
     CHECK(found.unreached == 1);
   }
+}
+
+TEST_CASE("a run that no reference finishes does not hide the errors of the others", "[accuracy]") {
+  Json json = quick_campaign(40);
+  json["dispersions"] = Json::array(
+      {{{"name", "latch"},
+        {"distribution", {{"type", "discrete"}, {"values", {1e4, 1e300}}, {"weights", {1, 1}}}},
+        {"apply", "set"},
+        {"to", {"hinges.root.latch.stiffness"}}}});
+  const Campaign campaign = campaign_of(json);
+  const RunPlan plan(campaign);
+  std::vector<ResultRow> usable, hopeless;
+  for (long run = 0; run < 40; ++run) {
+    ResultRow row = Runner(plan).run(run);
+    (row.status == Status::failed ? hopeless : usable).push_back(std::move(row));
+  }
+  REQUIRE((usable.size() > 9 && hopeless.size() > 9));
+  const auto first_hopeless = std::ranges::find_if(
+      hopeless, [&](const ResultRow& row) { return row.run < usable.back().run; });
+  REQUIRE(first_hopeless != hopeless.end());
+  std::vector<ResultRow> rows{*first_hopeless};
+  std::ranges::copy_if(usable, std::back_inserter(rows),
+                       [&](const ResultRow& row) { return row.run > rows.front().run; });
+  const Accuracy found = compare_with_reference(campaign, rows, {.threads = 1});
+  CHECK(found.reference_method == "dopri5");
+  CHECK(found.unreached == 1);
+  CHECK(found.runs == std::ssize(rows) - 1);
+  const Accuracy none_finished = compare_with_reference(campaign, hopeless, {.threads = 1});
+  CHECK(none_finished.runs == 0);
+  CHECK(none_finished.unreached == std::min<long>(16, std::ssize(hopeless)));
 }
 
 TEST_CASE("there is no accuracy where none is wanted, or nothing to be made again", "[accuracy]") {

@@ -168,3 +168,15 @@ TEST_CASE("runs without a value are said to rank once, with the outputs of each 
     CHECK((said.find("below every value in o1") != std::string::npos) == (ends.size() == 3));
   }
 }
+
+TEST_CASE("an integration error that no reference could measure is said to be unknown") {
+  std::vector<CaseSummary> cases{compact_case("hot", 0), compact_case("cold", 0)};
+  for (CaseSummary& each : cases) each.summary.accuracy.emplace().runs = 10;
+  Accuracy& unknown = cases[1].summary.accuracy.emplace();
+  unknown.unreached = 3;
+  for (const bool all : {true, false})
+    CHECK_THAT(accuracy_text(cases[1].summary, all),
+               Catch::Contains("ACCURACY  unknown") && Catch::Contains("0 of 3 repeated runs"));
+  CHECK_THAT(compact_cases_table(cases, "title", "out"),
+             Catch::Contains("\nACCURACY  cold: unknown"));
+}
