@@ -24,7 +24,7 @@
 
 namespace wingspread {
 
-/// The stratum of point i, a permutation of 0 … n − 1. @throws std::out_of_range unless i < n
+/// The stratum of point i, a permutation of 0 … n − 1. @pre i < n
 /// Cost: 17 Philox blocks, and rarely more; some 0.3 µs.
 [[nodiscard]] std::uint64_t latin_stratum(std::uint64_t i, std::uint64_t n,
                                           const ReplicateStream& stream);

@@ -62,12 +62,6 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a Latin hypercube has no points but its own") {
-  for (const std::uint64_t n : {0u, 1u, 7u, 100u})
-    for (const std::uint64_t beyond : {0u, 1u, 900u})
-      CHECK_THROWS_AS(latin_coordinate(n + beyond, n, stream(1)), std::out_of_range);
-}
-
 // All permutations of five strata, one as often as another.
 TEST_CASE("every permutation is as likely as any other") {
   std::map<std::vector<std::uint64_t>, int> counts;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace wingspread {
@@ -78,6 +79,9 @@ RunPlan::RunPlan(const Campaign& campaign, UnitPoints points, SampledColumns sam
 
 void RunPlan::draw(long k, std::span<double> draws) const {
   const std::size_t count = draws.size();
+  const Sampling& sampling = campaign_->sampling;
+  if (!points_ && sampling.design == DesignKind::latin_hypercube && k >= sampling.runs)
+    throw std::out_of_range("a Latin hypercube has no such run");
   if (!points_ && !has_rows_ &&
       copula_.is_independent()) { // most campaigns: needs no memory allocation
     for (std::size_t i = 0; i < count; ++i)

@@ -66,7 +66,7 @@ public:
   /// The goal of every run: which results `core` computes.
   [[nodiscard]] const Goal& goal() const { return goal_; }
 
-  /// The draws of run k. Pure.
+  /// The draws of run k. Pure. @throws std::out_of_range where a Latin hypercube has fewer runs
   /// @param draws output, one per dispersion in order
   void draw(long k, std::span<double> draws) const;
 

@@ -46,6 +46,22 @@ TEST_CASE("every design draws by the dispersions' names, not by their places") {
 }
 
 // 1 − 1e-20 is 1 in any double: what is drawn so far out is known by its upper tail alone.
+TEST_CASE("of a Latin hypercube no run is drawn beyond its last") {
+  for (const long runs : {1L, 7L, 100L})
+    for (const char* design : {"latin_hypercube", "sobol", "random"}) {
+      Json json = quick_campaign(runs);
+      json["sampling"]["design"] = design;
+      const Campaign campaign = campaign_of(json);
+      const RunPlan plan(campaign);
+      std::vector<double> draws(4);
+      plan.draw(runs - 1, draws);
+      if (campaign.sampling.design == DesignKind::latin_hypercube)
+        CHECK_THROWS_AS(plan.draw(runs, draws), std::out_of_range);
+      else
+        CHECK_NOTHROW(plan.draw(runs, draws));
+    }
+}
+
 TEST_CASE("a point that is given by both of its tails is drawn by the smaller one") {
   Json json = quick_campaign(1);
   json["dispersions"].erase(1);
