@@ -47,7 +47,7 @@ TEST_CASE("every design draws by the dispersions' names, not by their places") {
 
 // 1 − 1e-20 is 1 in any double: what is drawn so far out is known by its upper tail alone.
 TEST_CASE("of a Latin hypercube no run is drawn beyond its last") {
-  for (const long runs : {1L, 7L, 100L})
+  for (const int runs : {1, 7, 100})
     for (const char* design : {"latin_hypercube", "sobol", "random"}) {
       Json json = quick_campaign(runs);
       json["sampling"]["design"] = design;
