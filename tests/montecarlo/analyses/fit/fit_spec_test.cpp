@@ -25,7 +25,7 @@ Json tests_json() {
     "fit": { "parameters": ["spring", "friction"], "starts": 4, "samples": 500 } })");
 }
 
-constexpr const char* trace = "t,th,w [deg/s]\n0,86,0\n0.1,85.5,-1\n0.2,84,-2\n";
+constexpr const char* trace = "t,th,w [deg/s]\n0,86,0\n0.1,85.5,-1\n0.2,84,-2\n0.3,82,-3\n";
 
 struct Files {
   explicit Files(const std::string& text = trace) {
@@ -65,7 +65,7 @@ TEST_CASE("tests: case, changes, traces in SI, values, own parameters") {
   CHECK(test.campaign.scene.hinges[0].initial_rate == Approx(10 * degree));
   CHECK(test.campaign.cases.empty());
   CHECK(test.campaign.outputs.contains(OutputFamily::latch_time));
-  CHECK(test.times == std::vector<double>{0, 0.1, 0.2});
+  CHECK(test.times == std::vector<double>{0, 0.1, 0.2, 0.3});
   CHECK((test.time_offset_std == Approx(0.005) && !test.correlated));
   REQUIRE(test.columns.size() == 2);
   CHECK(test.columns[0].measured[1] == Approx(85.5 * degree));
@@ -159,19 +159,20 @@ TEST_CASE("fewer samples than unknowns are enough where the noise is known") {
                  "columns": { "root.angle": { "column": "angle", "std": 0.1 } } },
       "values": [ { "output": "root.latch_time", "value": 2, "std": 0.1 } ] } ],
     "fit": { "parameters": ["spring", "friction"] } })");
-  Json& trace = tests["tests"][0]["trace"];
-  Json& column = trace["columns"]["root.angle"];
+  const auto of_trace = [&]() -> Json& { return tests["tests"][0]["trace"]; };
+  const auto column = [&]() -> Json& { return of_trace()["columns"]["root.angle"]; };
   const auto refused = [&](const char* what) {
     return files.problems(tests).starts_with(
         std::string("tests.json: /tests/0/trace/columns/root.angle: found ") + what);
   };
-  trace["time_offset_std"] = 0.02, column["offset_std"] = 0.01;
+  of_trace()["time_offset_std"] = 0.02;
+  column()["offset_std"] = 0.01;
   CHECK(files.problems(tests) == "");
-  column.erase("std"); // the test's own friction replaces that of all tests
+  column().erase("std"); // the test's own friction replaces that of all tests
   CHECK(refused("3 samples for 4 unknowns"));
-  column.erase("offset_std");
+  column().erase("offset_std");
   CHECK(refused("3 samples for 3 unknowns"));
-  trace.erase("time_offset_std");
+  of_trace().erase("time_offset_std");
   CHECK(files.problems(tests) == "");
 }
 
