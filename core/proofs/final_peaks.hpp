@@ -92,8 +92,8 @@ template <class T>
 /// times as much as they do. Heuristic: the first two refusals do not lead to it, because the cheaper bounds often
 /// prove the peaks at the third attempt. If its bounds exceed a peak by the factor r, it is asked for again when the
 /// energy has fallen to 1/r: loads fall no faster than the energy. It is also asked for when the number of refusals has
-/// doubled, because loads may fall while the energy stays. A run may end some attempts late; of the outputs only
-/// `peaks_final` depends on that.
+/// doubled, because loads may fall while the energy stays. A run may end some attempts late. At its end nothing is left to
+/// wait for, and every attempt asks for the box.
 template <class T> class ThoroughAttempts {
 public:
   /// Counts an attempt that the cheaper bounds refused. @return whether to ask for the energy's box
@@ -113,6 +113,7 @@ public:
 
   /// The run ends here: there is no later attempt to wait for.
   void end() { is_last_ = true; }
+  [[nodiscard]] bool is_last() const { return is_last_; }
 
 private:
   bool is_last_ = false;
@@ -160,8 +161,8 @@ public:
     bool is_proven = false;
     // The linear model alone refuses most attempts, and costs less than the energy. Heuristic: the energy is then not
     // asked either. Its bounds ignore damping and are as a rule wider; where they are not, the run ends some attempts
-    // later.
-    if (linear_loads_are_below(seen, start)) {
+    // later; at the last attempt there is no later.
+    if (thorough_.is_last() || linear_loads_are_below(seen, start)) {
       const std::optional<EnergyLeft<T>> energy = remaining_.energy(system, x, t);
       is_proven = prove_by_modes(system, x, t, t_end, start, energy, seen);
     }

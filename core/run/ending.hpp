@@ -19,8 +19,8 @@
 /// The proofs are in the room proofs/ (standstill.hpp in events/); final_peaks.hpp calls modal_bounds.hpp and
 /// energy_bounds.hpp. They are functions of the state. `Ending` remembers the results, and proof_schedule.hpp says at
 /// which steps an attempt is worth its cost. Whether a run ends some steps earlier or later changes no output but two:
-/// the reason of a stall (missing energy, and since when), and `peaks_final` where t_end comes before a due attempt
-/// (ThoroughAttempts in final_peaks.hpp).
+/// the reason of a stall (missing energy, and since when), and `peaks_final` by the rates for which dampers were last
+/// made linear.
 #pragma once
 
 #include "core/events/events.hpp"
@@ -177,7 +177,7 @@ private:
     schedule_.restart(sought());
   }
 
-  /// Keeps the time since which every hinge sticks, none is held any more, and no load changes.
+  /// Keeps the time since which every hinge sticks under constant loads, and no hold may let go.
   void watch_standstill() {
     if (!is_stuck())
       standstill_.reset();

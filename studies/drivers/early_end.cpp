@@ -193,7 +193,8 @@ long study_all(const study::StudyOptions& options) {
 int main(int count, char** arguments) {
   long faults = 0;
   const int status = study::run_study(
-      count, arguments, "early_end", "What an early end of runs saves, and whether it loses a peak",
+      count, arguments, "early_end",
+      "What an early end of runs saves, and whether it loses a result",
       [&](const study::StudyOptions& options) { faults = study_all(options); },
       "Campaigns in place of the study's own");
   return status != 0 ? status : faults > 0 ? 1 : 0;

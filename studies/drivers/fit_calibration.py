@@ -158,7 +158,8 @@ def check_origin(path, made_by):
     """Ends the driver if the rows of a file were made otherwise; beside a new file, writes how its rows are made."""
     origin = path.with_suffix(".json")
     if path.exists() and not (origin.exists() and json.loads(origin.read_text(encoding="utf-8")) == made_by):
-        sys.exit(f"{path}: found rows of another program, seed, sample size or case, expected those of {origin.name}: move both files away")
+        found = "another program, seed, sample size or case" if origin.exists() else f"unknown origin, without {origin.name}"
+        sys.exit(f"{path}: found rows of {found}: move the file away, and {origin.name} if it is there")
     origin.write_text(json.dumps(made_by, indent=1), encoding="utf-8")
 
 

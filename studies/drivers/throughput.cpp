@@ -213,7 +213,10 @@ private:
         });
         if (!here || !there) {
           fmt::print("  {:<24}{:>9.0e}   no tolerance of {} brings all errors below it\n",
-                     what.name, level, here ? "odeint" : "ours");
+                     what.name, level,
+                     here    ? "odeint"
+                     : there ? "ours"
+                             : "either");
           continue;
         }
         const double rtol = *here, their_rtol = *there;

@@ -60,7 +60,7 @@ def draw_output(axes, rows):
     mark(axes, known, [row["guaranteed"] for row in known])
     axes.axhline(limit, color=LIMIT, linewidth=1, linestyle="--")
     axes.margins(y=0.15)
-    axes.set_ylabel(f"{output}, {unit(output)}", fontsize=9)
+    axes.set_ylabel(", ".join(filter(None, (output, unit(output)))), fontsize=9)
     missing = [row["scale"] for row in rows if row not in known]
     if missing:  # so many runs did not deploy that no value is guaranteed
         axes.plot(missing, [0.04] * len(missing), transform=axes.get_xaxis_transform(), linestyle="",

@@ -239,11 +239,11 @@ class ChangeChecks:
             ...(arguments[0][at] === null ? [] : [{ path: "hinges.root.latch.damping", label: "damping", value: arguments[0][at], unit: "", case_value: at ? null : 50 }])]); W.inputs()""", nominals, same),
             self.table("Changes of the nominal scene by case"))[1]
         self.assertEqual(shown(100, 500, 100), [["damping", "", "by folder", "50", "500", "100"]])
-        self.assertEqual(shown(100, None, 100), [["damping", "", "by folder", "50", "0", "100"]])
+        self.assertEqual(shown(100, None, 100), [["damping", "", "by folder", "50", "0 or none", "100"]])
         self.assertEqual(shown(100, None, 100, same="bodies.root.mass"), [["damping", "", "by folder", "50", "–", "100"]])  # no such hinge
         differing = lambda path: (self.run_script("""W.sets[1].inputs.scene = [{ path: "bodies.yoke.mass", label: "yoke mass", value: 10, unit: "kg", case_value: null }]; W.sets[0].inputs.scene = [{ ...W.sets[1].inputs.scene[0], path: arguments[0], label: "other", value: 2 }];
             document.body.append(W.h("div.own", W.designs([{ sets: [0, 1] }])))""", path), dict((row[0], row[2:4]) for row in self.run_script("const own = document.querySelector('.own'), rows = [...[...own.querySelectorAll('table')].pop().tBodies[0].rows].map(row => [...row.cells].map(cell => cell.textContent)); own.remove(); return rows")))[1]
-        self.assertEqual(differing("bodies.yoke.inertia")["yoke mass"], ["0", "10"])
+        self.assertEqual(differing("bodies.yoke.inertia")["yoke mass"], ["0 or none", "10"])
         self.assertEqual(differing("bodies.panel.mass")["yoke mass"], ["–", "10"])
         self.assertEqual(shown(0, None, 0), [["damping", "", "0", "50", "as nominal", "as nominal"]])
 

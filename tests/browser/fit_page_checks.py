@@ -214,7 +214,7 @@ class FitPageChecks:
         self.assertEqual(self.heads(caption), ["Input", "Unit", "old", "new", "Change"])
         self.assertEqual(self.table(caption), [
             ["latch peak torque: a, b", "N·m", "250", "260", "+4.00 %"], ["hinges c latch peak_torque", "N·m", "250", "200", "−20.0 %"], ["bodies yoke mass", "kg", "5", "4.5", "−10.0 %"], ["hinges a end", "N·m", "−2", "−1", "+50.0 %"],
-            ["hinges a gone", "s", "3", "0", ""], ["hinges b new", "rad", "0", "7", ""], ["dispersion k", "", "normal, scale", "uniform, scale", ""], ["dispersion n", "", "normal", "–", ""],
+            ["hinges a gone", "s", "3", "0 or none", ""], ["hinges b new", "rad", "0 or none", "7", ""], ["dispersion k", "", "normal, scale", "uniform, scale", ""], ["dispersion n", "", "normal", "–", ""],
             ["dispersion o", "", "–", "normal", ""], ["method", "", "auto", "dop853", ""]])
         self.run_script("W.sets[1].inputs = W.sets[0].inputs; W.comparison()")
         self.assertIn("No listed input of new differs from old. Their campaigns' hashes differ: compare their files campaign.json.", self.one("#comparison").text)

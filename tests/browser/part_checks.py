@@ -26,7 +26,7 @@ TABLES = {  # by kind of page: the heads below each caption
 ORDERS = "root › mid › tip|mid › root › tip|root › tip › mid|mid › tip › root|tip › root › mid|tip › mid › root"
 PICTURES = {  # of the page "plain" in degrees, by class: titles of the axes, legend, exported columns, and the tags of the legend's samples
     "histogram": ("root peak moment (N·m)|runs in each bin", ORDERS, "from N·m|to N·m|runs|" + ORDERS, "rect"),
-    "distribution": ("root peak moment (N·m)|share of the runs at or below", "runs|confidence band|quantiles with bounds", "case|value N·m|share at or below|lower|upper", "line rect path"),
+    "distribution": ("root peak moment (N·m)|share of the runs at or below", "runs|confidence band|quantiles with bounds", "folder|value N·m|share at or below|lower|upper", "line rect path"),
     "history": ("time (s)|moment (N·m)", "root|mid|tip", "time s|root N·m|mid N·m|tip N·m", "line"), "stage": ("", "", "time s|root deg|mid deg|tip deg", ""), "strobe": ("", "", "time s|root deg|mid deg|tip deg", ""),
     "still": ("", "", "hinge|angle deg", ""), "strips": ("latch time (s)", "", "hinge|latch times s", ""),
     "envelopes": ("root angle (deg)|root rate (deg/s)|mid angle (deg)|mid rate (deg/s)|tip angle (deg)|tip rate (deg/s)", "1 % – 99 %|5 % – 95 %|25 % – 75 %|median",

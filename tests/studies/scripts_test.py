@@ -149,6 +149,11 @@ class Drivers(InFolder):
             self.assertIn("exit code -9", self.run_driver("memory", "--quick", "--program", self.killed(), "--out", out)[2])
             self.assertEqual({path.name for path in out.iterdir()}, {"made_by", "campaign.json"})
             (out / "rest").mkdir()
+        link = self.folder / "link"
+        (self.folder / "empty").mkdir()
+        link.symlink_to(self.folder / "empty")
+        self.assertIn("exit code -9", self.run_driver("memory", "--quick", "--program", self.killed(), "--out", link)[2])
+        self.assertTrue((link / "made_by").is_file())
 
     def test_end_where_a_program_is_killed(self):
         for driver, words in (("same_bytes", ["--campaigns", "seed", "--"]), ("paired_programs", ["--quick"])):

@@ -29,7 +29,9 @@ struct FirstRuns {
 
 /// Runs of the campaign's laws; a design has all of them, however many runs the campaign has.
 FirstRuns first_runs(Campaign campaign, ThreadPool pool, const std::atomic<bool>& stop) {
-  campaign.sampling.runs = predicted_runs;
+  campaign.sampling.replicates =
+      std::min(campaign.sampling.replicates, std::int64_t{predicted_runs});
+  override_sampling(campaign, predicted_runs, std::nullopt);
   const RunPlan plan(campaign);
   const std::vector<std::string>& names = plan.names().outputs;
   FirstRuns first{std::vector<OutputOfRuns>(names.size())};

@@ -359,7 +359,8 @@ private:
   bool correlated_ = true;
 };
 
-/// Refuses a column of unknown noise that the unknowns which act on its test can fit exactly: the noise would be 0.
+/// Refuses a column of unknown noise with no more samples than there are unknowns: they might fit it exactly, and the noise
+/// would be 0. Counts every fitted parameter, whether it acts on the test or not.
 void refuse_few_samples(const FitSpec& spec, const std::string& file,
                         std::vector<Problem>& problems) {
   for (std::size_t t = 0; t < spec.tests.size(); ++t) {

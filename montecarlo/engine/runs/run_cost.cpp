@@ -105,10 +105,10 @@ NominalRuns try_nominal(const Campaign& campaign) {
   const double draws = seconds_of_draws(cases.front());
   tried.seconds = cost.seconds + draws, tried.at_least = cost.at_least;
   const bool counts = draws > cost.seconds / 10;
-  tried.cost =
-      fmt::format("{}{}; {}{}: {} on {}, less in packs", nominal_text(cost),
-                  counts ? ", its draws " + duration(draws) : "", counted(runs, "run", "runs"),
-                  of_cases, time_of_runs(tried, runs), counted(threads, "thread", "threads"));
+  tried.cost = fmt::format("{}{}; {}{}: {} on {}, less in packs", nominal_text(cost),
+                           counts ? "; the draws of a run take " + duration(draws) : "",
+                           counted(runs, "run", "runs"), of_cases, time_of_runs(tried, runs),
+                           counted(threads, "thread", "threads"));
   return tried;
 }
 

@@ -121,8 +121,8 @@ away from their latch, bodies in the same place, laws that change a sign, and th
 campaign it prints the static margins by each standard: of every case, or of the one in --case.
 
 It also prints where each body is, the masses, and what the runs of `run` and `margin` will cost,
-estimated from one nominal run and its draws; files and statistics take more time. A note on
-standard error names each case whose nominal wing does not deploy, and why.
+estimated from one nominal run and the draws of up to eight; files and statistics add to it.
+A note on standard error names each case whose nominal wing does not deploy, and why.
 --draw writes a picture for a browser: bodies, hinge axes, the sense in which each spring turns its
 hinge, and names. Look at the wing before you run it.
 

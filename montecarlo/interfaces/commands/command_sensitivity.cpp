@@ -59,13 +59,17 @@ std::string title_of(const Campaign& campaign) {
   return campaign.scene.name + (campaign.of_case.empty() ? "" : " · " + campaign.of_case);
 }
 
-/// Locks the folder that is analyzed and the one that is written: --out, new or empty; without --out the same folder.
+/// Locks the folder that is analyzed and the one that is written: --out, new, empty or left by this command's interruption;
+/// without --out the same folder.
 class AnalysisFolders {
 public:
   explicit AnalysisFolders(const SensitivityOptions& options)
       : to_(options.out.empty() ? options.from : options.out) {
     const bool elsewhere = !options.out.empty();
-    const bool interrupted = std::filesystem::exists(options.out / sensitivity_json_file) &&
+    std::error_code none; // of a path that is not there
+    const bool interrupted = elsewhere &&
+                             !std::filesystem::equivalent(options.from, options.out, none) &&
+                             std::filesystem::exists(options.out / sensitivity_json_file) &&
                              !std::filesystem::exists(options.out / sensitivity_csv_file);
     if (elsewhere && !interrupted) refuse_used_folder(options.out, "a new or an empty folder");
     from_.emplace(options.from, elsewhere ? FolderLock::For::reading : FolderLock::For::writing,
@@ -87,7 +91,7 @@ void show_analysis(const Sensitivity& all, const Json& about, const std::string&
   if (!folder.empty()) {
     const bool elsewhere = std::filesystem::is_directory(options.from) && folder != options.from;
     if (elsewhere && read_text(folder / sensitivity_json_file).value_or(text) != text)
-      refuse_used_folder(folder, "a new or an empty folder"); // not this command's, interrupted
+      refuse_used_folder(folder, "a new or an empty folder"); // the file is of another analysis
     write_file(folder / sensitivity_json_file, text);
     write_file(folder / sensitivity_csv_file, sensitivity_csv(all));
   }
@@ -287,8 +291,9 @@ void add_sensitivity_options(CLI::App& command, SensitivityOptions& options) {
   within(command.add_option("--resamples", options.resamples, "Bootstrap resamples; default: 1000"),
          20, 1'000'000)
       ->type_name("N");
-  command.add_option("--out", options.out,
-                     "A new folder: for a campaign's runs, or for the tables of a folder");
+  command.add_option(
+      "--out", options.out,
+      "A new folder (or an interrupted one): for a campaign's runs, or for the tables of a folder");
   command.add_flag("--resume", options.resume, "Continue an interrupted study in --out");
   add_shard_option(command, options.shard,
                    "Make only part I of N of the design's runs, e.g. 2/5; needs --out");

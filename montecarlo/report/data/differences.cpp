@@ -140,7 +140,7 @@ std::string why_unpaired(const Sides& sides) {
   if (sides.paired) return "";
   if (!sides.first.has_rows() || !sides.second.has_rows()) return "rows were not kept";
   return have_same_draws(sides.first, sides.second) ? "the sets have no run in common"
-                                                    : "the sets have different random numbers";
+                                                    : "their seeds, designs or dispersions differ";
 }
 
 /// Says in words which runs are compared.

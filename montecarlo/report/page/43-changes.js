@@ -193,7 +193,7 @@
     ];
   }
   // The adjusted coefficient of determination is below 0 where the fit is no better than the mean.
-  const explained = (block) => (block.explained >= 0.005 ? F.share(block.explained, 0) : "nothing");
+  const explained = ({ explained: share }) => (share >= 0.005 || !W.isNumber(share) ? F.share(share, 0) : "nothing");
   // Why there is no estimate.
   function unknown(one, set, block, limited) {
     const all = (set.inputs || {}).dispersions || [],

@@ -241,7 +241,7 @@
       description: () =>
         `The share of ${partly.length ? "the runs with a value" : "runs"} at or below each value, with its confidence band. ${quantiles.map(text).join("; ")}.`,
       table: () => ({
-        columns: ["case", `value ${unit}`, "share at or below", "lower", "upper"],
+        columns: [W.kindOfSets(), `value ${unit}`, "share at or below", "lower", "upper"],
         rows: cases.flatMap(({ set: one, output: { curve } }) =>
           curve.x.map((value, at) => [one.label, value * factor, curve.p[at], curve.lower[at], curve.upper[at]]),
         ),

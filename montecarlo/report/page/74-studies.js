@@ -264,9 +264,10 @@
       several = (rare.levels || []).length > 1,
       likeliest = rare.likeliest && rare.likeliest.draws,
       strata = rare.strata || [];
-    // The mean stands at the threshold that every repeat has reached. Strata add up to more than their first one's mean.
+    // The mean stands at the threshold that every repeat has reached. With strata the estimate is a sum over them, and the
+    // repeats are those of the first alone.
     const end = drawn.length ? repeats[0][repeats[0].length - 1].threshold : null,
-      mean = several && rare.reached && !strata.length && repeats.every((levels) => levels[levels.length - 1].threshold === end);
+      mean = several && repeats.length === rare.levels.length && rare.reached && !strata.length && repeats.every((levels) => levels[levels.length - 1].threshold === end);
     const figure =
       d3.max(repeats, (levels) => levels.length) > 1
         ? W.figure({

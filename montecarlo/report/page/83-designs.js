@@ -4,21 +4,24 @@
   const W = window.wingspread;
   const { h, number, format: F } = W;
 
-  const textOf = (value) =>
-    typeof value === "number" ? F.given(value) : value === null || value === undefined ? F.none : String(value);
+  const OWNED = /^(hinges|bodies|synchronisations)\b/; // parameters with an owner's name
+  // The value of an input.
+  const textOf = (W.inputText = (value) =>
+    typeof value === "number" ? F.given(value) : value === null || value === undefined ? F.none : String(value));
   const knots = (table) => table.at.map((x, k) => `${F.given(x)}: ${F.given(table.value[k])}`).join(" · ");
 
-  // A parameter that the list of a scene lacks: the list has no zeros, and none of a hinge or body that the wing lacks.
+  // The value of a parameter that the list of a scene lacks. The list has neither zeros nor parameters that the wing lacks;
+  // where nothing of a hinge, body or loop is listed, the wing lacks it.
   W.unlisted = function (set, path) {
     const [kind, owner] = path.split("."),
       all = (set.inputs || {}).scene || [];
-    return !/^(hinges|bodies|synchronisations)$/.test(kind) || all.some((one) => one.path.startsWith(`${kind}.${owner}.`)) ? 0 : null;
+    return !OWNED.test(path) || all.some((one) => one.path.startsWith(`${kind}.${owner}.`)) ? "0 or none" : null;
   };
   // The listed inputs of a set, by a key that names each one once: { list, name, label, unit, value }. `name` is the path of
   // what stands in the scene.
   function listOf(set) {
     const { scene = [], tables = [], dispersions = [], settings = [] } = set.inputs || {};
-    const inWords = (path) => path.replace(/^(hinges|bodies|synchronisations)\./, "").replace(/[._]/g, " ");
+    const inWords = (path) => path.replace(OWNED, "").replace(/^\./, "").replace(/[._]/g, " ");
     const found = [
       ...scene.map((one) => ({ list: "scene", name: one.path, label: one.label, unit: one.unit, value: one.case_value ?? one.value })),
       ...tables.flatMap(({ path, columns }) =>

@@ -10,8 +10,7 @@
       ? `${F.given(Number((value * F.DEGREES).toPrecision(6)))} ${unit.replace("rad", "deg")}`
       : "";
   const isChanged = (parameter) => parameter.case_value !== null && parameter.case_value !== undefined;
-  const either = (value) =>
-    typeof value === "number" ? F.given(value) : value === null || value === undefined ? F.none : String(value);
+  const either = W.inputText;
 
   function changed() {
     const sets = W.sets.filter((set) => set.inputs && (set.inputs.scene || []).some(isChanged));
@@ -27,7 +26,7 @@
       const found = W.sets.map((set) => set.inputs && find(set, path)),
         first = found.find(Boolean),
         nominal = (one, at) => either(one ? one.value : W.unlisted(W.sets[at], path)),
-        nominals = new Set(found.map(nominal));
+        nominals = new Set(found.map((one, at) => nominal(one, at).replace(/^0 or none$/, "0")));
       return [
         h("span", first.label),
         F.unit(first.unit),

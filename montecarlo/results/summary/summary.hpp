@@ -164,8 +164,8 @@ struct Summary {
   bool without_rows = false;                 ///< computed from streaming statistics
   bool one_run =
       false; ///< nothing is dispersed, and all runs have the same result (judge_campaign.hpp)
-  bool more_order_kinds =
-      false; ///< than latch_order_kinds: streaming statistics tell only so many apart
+  /// There are more kinds of orders than latch_order_kinds: streaming statistics count only so many apart.
+  bool more_order_kinds = false;
 
   /// The confidence of each bound at this analysis: with it the bounds of all interim analyses hold together at
   /// `confidence`.

@@ -88,8 +88,15 @@ TEST_CASE("the cost of a campaign has the time of its draws") {
   }
   const NominalRuns tried = try_nominal(campaign);
   CHECK(tried.seconds > 0.8 * shortest);
-  CHECK_THAT(tried.cost, Catch::Contains(", its draws "));
+  CHECK_THAT(tried.cost, Catch::Contains("; the draws of a run take "));
   CHECK_THAT(try_nominal(campaign_of(quick_campaign(30))).cost, !Catch::Contains("draws"));
+}
+
+TEST_CASE("the cost of a campaign is that of all its cases") {
+  Json json = quick_campaign(30);
+  json["cases"] = parse_json(R"([ { "name": "cold" }, { "name": "hot" } ])");
+  const NominalRuns tried = try_nominal(campaign_of(json));
+  CHECK_THAT(tried.cost, Catch::Contains("; 60 runs in 2 cases: " + time_of_runs(tried, 60)));
 }
 
 TEST_CASE("a nominal wing that does not deploy is said, with its status") {

@@ -45,7 +45,6 @@ TEST_CASE("every design draws by the dispersions' names, not by their places") {
   }
 }
 
-// 1 − 1e-20 is 1 in any double: what is drawn so far out is known by its upper tail alone.
 TEST_CASE("of a Latin hypercube no run is drawn beyond its last") {
   for (const int runs : {1, 7, 100})
     for (const char* design : {"latin_hypercube", "sobol", "random"}) {
@@ -62,6 +61,7 @@ TEST_CASE("of a Latin hypercube no run is drawn beyond its last") {
     }
 }
 
+// 1 − 1e-20 is 1 in any double: what is drawn so far out is known by its upper tail alone.
 TEST_CASE("a point that is given by both of its tails is drawn by the smaller one") {
   Json json = quick_campaign(1);
   json["dispersions"].erase(1);

@@ -114,6 +114,22 @@ TEST_CASE("A mirror that makes no second wing is refused", "[mirror]") {
   if (*message != '\0') CHECK(test::facts_of(said) == test::facts_of(message));
 }
 
+TEST_CASE("A synchronisation of a mirrored hinge with one that is not has no mirror image",
+          "[mirror]") {
+  Json json = two_wings();
+  Json alone = json["bodies"][0];
+  alone["name"] = "boom";
+  Json hinge = json["hinges"][0];
+  hinge["name"] = "boom_hinge", hinge["child"] = "boom";
+  Json loop = json["synchronisations"][0];
+  loop["name"] = "rod", loop["between"] = {"boom_hinge", "R_root"};
+  json["bodies"].push_back(alone), json["hinges"].push_back(hinge);
+  json["synchronisations"].push_back(loop);
+  const Scene scene = read_scene(json);
+  CHECK(std::ranges::count(scene.synchronisations, "rod", &Synchronisation::name) == 1);
+  CHECK(scene.synchronisations.size() == 5);
+}
+
 TEST_CASE("A mirrored hold waits for the hinge of its own wing", "[mirror]") {
   Json json = two_wings();
   json["hinges"][1]["release"] = parse_json(R"({ "after": "R_root", "event": "latched" })");

@@ -162,8 +162,9 @@ TEST_CASE("sets are paired where their draws are the same", "[page]") {
   json["sampling"]["seed"] = 8;
   const Json apart = comparison_json(*first, *made(json), {0, 1});
   CHECK(apart["paired"] == false);
-  CHECK(apart["text"] ==
-        "set − set, not paired, because the sets have different random numbers: 20 and 30 runs");
+  CHECK(
+      apart["text"] ==
+      "set − set, not paired, because their seeds, designs or dispersions differ: 20 and 30 runs");
   CHECK_THAT(apart["why_unpaired"].get<std::string>(), Catch::Contains("random numbers"));
   const auto later = made(quick_campaign(20)); // a shard's runs
   for (long& run : later->results.runs) run += 30;

@@ -92,6 +92,21 @@ TEST_CASE("population: bins are narrow where values are dense") {
   }
 }
 
+TEST_CASE(
+    "population: an order statistic is as often above the truth as below, in shares of its bin") {
+  const Sample sample = sample_of(laws[0].second, 100'000);
+  const RankedPopulation ranked(sample.population);
+  double sum = 0;
+  long bins = 0; // ranks in bins
+  for (long rank = 5'000; rank <= 95'000; ++rank) {
+    const OrderStatistic found = ranked.at(rank);
+    sum += (found.value - sample.sorted[static_cast<std::size_t>(rank - 1)]) /
+           (found.upper - found.lower);
+    ++bins;
+  }
+  CHECK(std::abs(sum / static_cast<double>(bins)) < 0.01);
+}
+
 TEST_CASE("population: zeros are counted apart, so that a quantile among them is one") {
   const Sample sample = sample_of(laws[5].second, 100'000); // nine of ten are 0
   const OrderStatistic found = RankedPopulation(sample.population).at(50'000);

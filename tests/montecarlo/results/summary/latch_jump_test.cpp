@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <utility>
 
 using namespace wingspread;
 
@@ -89,6 +90,11 @@ TEST_CASE("a force at the instant of a latch's jump on a flexible body is warned
   CHECK(forces().empty());                           // rigid bodies: the force is theirs
   wing.scene.bodies[wing.scene.hinges[1].child].flexible = Flexible{4, 200.0};
   CHECK(forces() == std::vector<std::string>{"mid"});
+  std::swap(wing.scene.bodies[wing.scene.hinges[1].child].flexible,
+            wing.scene.bodies[wing.scene.hinges[1].parent].flexible); // it bends on the other side
+  CHECK(std::ranges::count(forces(), "mid") == 1);
+  std::swap(wing.scene.bodies[wing.scene.hinges[1].child].flexible,
+            wing.scene.bodies[wing.scene.hinges[1].parent].flexible);
   wing.outcome.peak_force[0].time = 2.0; // the root's, as mid engages
   CHECK(forces() == std::vector<std::string>{"root", "mid"});
   const std::string text =
