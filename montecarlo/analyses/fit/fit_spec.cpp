@@ -359,10 +359,9 @@ private:
   bool correlated_ = true;
 };
 
-/// Refuses a column of unknown noise with no more samples than there are unknowns: they might fit it exactly, and the noise
-/// would be 0. Counts every fitted parameter, whether it acts on the test or not.
-void refuse_few_samples(const FitSpec& spec, const std::string& file,
-                        std::vector<Problem>& problems) {
+/// Refuses a column of unknown noise with no more samples than unknowns: an exact fit would make the noise 0. Counts all
+/// fitted parameters, whether they act on the test or not.
+void refuse_few_samples(const FitSpec& spec, const std::string& file, std::vector<Problem>& all) {
   for (std::size_t t = 0; t < spec.tests.size(); ++t) {
     const FitTest& test = spec.tests[t];
     std::set<std::size_t> parameters(spec.parameters.begin(), spec.parameters.end());
@@ -371,12 +370,11 @@ void refuse_few_samples(const FitSpec& spec, const std::string& file,
       const std::size_t unknowns =
           parameters.size() + (test.time_offset_std > 0) + (column.offset_std > 0);
       if (column.std || test.times.size() > unknowns) continue;
-      problems.push_back(
-          {file, fmt::format("/tests/{}/trace/columns{}", t, pointer_token(column.name)),
-           fmt::format("{} for {}, offsets included",
-                       counted(static_cast<long>(test.times.size()), "sample", "samples"),
-                       counted(static_cast<long>(unknowns), "unknown", "unknowns")),
-           "more samples than unknowns, or the noise \"std\""});
+      all.push_back({file, fmt::format("/tests/{}/trace/columns{}", t, pointer_token(column.name)),
+                     fmt::format("{} for {}, offsets included",
+                                 counted(static_cast<long>(test.times.size()), "sample", "samples"),
+                                 counted(static_cast<long>(unknowns), "unknown", "unknowns")),
+                     "more samples than unknowns, or the noise \"std\""});
     }
   }
 }
