@@ -249,7 +249,7 @@ std::string accuracy_lines(const Summary& summary) {
 std::string accuracy_line(const Summary& summary) {
   const Accuracy& found = *summary.accuracy;
   if (found.runs == 0)
-    return fmt::format("unknown: no reference could finish any of {} runs", found.unreached);
+    return fmt::format("unknown: no reference finished any of {} runs", found.unreached);
   std::string line = "integration errors " + errors_text(summary) + ' ' + errors_where(summary);
   const auto add = [&](std::size_t runs, const char* one, const char* many) {
     if (runs > 0)
