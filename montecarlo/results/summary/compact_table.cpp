@@ -248,8 +248,7 @@ std::string accuracy_lines(const Summary& summary) {
 /// The largest error, and the runs that it does not hold for.
 std::string accuracy_line(const Summary& summary) {
   const Accuracy& found = *summary.accuracy;
-  if (found.runs == 0)
-    return fmt::format("unknown: no reference finished any of {} runs", found.unreached);
+  if (found.runs == 0) return fmt::format("unknown: {} runs without a reference", found.unreached);
   std::string line = "integration errors " + errors_text(summary) + ' ' + errors_where(summary);
   const auto add = [&](std::size_t runs, const char* one, const char* many) {
     if (runs > 0)
