@@ -122,6 +122,7 @@ class Ranks(unittest.TestCase):
     def test_fit(self):
         times = [0.02 * k for k in range(120)]
         of = campaign(50)
+        of["sampling"] |= {"design": "latin_hypercube", "replicates": 2}  # the prediction has more runs than the campaign
         alone = self.folder / "truth.csv"
         code, _, error = self.run_program(0, "simulate", self.write(SCENE), "--t-end", times[-1], "--dt", 0.02, "--out", alone)
         self.assertEqual(code, 0, error)

@@ -258,7 +258,7 @@ void add_analyze_options(CLI::App& command, AnalyzeOptions& options) {
   command.add_option("--bins", options.bins, "Bins of the histograms: from 1 to 10000, or auto");
   add_requirements_option(command, options.requirements);
   command.add_option("--out", options.out,
-                     "Write to this folder, new, empty or interrupted: it gets a copy of the rows");
+                     "A new folder (or an interrupted one), which gets a copy of the rows");
   add_display_options(command, options.display);
   command.footer(
       std::string("Writes summary.json, histograms.json and histograms.csv again, into the results "
