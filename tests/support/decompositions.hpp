@@ -1,0 +1,15 @@
+/// Eigen's decompositions of large matrices, compiled once for all tests: each takes seconds of every file that uses it.
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+extern template Eigen::EigenSolver<Eigen::MatrixXd>&
+Eigen::EigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&, bool);
+extern template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&,
+                                                        int);
+extern template Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>&
+Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::MatrixXd&,
+                                                                   const Eigen::MatrixXd&, int);
+extern template void Eigen::PartialPivLU<Eigen::MatrixXd>::compute();
