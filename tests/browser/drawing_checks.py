@@ -122,6 +122,19 @@ class DrawingChecks:
         pages.settle(self.driver)
         self.assertIn("The limit ≤ 60 s lies outside", self.all("figure.settling")[1].text)
 
+    def test_a_limit_up_to_two_ranges_beyond_the_quantile_is_a_line_and_a_farther_one_a_note(self):
+        self.open(pages.made_up("plain"))
+        self.run_script("W.choose('output', 'root.peak_moment')")
+        one = self.run_script("return W.output().convergence")
+        known = [value for key in ("quantile", "quantile_lower", "quantile_upper") for value in one[key] if value is not None]
+        low, high = min(known), max(known)
+        for ranges, near in ((1.1, True), (1.9, True), (2.1, False), (30, False)):
+            for limit in (low - ranges * (high - low), high + ranges * (high - low)):
+                self.run_script("W.set().requirements.find(one => one.output === 'root.peak_moment').limit = arguments[0]; W.convergence()", limit)
+                pages.settle(self.driver)
+                lines, text = self.run_script("const figure = document.querySelectorAll('figure.settling')[1]; return [figure.querySelectorAll('line.limit').length, figure.innerText]")
+                self.assertEqual((lines, "lies outside" in text), (int(near), not near), f"{ranges} ranges: {limit}")
+
     def test_a_column_of_the_outputs_has_as_many_digits_in_every_row(self):
         self.open(pages.made_up("plain"))
         digits = lambda text: len(re.sub(r"\D", "", text).lstrip("0"))

@@ -130,6 +130,8 @@ class JudgementChecks:
         self.assertEqual(order(stated("A", broken=0, allowed=22, margin=1), stated("B", broken=4, allowed=22, margin=90), stated("C", broken=1, allowed=0)), "CBA")
         self.assertEqual(order(stated("A", broken=4, allowed=22), stated("B", broken=4, allowed=12), stated("C", "open", allowed=None), stated("D", "failed", broken=13)), "DCBA")
         self.assertEqual(order(stated("A", margin=40), stated("B", margin=2), stated("C", margin=20, limit=50)), "BAC")  # 0.2, 0.01 and 0.4 of the limit
+        self.assertEqual(order(stated("A", margin=40, limit=-200), stated("B", margin=2), stated("C", margin=20, limit=-50)), "BAC")  # whatever the limit's sign
+        self.assertEqual(order(stated("A", margin=-4, limit=-100), stated("B", margin=-4, limit=-10), stated("C", margin=-0.3, limit=0)), "BCA")  # −0.04, −0.4, and −0.3 as it is
         self.assertEqual(order(stated("A", **{**SHARE, "guaranteed": 0.99923}), stated("B", **{**SHARE, "guaranteed": 0.99885})), "BA")
         self.open(pages.made_up("cases"))
         share = lambda bound: [stated("D", **{**SHARE, "guaranteed": bound})]
