@@ -81,3 +81,30 @@ TEST_CASE("all holds that wait for one hinge's angle let go as it passes, and no
     CHECK(time_of(1) == time_of(2));
   }
 }
+
+TEST_CASE(
+    "every hold that fails is named; one that waits for a held hinge is not, unless it fails too") {
+  Scene scene = latching_panel();
+  for (int panel = 1; panel <= 2; ++panel) { // beside each other
+    scene.bodies.push_back(scene.bodies[0]);
+    Hinge hinge = scene.hinges[0];
+    hinge.child = panel;
+    scene.bodies[panel].name += std::to_string(panel), hinge.name += std::to_string(panel);
+    hinge.release = Release{.event = Release::Event::released, .after = panel - 1};
+    scene.hinges.push_back(hinge);
+  }
+  scene.hinges[0].release = Release{.time = 1};
+  const auto named = [&](bool first, bool second, bool third) {
+    scene.hinges[0].release->fails = first, scene.hinges[1].release->fails = second;
+    scene.hinges[2].release->fails = third;
+    return Deployment().run(scene, within(1e-8, 30), latches_only).never_released;
+  };
+  using Hinges = std::vector<int>;
+  CHECK(named(false, false, false).empty());
+  CHECK(named(true, false, false) == Hinges{0});
+  CHECK(named(true, true, false) == Hinges{0, 1});
+  CHECK(named(true, false, true) == Hinges{0, 2});
+  CHECK(named(false, true, false) == Hinges{1});
+  CHECK(named(false, true, true) == Hinges{1, 2});
+  CHECK(named(false, false, true) == Hinges{2});
+}

@@ -118,6 +118,43 @@ TEST_CASE("samples show how a base moves, free or driven") {
   }
 }
 
+// Two panels about one fixed axis, the second carried by the first: without torques both turn uniformly.
+TEST_CASE("a final angle is the way beyond the latched angle, of each hinge in the scene's order") {
+  Scene scene = latching_panel();
+  scene.hinges[0].latch.reset(), scene.hinges[0].spring = {};
+  scene.bodies.push_back({"carried", 4, 0.3});
+  Hinge carried = scene.hinges[0];
+  carried.name = "carried", carried.parent = 0, carried.child = 1;
+  carried.parent_point = scene.hinges[0].child_point; // the same axis
+  carried.stowed = -0.4, carried.latched = 0.6, carried.initial_rate = 0.3;
+  scene.hinges[0].stowed = 1.5, scene.hinges[0].latched = 0.25, scene.hinges[0].initial_rate = -0.5;
+  scene.hinges.insert(scene.hinges.begin(), carried); // the outer hinge first
+  const Outcome out = Deployment().run(scene, within(1e-10, 2), to_the_end);
+  REQUIRE(out.t_end == 2);
+  REQUIRE(out.final_angle.size() == 2);
+  CHECK(out.final_angle[0] == Approx(-0.4 + 0.3 * 2 - 0.6).margin(1e-9));
+  CHECK(out.final_angle[1] == Approx(1.5 - 0.5 * 2 - 0.25).margin(1e-9));
+  CHECK(out.final.angles[0] == Approx(0.2).margin(1e-9));
+  CHECK(out.final.rates[1] == Approx(-0.5).margin(1e-9));
+}
+
+TEST_CASE("the phases of a run follow each other without a gap, and their steps are the run's") {
+  Scene scene = seed_scene();
+  for (Hinge& hinge : scene.hinges) hinge.latch = Latch{1e6, 1e3}; // `auto` changes the method
+  const Outcome out = Deployment().run(scene, within(1e-6, 12), to_the_end);
+  REQUIRE(out.phases.size() > 1);
+  long steps = 0;
+  double from = 0;
+  for (const Phase& phase : out.phases) {
+    CHECK(phase.from == from);
+    CHECK(phase.to > phase.from);
+    CHECK(phase.steps > 0);
+    steps += phase.steps, from = phase.to;
+  }
+  CHECK(from == out.t_end);
+  CHECK(steps == out.work.steps);
+}
+
 // A panel carries another one that is held: both turn as one body about a fixed point, so that the load of the hold
 // follows from the first hinge's moment and rate, in any sample.
 TEST_CASE("a sample's moment on a held hinge is that of the sample's own state, at events too") {

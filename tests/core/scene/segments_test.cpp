@@ -174,6 +174,32 @@ TEST_CASE("a panel with less inertia than a rod has more mass towards the middle
   }
 }
 
+TEST_CASE("a bending moment turns a panel's ends by M L/EI, and damps its first swing as asked, "
+          "however many joints it has") {
+  // a rod of 6 kg and 1.8 m whose first swing, 3.51602 √(EI/(m L³)), is at 8 Hz
+  const double omega = 2 * std::numbers::pi * 8;
+  const double EI = std::pow(omega / 3.5160152685, 2) * 6 * std::pow(1.8, 3);
+  for (const bool by_frequency : {true, false})
+    for (const int joints : {1, 2, 3, 7}) {
+      Scene scene = bending_rod(joints, 1e4);
+      Body& rod = scene.bodies[0];
+      rod.mass = 6, rod.inertia = 6 * 1.8 * 1.8 / 12;
+      rod.plate = Plate{{0.9, 0}, {-0.9, 0}};
+      rod.flexible = by_frequency ? Flexible{joints, std::nullopt, 8.0, 0.02}
+                                  : Flexible{joints, EI, std::nullopt, 0.02};
+      const SegmentedScene made = with_segments(scene);
+      CAPTURE(by_frequency, joints);
+      REQUIRE(std::ssize(made.joints[0]) == joints);
+      double turn = 0; // for a moment of 1 N·m
+      for (const int each : made.joints[0]) {
+        const Joint& joint = made.scene.hinges[each].joint.value();
+        turn += 1 / joint.stiffness;
+        CHECK(joint.damping / joint.stiffness == Approx(2 * 0.02 / omega).epsilon(1e-9));
+      }
+      CHECK(turn == Approx(1.8 / EI).epsilon(1e-9));
+    }
+}
+
 TEST_CASE("a frequency stands for the bending stiffness of the clamped panel") {
   Body panel{"panel", 6, 2};
   panel.plate = Plate{{-0.9, 0}, {0.9, 0}};
