@@ -49,3 +49,30 @@ TEST_CASE("the command of a wing names what is not the default") {
         "wingspread new --name sat --wings 2 --panels 4 --yoke --panel-mass 9 --damper 0");
   CHECK(command_of({}, "a b&c") == "wingspread new --out 'a b&c'");
 }
+
+TEST_CASE(
+    "a number of a wing is finite and above 0, or 0 where it may be, in any unit of its kind") {
+  for (const DesignNumber& number : design_numbers()) {
+    CAPTURE(number.option);
+    WingDesign design;
+    const double usual = design.*number.value;
+    const std::string unit = " " + std::string(number.dimension.unit);
+    for (const std::string refused : {"-1", "-0.001", "inf", "nan", "1 K", "", "one"}) {
+      CAPTURE(refused);
+      CHECK(read_design_number(refused, number, design).has_value());
+      CHECK(design.*number.value == usual);
+    }
+    for (const std::string zero : {"0", "0.0"})
+      for (const std::string& text : {zero, zero + unit})
+        CHECK(read_design_number(text, number, design).has_value() == !number.may_be_zero);
+    for (const std::string& text : {std::string("0.25"), "0.25" + unit}) {
+      CHECK_FALSE(read_design_number(text, number, design));
+      CHECK(design.*number.value == 0.25);
+    }
+  }
+  WingDesign design;
+  CHECK(read_damper("-1", design).has_value());
+  CHECK_FALSE(design.damper);
+  CHECK_FALSE(read_damper("0", design));
+  CHECK(design.damper == 0);
+}

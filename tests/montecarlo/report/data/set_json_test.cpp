@@ -237,4 +237,12 @@ TEST_CASE("the page has what requirements show together, and how they were judge
   judge_by(source->stored.campaign.requirements, source->stored);
   CHECK(set_json(*source, {}, 1)["judged_by"] ==
         "wingspread analyze again --requirements results/set/summary.json");
+  for (const std::size_t argument : {1, 2}) { // the page's second and third folder: each by itself
+    source->argument = argument;
+    const Json other = set_json(*source, {}, 1);
+    const std::string again = "again" + std::to_string(argument + 1);
+    CHECK_THAT(other["made_by"].get<std::string>(), Catch::EndsWith(" --out " + again));
+    CHECK_THAT(other["judged_by"].get<std::string>(),
+               Catch::StartsWith("wingspread analyze " + again + " "));
+  }
 }

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include <numbers>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -95,4 +97,53 @@ TEST_CASE("a body whose hinges lie off any line is drawn as lines to them", "[pa
   const BodyOutline outline = body_outline(scene, 0);
   CHECK(!outline.closed);
   CHECK(outline.points.back() == Eigen::Vector2d(0.2, 0.9));
+}
+
+TEST_CASE("bodies are named by the hinge that carries them, in whatever order a scene lists both",
+          "[page]") {
+  Scene scene = read_scene_file(three_panel_file());
+  std::ranges::reverse(scene.hinges); // tip, mid, root carry bodies 2, 1, 0
+  const Json wing = wing_json(scene);
+  std::vector<int> parents, carriers;
+  for (const Json& hinge : wing["hinges"]) parents.push_back(hinge["parent"]);
+  for (const Json& body : wing["bodies"]) carriers.push_back(body["hinge"]);
+  CHECK(parents == std::vector<int>{1, 2, -1});
+  CHECK(carriers == std::vector<int>{-1, 2, 1, 0}); // the base, then from it outwards
+  std::vector<double> angles = latched_angles(scene);
+  for (double& angle : angles) angle += 0.3;
+  const auto centres = posed(wing, angles);
+  const auto placed = place_bodies(scene, angles);
+  for (std::size_t b = 0; b < 3; ++b) CHECK((centres[b] - placed[b].position).norm() < 1e-5);
+}
+
+TEST_CASE("a base is drawn as a box of 0.3 of a panel's length, behind its wing or about its wings",
+          "[page]") {
+  const auto corners = [](const Scene& scene) {
+    Eigen::AlignedBox2d box;
+    const Json wing = wing_json(scene);
+    for (const Json& point : wing["bodies"][0]["outline"]) box.extend(point_of(point));
+    return box;
+  };
+  Scene scene = read_scene_file(three_panel_file());
+  scene.hinges[0].parent_point = {0.04, 0.03};
+  const double half = 0.3 * std::hypot(0.505, 0.02); // of twice the way from the root to the centre
+  Eigen::AlignedBox2d box = corners(scene);
+  CHECK((box.max() - Eigen::Vector2d(0.04, 0.03 + half)).norm() < 1e-6);
+  CHECK((box.min() - Eigen::Vector2d(0.04 - 2 * half, 0.03 - half)).norm() < 1e-6);
+  scene.hinges[0].parent_point = {0.4, 0.3}; // the joint is off the box: it defines the box
+  box = corners(scene);
+  CHECK((box.max() - Eigen::Vector2d(0.5, 0.5)).norm() < 1e-6);
+  CHECK((box.min() + Eigen::Vector2d(0.5, 0.5)).norm() < 1e-6);
+}
+
+TEST_CASE("a wing's span does not depend on where its free base is", "[page]") {
+  Scene scene = read_scene_file(three_panel_file());
+  scene.hinges[0].parent_point = {-1, 0}; // so the panels reach from -1 to 2.03 m
+  const double span = wing_span(scene);
+  CHECK(span == Approx(3.03).epsilon(1e-12));
+  scene.base.motion = BaseMotion::free, scene.base.mass = scene.base.inertia = 100;
+  scene.base.position = {40, -70};
+  CHECK(wing_span(scene) == Approx(span).epsilon(1e-12));
+  scene.base.angle = std::numbers::pi / 2;
+  CHECK(wing_span(scene) == Approx(span).epsilon(1e-12));
 }
