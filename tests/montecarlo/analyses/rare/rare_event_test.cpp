@@ -160,6 +160,10 @@ TEST_CASE("peaks that t_end cut count as the event, as they break a requirement,
   below.event = {"root.peak_moment", 1, false}, below.smallest = 0.01;
   const RareResult risen = estimate_rare_event(campaign, below, evaluator, untold);
   CHECK((risen.cut == 0 && risen.estimate.hits == 0));
+  below.event.limit = 1000; // one that is below may still rise above: t_end has not decided it
+  const RareResult undecided = estimate_rare_event(campaign, below, evaluator, untold);
+  CHECK(undecided.estimate.probability == 1);
+  CHECK((undecided.cut == undecided.estimate.evaluations && undecided.cut == 200));
 
   const Campaign longer = campaign_of(ringing_panel(100, 15, 0));
   RareOptions small = options;

@@ -303,6 +303,14 @@ TEST_CASE("what the library is asked and cannot do is refused with every problem
   const api::Model one(input, {"hinges.*.spring.scale"}, {"root.latch_time"});
   CHECK_THAT(message_of([&] { return one.evaluate(x, y, -3); }),
              Catch::StartsWith("--threads: found -3"));
+  for (const std::size_t wrong : {0, 2, 3}) { // of one row with one output
+    std::vector<double> other(wrong);
+    CHECK_THAT(message_of([&] { return one.evaluate(x, other, 1); }),
+               Catch::StartsWith(fmt::format("y: found {} numbers", wrong)));
+  }
+  const api::Model two(input, {"hinges.root.spring.scale", "hinges.tip.spring.scale"}, {});
+  CHECK_THAT(message_of([&] { return two.evaluate(x, y, 1); }),
+             Catch::StartsWith("x: found 1 numbers"));
   CHECK_THAT(message_of([&] { return api::simulate(input, {.t_end = 1}, 1e-9); }),
              Catch::StartsWith("--dt: found 1e-09") && Catch::Contains("1e-08"));
   const std::atomic<bool> now = true;
