@@ -95,13 +95,13 @@ class FitChecks:
             self.check(row[3], one["lower"], one["upper"], about=name)
             self.check(row[4], one["std_ratio"], share=True, about=name)
         for got, (name, one) in zip(self.copied("fit-parameters")[1:], fit["parameters"].items(), strict=True):
-            self.same_numbers(got, [name, one["prior"]["mean"], one["prior"]["std"], *(one[key] for key in keys), one["std_ratio"]], name)
+            self.same_numbers(got, [name, *(one["prior"][key] for key in ("mean", "std", "lower", "upper")), *(one[key] for key in keys), one["std_ratio"]], name)
         value, near = self.axis("fit-parameters", "x")
         bars = self.attributes("figure.fit-parameters rect.interval", "x", "width")
         for name, prior, after in zip(names, bars[::2], bars[1::2], strict=True):
             one = fit["parameters"][name]
-            wanted = [(one[key] - one["prior"]["mean"]) / one["prior"]["std"] for key in ("lower", "upper")]
-            for (x, width), (low, high) in ((prior, (-1.96, 1.96)), (after, wanted)):
+            wanted, before = ([(each[key] - one["prior"]["mean"]) / one["prior"]["std"] for key in ("lower", "upper")] for each in (one, one["prior"]))
+            for (x, width), (low, high) in ((prior, before), (after, wanted)):
                 self.assertLess(abs(value(x) - low), 2 * near, name)
                 self.assertLess(abs(value(x + width) - high), max(2 * near, 2.1 * abs(value(1) - value(0))), name)
 

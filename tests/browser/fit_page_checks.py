@@ -18,7 +18,7 @@ def trace(rng, test, column, unit, **more):
 
 def fit():
     rng = random.Random(3)
-    parameter = lambda name, mean, std, after, left, **more: {"name": name, "prior": {"mean": mean, "std": std}, "mode": after + 0.1 * std, "mean": after, "std": std * left, "lower": after - 1.5 * std * left,
+    parameter = lambda name, mean, std, after, left, **more: {"name": name, "prior": {"mean": mean, "std": std, "lower": mean - 1.25 * std, "upper": mean + 2.75 * std}, "mode": after + 0.1 * std, "mean": after, "std": std * left, "lower": after - 1.5 * std * left,
                                                              "upper": after + 2.5 * std * left, "std_ratio": left, **more}
     parameters = [parameter("root_spring", 1, 0.05, 1.043, 0.31), parameter("coulomb.mid", 0.4, 0.1, 0.27, 0.82, unit="N m"), parameter("tip_spring", 1, 0.05, 0.91, 0.055),
                   parameter("harness", 3, 1, 2.5, 0.5), parameter("fifth", -2, 0.5, -2.25, 0.125)]
@@ -92,15 +92,15 @@ class FitPageChecks:
         wanted = []
         for each in parameters:
             low, high = ((each[key] - each["prior"]["mean"]) / each["prior"]["std"] for key in ("lower", "upper"))
-            wanted += [(x(-1.96), x(1.96) - x(-1.96), 14), (x(low), max(2, x(high) - x(low)), 8)]
+            wanted += [(x(-1.25), x(2.75) - x(-1.25), 14), (x(low), max(2, x(high) - x(low)), 8)]  # quantiles, whatever the law
         self.near(self.places("fit-parameters", "rect.interval", "x", "width", "height"), wanted, "bars")
         self.assertEqual(self.run_script("return [...document.querySelectorAll('figure.fit-parameters text > title')].map(e => e.textContent)"), [each["name"] for each in parameters])
         opacity = self.run_script("return [...document.querySelectorAll('figure.fit-parameters rect.interval')].map(e => Number(e.style.fillOpacity))")
         self.assertTrue(all(pale < 0.5 < dark for pale, dark in zip(opacity[::2], opacity[1::2])))
         heads, *rows = self.copied_from("fit-parameters", 0)
-        self.assertEqual(heads, ["parameter", "prior mean", "prior sd", "mode", "mean", "sd", "lower", "upper", "sd left"])
+        self.assertEqual(heads, ["parameter", "prior mean", "prior sd", "prior lower", "prior upper", "mode", "mean", "sd", "lower", "upper", "sd left"])
         for row, each in zip(rows, parameters, strict=True):
-            self.numbers_of(row, [each["name"], each["prior"]["mean"], each["prior"]["std"], *(each[key] for key in ("mode", "mean", "std", "lower", "upper", "std_ratio"))], each["name"])
+            self.numbers_of(row, [each["name"], *(each["prior"][key] for key in ("mean", "std", "lower", "upper")), *(each[key] for key in ("mode", "mean", "std", "lower", "upper", "std_ratio"))], each["name"])
         words = self.run_script("return document.querySelector('figure.fit-parameters desc').textContent").split("; ")
         for text, each in zip(words, parameters, strict=True):
             self.check(text.removeprefix(each["name"] + ":"), each["mean"], each["std"], about=text)
@@ -122,6 +122,25 @@ class FitPageChecks:
         self.assertEqual(len(marks), 6 * count)
         note = self.run_script("return document.querySelector('figure.fit-pairs > .note').textContent")
         self.check(note, 4, 5, about=note)
+
+    def test_a_fit_says_its_confidence_and_how_many_samples_are_drawn(self):
+        one = fit()
+        one["traces"][0]["samples"], one["samples"]["samples"] = 1150, 2000
+        one["prior_decides"] = ["harness", "fifth"]
+        for each in one["parameters"]:  # of an older version
+            del each["prior"]["lower"], each["prior"]["upper"]
+        self.opened_block("fit_thinned", lambda: mock.block([mock.study("fit", fit=one, confidence=0.8)]))
+        notes = {name: self.run_script("return [...document.querySelectorAll(`figure.${arguments[0]} > .note`)].map(e => e.textContent)", name) for name in ("fit-trace", "fit-pairs", "fit-parameters")}
+        self.assertIn("20 of 1,150 samples", notes["fit-trace"][0])
+        self.assertNotIn("samples", notes["fit-trace"][1])
+        self.assertIn("30 of 2,000 samples", notes["fit-pairs"][0])
+        self.assertTrue("Light" not in notes["fit-parameters"][0] and "80 % interval" in notes["fit-parameters"][0], notes)
+        self.assertEqual(len(self.all("figure.fit-parameters rect.interval")), len(one["parameters"]))
+        self.assertIn("80 % interval", self.heads("Parameters before and after the tests"))
+        self.assertIn("80 % band", self.run_script("return document.querySelector('figure.fit-trace .legend').textContent"))
+        text = self.one("#why").text
+        self.assertIn("The prior decides, not the tests: harness, fifth.", text)
+        self.assertIn("too many of them lack the output", text)
 
     def test_tables_of_a_fit(self):
         one = fit()

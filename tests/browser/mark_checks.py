@@ -209,7 +209,7 @@ class MarkChecks:
         for row, one in zip(self.table("Most likely run of the event"), likeliest, strict=True):
             self.assertEqual(row[0], one["name"])
             self.check(row[1], one["value"], about=row[0])
-            self.check(row[2], one["z"], about=row[0])
+            self.check(row[3], one["z"], about=row[0])
         x, sobol = self.scale("tornado", "x"), sets[1]["sensitivity"]["effects"]
         name = sobol[0]["output"]
         bars = [(x(0), x(one[key]) - x(0)) for one in sobol if one["output"] == name for key in ("first", "total")]

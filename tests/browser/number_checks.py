@@ -338,7 +338,7 @@ class NumberChecks(Numbers):
         margin, rare, static = (one_set[key] for key in ("margin", "rare", "static_margins"))
         self.same_rows("margin", [[scale, *(cell for one in margin["requirements"] for cell in (one["passed"][at], one["lower"][at], one["upper"][at], one["verdict"][at]))]
                                   for at, scale in enumerate(margin["scales"])])
-        self.check(self.run_script("return document.querySelector('figure.margin > .note').textContent"), *margin["window"], margin["recommended"])
+        self.check(self.run_script("return document.querySelector('figure.margin > .note').textContent"), *margin["window"], margin["recommended"], 100 * one_set["confidence"])
         self.same_rows("rare", [[at, one["threshold"], one["probability"]] for at, levels in enumerate(rare["levels"], 1) for one in levels])
         for row, one in zip(self.table("Least static margins"), static["hinges"], strict=True):
             for text, key in zip(row[1:4], ("least", "lower", "required")):

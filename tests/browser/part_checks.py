@@ -14,7 +14,7 @@ TABLES = {  # by kind of page: the heads below each caption
               "Numerical and statistical error of each output": "Output|Unit|Numerical, largest|Numerical, rms|Standard error of the mean",
               "Identifier, source and rationale of each requirement": "Identifier|Requirement|Source|Rationale", "Outputs of mock_wing": OUTPUTS,
               "Quantiles of root peak moment": "Quantile|Value N·m|95 % two-sided bounds", "Statistics of root peak moment": "Statistic|Value",
-              "Hinges at the cursor's time": "Hinge|Angle deg|Rate deg/s|Moment N·m|State", "Least static margins": STATIC, "Most likely run of the event": "Dispersion|Value|Normal coordinate",
+              "Hinges at the cursor's time": "Hinge|Angle deg|Rate deg/s|Moment N·m|State", "Least static margins": STATIC, "Most likely run of the event": "Dispersion|Value|Unit|Normal coordinate",
               "Scene of mock_wing": "Parameter|Value|Unit|In degrees|Path", "Dispersions of mock_wing": "Dispersion|Law|As written|Draw, 1 % … 99 %|Acts on",
               "Integration settings": "Setting|Value", "Meaning, unit and sign of every name": "Name|Unit|Meaning"},
     "cases": {"Verdict and distance to the limit by case": "Requirement|cold|ambient|hot", "Requirements, the worst first": REQUIREMENTS.replace("Verdict|", "Verdict|Case|"),
@@ -33,7 +33,7 @@ PICTURES = {  # of the page "plain" in degrees, by class: titles of the axes, le
                   "time s|" + "|".join(f"{hinge} {what} {level} % {unit}" for hinge in ("root", "mid", "tip") for level in (1, 5, 25, 50, 75, 95, 99) for what, unit in (("angle", "deg"), ("rate", "deg/s"))), "rect rect rect line"),
     "tornado": ("rank correlation", "Spearman|partial (PRCC): other dispersions held", "dispersion|Spearman|lower|upper|partial (PRCC): other dispersions held|lower|upper", "rect"),
     "scatter": ("root.spring|root latch rate (deg/s)", ORDERS, "run|root.spring|root.latch_rate rad/s|latch order", "path"),
-    "margin": ("scale of the springs|share of runs that meet the requirement, logarithmic in 1 - share", "D-1: deployed, 99 % at 90 %|S-1: root.peak_moment ≤ 300 N·m, 99 % at 90 %|window",
+    "margin": ("scale of the springs|share of runs that meet it, logarithmic in 1 − share", "D-1: deployed, 99 % at 90 %|S-1: root.peak_moment ≤ 300 N·m, 99 % at 90 %|window",
                "scale|D-1: deployed, 99 % at 90 %|lower|upper|verdict|S-1: root.peak_moment ≤ 300 N·m, 99 % at 90 %|lower|upper|verdict", "line line rect"),
     "static-margins": ("travel from the stowed angle (deg)|static margin", "root|mid|tip", "hinge|travel deg|static margin|static margin, lower quantile|required", "line"),
     "rare": ("threshold|probability of exceeding it", "", "repeat|threshold|probability", ""), "settling": ("runs|mean (N·m)", "mean|95 % two-sided bounds", "runs|mean N·m|lower|upper", "line rect")}
@@ -306,7 +306,7 @@ class PartChecks:
         levels = [one for repeat in rare["levels"] for one in repeat if one["threshold"] is not None and one["probability"] > 0]
         times = DEGREES if (rare.get("beyond") or {"unit": ""})["unit"].startswith("rad") else 1
         for part, one in zip(self.described("rare").split("; "), levels, strict=True):
-            self.check(part.partition("beyond ")[2], one["threshold"] * times, one["probability"], about=part)
+            self.check(part.partition("above ")[2], one["threshold"] * times, one["probability"], about=part)
         found = parsed(self.described("margin"))
         for want in (value for value in (*margin["window"], margin["recommended"]) if value is not None):
             self.assertTrue(any(abs(value - want) <= half for value, half in found), f"{want} of {found}")

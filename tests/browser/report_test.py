@@ -292,6 +292,18 @@ class Quick(CauseChecks, StudyPageChecks, JudgementChecks, ShapeChecks, WordChec
         self.assertTrue(37_500 < len(self.printed()) < 4_000_000)  # fills as SVG patterns took 20 MB: each is printed as an image
         self.assertGreaterEqual(self.run_script("return document.querySelectorAll('.picture svg').length"), before)
 
+    def test_letters_of_printed_studies_can_be_read(self):
+        self.open(pages.made_up("beside"))
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        self.driver.execute_script("dispatchEvent(new Event('beforeprint'))")
+        pages.resize(self.driver, 695)
+        letters = self.run_script("""return [...document.querySelectorAll('figure svg.chart')].filter(svg => svg.getClientRects().length).map(svg => [svg.closest('figure').className,
+            0.75 * Math.min(...[...svg.querySelectorAll('text')].map(text => parseFloat(getComputedStyle(text).fontSize))) * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width])""")
+        self.driver.execute_script("dispatchEvent(new Event('afterprint'))")
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        self.assertTrue({"margin", "tornado", "rare", "static-margins"} <= {name for name, _ in letters})
+        self.assertEqual([one for one in letters if one[1] < 6], [])  # points
+
     def test_stills_in_place_of_motion_where_that_is_wanted(self):
         self.open(pages.made_up("plain"))
         pages.media(self.driver, prefers_reduced_motion="reduce")

@@ -2,6 +2,7 @@
 
 import json
 
+import mock
 import pages
 
 
@@ -13,7 +14,7 @@ class StudyPageChecks:
         note = lambda **more: self.run_script("Object.assign(W.set().margin, arguments[0]); W.why(); return document.querySelector('figure.margin > .note').textContent", more)
         for window, recommended, why, text in (([1.1, 1.58], 1.42, None, "The window is from 1.100 to 1.580; recommended: 1.420."), ([None, 1.58], None, "no scale has room", "The window is open below to 1.580. No recommendation: no scale has room."),
                                                ([0.75, None], 1, None, "The window is from 0.7500 and open above; recommended: 1.000."), ([None, None], None, "all are too weak", "all are too weak"), ([None, None], None, None, "No scale meets all requirements."), (None, None, "x", "x")):
-            self.assertEqual(note(window=window, recommended=recommended, why_none=why), text)
+            self.assertEqual(note(window=window, recommended=recommended, why_none=why), text + " Bands are two-sided 95 % bounds of each share.")
         for window, low, high in (([1.1, None], True, False), ([None, 1.58], False, True)):
             note(window=window)
             pages.settle(self.driver)
@@ -25,6 +26,7 @@ class StudyPageChecks:
         note(window=[None, None])
         pages.settle(self.driver)
         self.assertEqual((len(self.all("figure.margin rect.window")), len(self.all("figure.margin line.chosen-line"))), (0, 0))
+        self.assertNotIn("window", self.run_script("return document.querySelector('figure.margin .legend').textContent"))
         titles = self.run_script("return [...document.querySelectorAll('figure.margin circle.looked title')].map(one => one.textContent)")
         margin = self.run_script("return W.set().margin")
         self.assertEqual(len(titles), sum(len(one["passed"]) for one in margin["requirements"]))
@@ -42,6 +44,16 @@ class StudyPageChecks:
                                 self.run_script("return [...document.querySelectorAll('figure.rare svg text')].map(one => one.textContent).find(one => /^probability of/.test(one))"))[3]
         self.assertEqual(title(beyond=beyond), "probability of exceeding it")
         self.assertEqual(title(beyond={**beyond, "above": False}), "probability of falling below it")
+        for event, words, about in (("not deployed", "probability of falling below it", "reserve, as a share"), ("root.latch_rate < 5", "probability of falling below it", "threshold"), ("root.latch_rate > 5", "probability of exceeding it", "threshold")):
+            self.run_script("Object.assign(W.set().rare, { text: arguments[0], beyond: null }); W.why()", event)  # the latter two: of an older version
+            pages.settle(self.driver)
+            texts = self.run_script("return [...document.querySelectorAll('figure.rare .axis-text')].map(one => one.textContent)")
+            self.assertTrue(words in texts and any(text.startswith(about) for text in texts), texts)
+            said = self.run_script("return document.querySelector('figure.rare desc').textContent")
+            self.assertEqual("below" in said, "below" in words, said)
+        self.run_script("W.set().rare.text = 'P(event)'; W.why()")
+        self.assertIn("The upper bound is an estimate, not guaranteed.", told(estimated=True, reached=False, strata=[{"text": "a = 1", "probability": 0.1, "event": 0.2, "reached": False}]))
+        self.assertNotIn("guaranteed", told(estimated=False, reached=True))
         self.assertTrue(told(bias=0.1381478, reached=True).endswith("). Bias: such estimates are too large by about 13.8 % on average."))
         self.assertNotIn("Bias", told(bias=0.1381478, reached=False) + told(bias=0, reached=True) + told(bias=None, reached=True))
         words, *_ = rare(reached=False)
@@ -52,6 +64,30 @@ class StudyPageChecks:
         missing = lambda script: self.run_script(script + "; W.why(); return [...document.querySelectorAll('#why p.note')].pop().textContent")
         self.assertEqual(missing(""), "Not in this report: a fit to deployment tests (wingspread fit).")
         self.assertEqual(missing("W.set().margin = W.set().rare = W.set().static_margins = null"), "Not in this report: the permissible spring strength (wingspread margin), static margins (motorization in the campaign), rare events (wingspread rare), a fit to deployment tests (wingspread fit).")
+
+    def test_what_limits_a_window_is_told(self):
+        self.open(pages.made_up("studies"))
+        note = lambda **more: self.run_script("Object.assign(W.studySets[0].margin, arguments[0]); W.why(); return document.querySelector('figure.margin > .note').textContent", more)
+        plain = note()
+        for words in ("oint confidence", "Nothing was run", "Narrower windows", "static margin", "Nearer"):
+            self.assertNotIn(words, plain)
+        one = {"drive": "root", "margin": "NASA", "at_1": 0.94, "at_scale": 0.61}
+        text = note(joint_confidence=0.4, widest_gap=[0.1414, 0.2], other_windows=[[3, 4.5]], passed_over={"scale": 1.15, **one},
+                    given_up={"requirements": [{"requirement": "A", "case": "nominal"}, {"requirement": "B", "case": "cold"}], "static_margins": [one]})
+        for words in ("Joint confidence of 2 requirements, over all cases and both edges: at least 40 %.", "up to 41.4 % apart (0.1414 and 0.2000)", "from 3.000 to 4.500",
+                      "Scale 1.150 breaks fewer runs", "broken by more runs: A; B in cold.", "root (NASA: 0.61, now 0.94)"):
+            self.assertIn(words, text)
+        self.assertIn("no guarantee", note(joint_confidence=-0.2))
+
+    def test_studies_without_a_scene_have_a_title_and_units(self):
+        rare = mock.mock_wing.studies(["root", "mid", "tip"])["rare"]
+        rare["likeliest"]["draws"] = [{"name": "a", "value": 2.5, "unit": "N·m", "z": 3}, {"name": "b", "value": 0.1, "unit": "rad", "z": 2}, {"name": "c", "value": 1, "unit": "", "z": 1}]
+        self.opened_block("rare_alone", lambda: mock.block([mock.study("rare", rare=rare, wing=None)]))
+        self.assertEqual([row[:3] for row in self.table("Most likely run of the event")], [["a", "2.500", "N·m"], ["b", "5.730", "deg"], ["c", "1.000", ""]])
+        self.assertFalse(self.one("#wing").is_displayed())
+        self.assertEqual(self.run_script("return document.querySelector('#title').textContent"), "mock_wing")
+        self.opened_block("rare_first", lambda: mock.block([mock.study("rare", rare=rare, wing=None), mock.studies()[0]]))
+        self.assertTrue(self.one("#wing figure.still").is_displayed())  # of the study that has one
 
     def test_static_margins_by_standard_group_and_case(self):
         self.open(pages.made_up("cases"))
@@ -102,6 +138,12 @@ class StudyPageChecks:
         self.open(pages.made_up("studies"))
         hidden = self.run_script("return Object.fromEntries([...document.querySelectorAll('main > section')].map(one => [one.id, one.hidden]))")
         self.assertEqual(hidden, {"verdicts": False, "outputs": True, "wing": False, "modes": True, "why": False, "convergence": True, "comparison": True, "inputs": True, "glossary": False})
+        self.assertEqual(self.one("#subtitle .facts").text, "")  # no confidence of all: each study has its own
+        levels = self.run_script("W.studySets.forEach((set, at) => set.confidence = [0.5, 0.99][at]); Object.assign(W.studySets[2].rare, { confidence: 0.8 }); W.why(); return ['margin', 'tornado'].map(name => document.querySelector(`figure.${name} > .note`).textContent)")
+        self.assertTrue("two-sided 50 % bounds" in levels[0] and "99 % two-sided bounds" in levels[1], levels)
+        self.assertIn("(80 % bounds ", self.one("#why").text)
+        unknown = self.run_script("W.studySets.forEach(set => set.confidence = null); W.why(); return ['margin', 'tornado'].map(name => document.querySelector(`figure.${name} > .note`).textContent)")
+        self.assertNotRegex(" ".join(unknown), "% .*bounds")  # of folders that do not tell
         links = self.run_script("return [...document.querySelectorAll('.sections a')].map(one => [one.hash.slice(1), one.parentNode.hidden])")
         self.assertTrue(links and all(hidden[name] == gone for name, gone in links), links)
         text = self.one("#verdicts").text

@@ -9,7 +9,11 @@ namespace {
 Json parameters_json(const FitResult& result) {
   Json json = Json::object();
   for (const FittedParameter& each : result.parameters) {
-    json[each.name] = {{"prior", {{"mean", each.prior_mean}, {"std", each.prior_std}}},
+    json[each.name] = {{"prior",
+                        {{"mean", each.prior_mean},
+                         {"std", each.prior_std},
+                         {"lower", each.prior_lower},
+                         {"upper", each.prior_upper}}},
                        {"mode", each.mode},
                        {"mean", each.mean},
                        {"std", each.std},
@@ -98,10 +102,12 @@ Json tests_json(const FitResult& result, const FitSpec& spec) {
     if (fitted.channel.column)
       test["traces"][fitted.name] = trace_json(fitted);
     else
-      test["values"][fitted.name] = {{"measured", fitted.measured},
-                                     {"fitted", json_number(fitted.fitted)},
-                                     {"sigmas", json_number(fitted.sigmas)},
-                                     {"p_value", json_number(fitted.p_value)}};
+      test["values"][fitted.name] = {
+          {"unit", spec.tests[fitted.channel.test].values[fitted.channel.value].unit},
+          {"measured", fitted.measured},
+          {"fitted", json_number(fitted.fitted)},
+          {"sigmas", json_number(fitted.sigmas)},
+          {"p_value", json_number(fitted.p_value)}};
   }
   return list;
 }
@@ -139,7 +145,9 @@ Json fit_json(const FitResult& result, const FitSpec& spec, const Json& about) {
                                {"after", quantiles_json(output.after)},
                                {"cut", output.cut}};
   Json json = about;
-  json.update({{"finished", result.finished},
+  json.update({{"scene", spec.tests.front().campaign.scene.name},
+               {"confidence", fit_confidence},
+               {"finished", result.finished},
                {"findings", fit_findings(result, spec)},
                {"parameters", parameters_json(result)},
                {"at_limits", limited_json(result)},
@@ -151,6 +159,7 @@ Json fit_json(const FitResult& result, const FitSpec& spec, const Json& about) {
                  {"acceptance", result.sampler.acceptance},
                  {"runs", result.sampler.evaluations}}},
                {"unseen", unseen_json(result)},
+               {"prior_decides", names_by_prior(result)},
                {"other_modes", std::move(modes)},
                {"tests", tests_json(result, spec)}});
   if (result.values.count > 0)

@@ -22,6 +22,9 @@ inline constexpr const char* traces_csv_file = "traces.csv";
 /// The report: misfits, parameters, what the tests do not see, candidates, the prediction.
 [[nodiscard]] std::string fit_text(const FitResult& result, const FitSpec& spec);
 
+/// The parameters of which the tests say nothing.
+[[nodiscard]] std::vector<std::string> names_by_prior(const FitResult& result);
+
 /// Sentences that a reader needs before the numbers: misfits, further modes, tempering. Empty if there is none.
 [[nodiscard]] std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& spec);
 

@@ -45,12 +45,6 @@ const Campaign& laws_of(const FitParameter& parameter, const Campaign& campaign,
              : campaign;
 }
 
-/// @param campaign see laws_of
-LawMoments prior_moments(const FitParameter& parameter, const Campaign& campaign) {
-  if (parameter.kind != FitParameter::Kind::dispersion) return {0, parameter.std};
-  return moments_of(campaign.dispersions[parameter.dispersion].distribution);
-}
-
 /// The limit at which the posterior lies (at_limit); none if a prior with one limit fades out there (most_of_cut).
 /// @param campaign see laws_of
 std::optional<double> limit_at(std::span<const double> sorted, const FitParameter& parameter,
@@ -206,17 +200,17 @@ private:
     for (std::size_t k = 0; k < space_.size(); ++k) {
       const FitParameter& parameter = space_.list()[k];
       const Campaign& laws = laws_of(parameter, campaign_, spec_);
-      const LawMoments prior = prior_moments(parameter, laws);
+      const ParameterPrior prior = prior_of(parameter, laws, fit_confidence);
       const Moments after = moments(columns[k]);
       std::vector<double> sorted = columns[k];
       std::ranges::sort(sorted);
       const double tail = (1 - fit_confidence) / 2;
       const auto place = static_cast<Eigen::Index>(k);
-      result_.parameters.push_back({parameter.name, std::string(parameter.unit), prior.mean,
-                                    prior.standard_deviation, mode[k], after.mean, after.std,
-                                    quantile(sorted, tail), quantile(sorted, 1 - tail),
-                                    std::sqrt(covariance(place, place)), std::abs(scores[place]), 1,
-                                    limit_at(sorted, parameter, laws)});
+      result_.parameters.push_back({parameter.name, std::string(prior.unit), prior.mean, prior.std,
+                                    mode[k], after.mean, after.std, quantile(sorted, tail),
+                                    quantile(sorted, 1 - tail), std::sqrt(covariance(place, place)),
+                                    std::abs(scores[place]), 1, limit_at(sorted, parameter, laws),
+                                    false, prior.lower, prior.upper});
     }
     const auto common = static_cast<Eigen::Index>(space_.common());
     result_.score_covariance = covariance.topLeftCorner(common, common);

@@ -38,6 +38,7 @@ struct FittedParameter {
   double widening = 1;     ///< factor of `std` by the spread of dispersions that are not fitted
   std::optional<double> limit{}; ///< of the prior, if the posterior lies there
   bool held_decides = false;     ///< `widening` is cut: the widened `std` would exceed the prior's
+  double prior_lower = 0, prior_upper = 0; ///< quantiles of the prior, for fit_confidence
 
   /// The share of the prior's standard deviation that is left.
   [[nodiscard]] double std_ratio() const { return std / prior_std; }

@@ -185,10 +185,9 @@ std::string identifiability_text(const FitResult& result) {
     text += paragraph(describe(direction, names, result.score_covariance, result.prior_covariance));
   }
   if (all_seen) text += paragraph("the tests see every combination of the parameters");
-  std::string by_prior;
-  for (const FittedParameter& each : result.parameters)
-    if (each.score_std >= unseen_ratio) by_prior += (by_prior.empty() ? "" : ", ") + each.name;
-  if (!by_prior.empty()) text += paragraph("the prior decides, not the tests: " + by_prior);
+  if (const std::vector<std::string> by_prior = names_by_prior(result); !by_prior.empty())
+    text +=
+        paragraph(fmt::format("the prior decides, not the tests: {}", fmt::join(by_prior, ", ")));
   return text;
 }
 
@@ -251,10 +250,6 @@ std::string prediction_text(const FitResult& result) {
     text += line("  " + output.name, range(output.before), range(output.after));
   if (some_missing)
     text += "  none: the quantile is over all runs, and too many of them lack the output\n";
-  if (result.beside_cases)
-    text +=
-        "  of the campaign's wing in none of its cases; `wingspread run` of the written campaign "
-        "predicts each\n";
   return text;
 }
 
@@ -283,6 +278,13 @@ void add_far_offsets(const FitResult& result, const FitSpec& spec, std::vector<s
 }
 
 } // namespace
+
+std::vector<std::string> names_by_prior(const FitResult& result) {
+  std::vector<std::string> names;
+  for (const FittedParameter& each : result.parameters)
+    if (each.score_std >= unseen_ratio) names.push_back(each.name);
+  return names;
+}
 
 std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& spec) {
   std::vector<std::string> list;
@@ -317,6 +319,9 @@ std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& sp
     list.push_back(
         "every fitted parameter is a test's own: nothing is known of other units, so there is no "
         "posterior.csv, no campaign.json and no prediction");
+  if (result.beside_cases && !result.prediction.outputs.empty())
+    list.emplace_back("the prediction is of the campaign's wing in none of its cases; `wingspread "
+                      "run` of the written campaign predicts each");
   for (const std::string& law : result.lost_laws)
     list.push_back("the law of this case is not in the written campaign, which draws the posterior "
                    "in every case, so that its prediction is not of this case: " +

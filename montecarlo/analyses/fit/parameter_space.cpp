@@ -3,6 +3,8 @@
 #include "distributions/design.hpp"
 #include "distributions/prepared_distribution.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/foundation/statistics/two_sided.hpp"
+#include "montecarlo/model/campaign/describe.hpp"
 #include "montecarlo/model/campaign/distribution_json.hpp"
 #include "montecarlo/model/campaign/wanted_correlations.hpp"
 
@@ -208,6 +210,19 @@ Campaign without_correlations(Campaign campaign) {
   campaign.wanted_correlations.clear();
   campaign.resolved.erase("correlations");
   return campaign;
+}
+
+ParameterPrior prior_of(const FitParameter& parameter, const Campaign& campaign,
+                        double confidence) {
+  if (parameter.kind != Kind::dispersion) {
+    const double reach = two_sided_normal(confidence) * parameter.std;
+    return {0, parameter.std, -reach, reach, parameter.unit};
+  }
+  const Dispersion& dispersion = campaign.dispersions[parameter.dispersion];
+  const double tail = (1 - confidence) / 2;
+  const PreparedDistribution law(dispersion.distribution);
+  const auto [mean, std] = moments_of(dispersion.distribution);
+  return {mean, std, law.quantile(tail), law.quantile_complement(tail), unit_of_draw(dispersion)};
 }
 
 Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted) {

@@ -75,6 +75,17 @@ private:
 /// The moments of a law, also of a truncated one.
 [[nodiscard]] LawMoments moments_of(const Distribution& distribution);
 
+/// The prior of a parameter, as its dispersion applies it; of an offset in SI.
+struct ParameterPrior {
+  double mean = 0, std = 0;
+  double lower = 0, upper = 0; ///< quantiles at both ends of the interval
+  std::string_view unit{};     ///< none of a factor
+};
+/// @param campaign whose laws the parameter has
+/// @param confidence of the interval
+[[nodiscard]] ParameterPrior prior_of(const FitParameter& parameter, const Campaign& campaign,
+                                      double confidence);
+
 /// The campaign in which these dispersions have normal laws with their own medians and standard deviations, each column
 /// of `rows` for itself: near u = 0 a unit of u is then a standard deviation of the law, whatever the law is.
 [[nodiscard]] Campaign with_normal_laws(Campaign campaign, const std::vector<std::size_t>& held);

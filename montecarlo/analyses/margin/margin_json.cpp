@@ -176,6 +176,7 @@ private:
 
 Json definitions() {
   return {
+      {"confidence", "of deployed_lower and deployed_upper in margin.csv, two-sided"},
       {"scale", "factor on the parameters in \"scales\", after all dispersion; the same draws at "
                 "every scale"},
       {"window", "the widest stretch of scales at which every requirement is shown in every case"},
@@ -245,6 +246,7 @@ Json margin_json(const MarginReport& report, const Json& about) {
           {"range", {spec.lower, spec.upper}},
           {"widest", {spec.lowest, spec.highest}},
           {"tolerance", spec.edge_tolerance},
+          {"confidence", report.campaign.statistics.confidence},
           {"mode", margin_mode_names[static_cast<std::size_t>(spec.mode)]},
           {"cases", cases},
           {"searches", searches},

@@ -5,6 +5,7 @@
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "montecarlo/model/campaign/describe.hpp"
 
 #include <fmt/format.h>
 
@@ -40,16 +41,15 @@ Json estimate_json(const SubsetEstimate& estimate, const RareEvent& event) {
 }
 
 Json likeliest_json(const LikeliestRun& run, const Campaign& campaign) {
-  Json draws = Json::object(), z = Json::object();
+  Json draws = Json::object(), z = Json::object(), units = Json::object();
   for (std::size_t i = 0; i < run.draws.size(); ++i) {
     draws[campaign.dispersions[i].name] = json_number(run.draws[i]);
     z[campaign.dispersions[i].name] = json_number(run.z[i]);
+    units[campaign.dispersions[i].name] = unit_of_draw(campaign.dispersions[i]);
   }
-  return {{"distance", run.distance},
-          {"status", to_string(run.status)},
-          {"reason", run.reason},
-          {"draws", draws},
-          {"z", z}};
+  return {{"distance", run.distance}, {"status", to_string(run.status)},
+          {"reason", run.reason},     {"draws", draws},
+          {"units", units},           {"z", z}};
 }
 
 Json repeats_json(const StratumEstimate& part, const RareEvent& event) {
@@ -312,6 +312,7 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
     by_status[to_string(status)] = result.statuses[static_cast<std::size_t>(status)];
   return {
       {stamp_key, about},
+      {"scene", campaign.scene.name},
       {"event", describe(options.event)},
       {"beyond", event_json(options.event)},
       {"case", campaign.of_case.empty() ? Json(nullptr) : Json(campaign.of_case)},

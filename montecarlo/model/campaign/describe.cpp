@@ -254,6 +254,11 @@ std::string describe(const Distribution& distribution) {
   return text;
 }
 
+std::string_view unit_of_draw(const Dispersion& dispersion) {
+  if (dispersion.targets.empty() || dispersion.apply == Apply::scale) return "";
+  return unit_of(dispersion.targets.front());
+}
+
 std::string describe(const Campaign& campaign) {
   std::string text = "campaign\n" + describe(campaign.scene) +
                      counted(std::ssize(campaign.dispersions), "dispersion", "dispersions") + "\n";

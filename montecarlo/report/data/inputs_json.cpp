@@ -119,7 +119,6 @@ Json dispersion_json(const Campaign& campaign, const Dispersion& dispersion,
   });
   const std::string law_text = describe(dispersion.distribution),
                     before = describe(before_case.distribution);
-  const bool of_parameter = how == "set" || how == "add";
   const double median = law.quantile(0.5);
   return {{"draw", dispersion.name},
           {"words", plain_words(campaign.scene, dispersion)},
@@ -133,7 +132,7 @@ Json dispersion_json(const Campaign& campaign, const Dispersion& dispersion,
           {"nominal_unit", first ? unit_of(*first) : std::string_view()},
           {"low", page_number(law.quantile(0.01))},
           {"high", page_number(law.quantile(0.99))},
-          {"unit", first && of_parameter ? unit_of(*first) : std::string_view()}};
+          {"unit", unit_of_draw(dispersion)}};
 }
 
 Json settings_json(const Campaign& campaign) {

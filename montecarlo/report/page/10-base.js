@@ -9,7 +9,7 @@
     isStudy = (set) => !set.runs && !(set.statuses || []).length;
   W.studySets = all.filter(isStudy);
   W.onlyStudies = all.length > 0 && W.studySets.length === all.length;
-  W.sets = W.onlyStudies ? W.studySets.slice(0, 1) : all.filter((set) => !isStudy(set));
+  W.sets = W.onlyStudies ? [W.studySets.find((set) => set.wing) || W.studySets[0]] : all.filter((set) => !isStudy(set));
 
   // The reader's choices. `choose` calls every listener of the key.
   W.chosen = { set: 0, output: null, split: "order", scale: "linear", angles: "deg", motion: 0, run: null };

@@ -61,7 +61,7 @@
           ? `${F.runs(set.runs)}${W.sets.length > 1 ? " each" : ""}`
           : `${F.count(d3.min(W.sets, (each) => each.runs))} to ${F.runs(d3.max(W.sets, (each) => each.runs))}`,
       set.foreign ? "rows from another tool" : null,
-      confidences(),
+      W.onlyStudies ? null : confidences(), // each study has its own, beside its bounds
       set.shard ? `shard ${set.shard}` : null,
       set.stopped ? `stopped early: its goals were met (${F.count(set.planned)} runs planned)` : null,
       set.looks > 1 ? `bounds hold over ${set.looks} interim analyses` : null,

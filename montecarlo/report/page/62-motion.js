@@ -25,6 +25,7 @@
     const element = W.figure({
       title: `In motion: ${motion.label}`,
       class: "stage",
+      printed: 440,
       description: `The wing to scale, moving: ${motion.label}. ${motion.why || ""}`,
       table: () => ({
         columns: ["time s", ...wing.hinges.map((hinge) => `${hinge.name} ${angle().unit}`)],

@@ -53,7 +53,7 @@
       printed: 940,
       note:
         kind === "sobol"
-          ? "First order: the dispersion alone. Total: with its interactions. Lines are confidence bounds."
+          ? `First order: the dispersion alone. Total: with its interactions.${W.isNumber(set.confidence) ? ` Lines are ${F.given(100 * set.confidence)} % two-sided bounds.` : ""}`
           : `Strongest first.${kind === "rank" ? ` ${chance(set)}` : ""} Bars to the right: the output increases with the dispersion.`,
       description: () =>
         rows

@@ -1,95 +1,8 @@
-// Results of `margin`, `sensitivity CAMPAIGN`, `rare` and `fit`, and static margins of the campaign.
+// Results of `sensitivity CAMPAIGN` and `rare`, static margins of the campaign, and all studies side by side.
 (function () {
   "use strict";
   const W = window.wingspread;
   const { h, number, format: F, marks: M } = W;
-
-  const permissible = (margin) => (margin.of_springs ? "Permissible spring strength" : "Permissible scale");
-  function marginWindow(margin) {
-    const [low, high] = margin.window || [null, null],
-      { scales, requirements } = margin;
-    const ends = `${W.isNumber(low) ? `from ${F.number(low, 4)}` : "open below"} ${W.isNumber(high) ? `to ${F.number(high, 4)}` : "and open above"}`;
-    const [from, to] = margin.as_good || [];
-    const others =
-      to > from ? ` (no scale seen has fewer runs that break a requirement, and those from ${F.number(from, 4)} to ${F.number(to, 4)} have as few)` : "";
-    const advice = W.isNumber(margin.recommended) ? `; recommended: ${F.number(margin.recommended, 4)}${others}` : "";
-    const words =
-      W.isNumber(low) || W.isNumber(high)
-        ? `The window is ${ends}${advice}.${margin.why_none ? ` No recommendation: ${margin.why_none}.` : ""}${margin.not_confirmed ? ` Runs of another seed do not confirm the recommendation: ${margin.not_confirmed}.` : ""}`
-        : margin.why_none || "No scale meets all requirements.";
-    return W.figure({
-      title: `${permissible(margin)} (wingspread margin)`,
-      class: "margin",
-      note: words,
-      description: `Share of runs that meet each requirement against the scale${margin.of_springs ? " of the springs" : ""}. ${words}`,
-      table: () => ({
-        columns: ["scale", ...requirements.flatMap((one) => [one.text, "lower", "upper", "verdict"])],
-        rows: scales.map((scale, at) => [
-          scale,
-          ...requirements.flatMap((one) => [one.passed[at], one.lower[at], one.upper[at], one.verdict[at]]),
-        ]),
-      }),
-      draw: function (svg, width) {
-        const top = M.legend(
-          svg,
-          [...M.lineItems(requirements, (one) => one.text), { text: "window", fill: "var(--good)", opacity: 0.25 }],
-          width,
-        );
-        const box = { left: 48, right: width - 14, top: top + 18, bottom: top + 270 },
-          x = M.linear([...scales, low, high], [box.left, box.right]);
-        // A scale of nines, -log10(1 - share), because requirements usually lie between 90 and 100 %.
-        const nines = d3.scaleLinear([0, 3.6], [box.bottom, box.top]),
-          y = (share) => nines(Math.min(3.6, -Math.log10(Math.max(1e-9, 1 - share))));
-        const SHARES = [0, 0.5, 0.9, 0.99, 0.999, 1],
-          axis = nines.copy();
-        if (W.isNumber(low) || W.isNumber(high)) {
-          const from = W.isNumber(low) ? x(low) : box.left,
-            to = W.isNumber(high) ? x(high) : box.right;
-          M.put(svg, "rect.window", {
-            x: from,
-            width: Math.max(0, to - from),
-            y: box.top,
-            height: box.bottom - box.top,
-          });
-        }
-        M.axes(svg, box, x, axis, {
-          xText: margin.of_springs ? "scale of the springs" : `scale of ${margin.paths.length === 1 ? margin.paths[0] : "the values"}`,
-          yText: "share of runs that meet the requirement, logarithmic in 1 - share",
-          yValues: SHARES.map((share) => nines.invert(y(share))),
-          yFormat: (_, at) => `${Number((100 * SHARES[at]).toPrecision(4))} %`,
-        });
-        requirements.forEach(function (one, at) {
-          M.put(svg, "path.curve-band", {
-            d: M.band(x, y)(scales.map((scale, k) => [scale, one.lower[k], one.upper[k]])),
-            style: { fill: M.colour(at), "fill-opacity": 0.09 },
-          });
-          M.trace(svg, M.line(x, y)(scales.map((scale, k) => [scale, one.passed[k]])), at);
-          scales.forEach(
-            (scale, k) =>
-              W.isNumber(one.passed[k]) &&
-              M.put(svg, "circle.looked", {
-                cx: x(scale),
-                cy: y(one.passed[k]),
-                r: 3,
-                style: {
-                  stroke: M.colour(at),
-                  fill: W.verdicts.verdictOf(one.verdict[k]) === "passed" ? M.colour(at) : "var(--paper)",
-                },
-                title: `${one.text}: ${one.verdict[k]} at ${F.number(scale, 4)}`,
-              }),
-          );
-        });
-        const recommended = {
-          x: x(margin.recommended),
-          text: `recommended ${F.number(margin.recommended, 4)}`,
-          kind: "chosen-line",
-        };
-        const lines = [{ x: x(1), text: "present", kind: "nominal" }];
-        M.uprights(svg, box, W.isNumber(margin.recommended) ? [...lines, recommended] : lines, true);
-        return box.bottom + 40;
-      },
-    });
-  }
 
   // The document of each standard; the data have the formula with the campaign's factors.
   const STANDARDS = {
@@ -255,7 +168,12 @@
     const beyond = rare.beyond,
       { factor, unit } = F.shown(beyond ? beyond.unit : ""),
       event = beyond ? `${beyond.abs ? `|${F.nameOf(beyond.output)}|` : F.nameOf(beyond.output)} ${beyond.above ? ">" : "<"} ${F.written(beyond.limit, beyond.unit)}` : rare.text,
-      bounds = W.isNumber(rare.confidence) ? `${F.given(100 * rare.confidence)} % bounds` : "bounds";
+      bounds = W.isNumber(rare.confidence) ? `${F.given(100 * rare.confidence)} % bounds` : "bounds",
+      // Of "not deployed" the levels are those of the limit state: below 0 the wing is not deployed. An earlier version wrote
+      // the other events without `beyond`.
+      reserve = !beyond && rare.text === "not deployed",
+      below = reserve || (beyond ? !beyond.above : / < /.test(rare.text)),
+      level = reserve ? "reserve" : "threshold";
     // Of each repeat the levels that can be drawn.
     const repeats = (rare.levels || [])
         .map((levels, at) => levels.filter((one) => W.isNumber(one.threshold) && one.probability > 0).map((one) => ({ repeat: at + 1, threshold: one.threshold * factor, probability: one.probability })))
@@ -263,6 +181,7 @@
       drawn = repeats.flat(),
       several = (rare.levels || []).length > 1,
       likeliest = rare.likeliest && rare.likeliest.draws,
+      valueOf = (one) => [F.number(one.value * F.shown(one.unit || "").factor, 4), F.shown(one.unit || "").unit],
       strata = rare.strata || [];
     // The mean stands at the threshold that every repeat has reached. With strata the estimate is a sum over them, and the
     // repeats are those of the first alone.
@@ -273,15 +192,20 @@
         ? W.figure({
             title: "Rare event: probability of each level",
             class: "rare",
-            note: several
+            note: [
+              reserve ? "Below 0 the wing is not deployed." : "",
+              several
               ? `Each thin line is one of ${F.counted(rare.levels.length, "repeat")}${strata.length ? " of the draws with no rare value" : ""}.${mean ? " The large point is the estimate, their mean." : ""}`
-              : null,
+              : "",
+            ]
+              .filter(Boolean)
+              .join(" "),
             description: () =>
               repeats
-                .map((levels) => (several ? `repeat ${levels[0].repeat}: ` : "") + levels.map((one) => `beyond ${F.number(one.threshold, 4)}: ${F.number(one.probability, 2)}`).join("; "))
+                .map((levels) => (several ? `repeat ${levels[0].repeat}: ` : "") + levels.map((one) => `${below ? "below" : "above"} ${F.number(one.threshold, 4)}: ${F.number(one.probability, 2)}`).join("; "))
                 .join("; "),
             table: () => ({
-              columns: ["repeat", unit ? `threshold ${unit}` : "threshold", "probability"],
+              columns: ["repeat", unit ? `${level} ${unit}` : level, "probability"],
               rows: drawn.map((one) => [one.repeat, one.threshold, one.probability]),
             }),
             draw: function (svg, width) {
@@ -293,8 +217,8 @@
               const y = d3.scaleLog([d3.min(drawn, (one) => one.probability) / 2, 1], [box.bottom, box.top]),
                 decades = d3.range(0, Math.ceil(-Math.log10(y.domain()[0]))).map((k) => 10 ** -k);
               M.axes(svg, box, x, y, {
-                xText: unit ? `threshold (${unit})` : "threshold",
-                yText: `probability of ${beyond && !beyond.above ? "falling below" : "exceeding"} it`,
+                xText: reserve ? "reserve, as a share of the nominal wing's" : unit ? `threshold (${unit})` : "threshold",
+                yText: `probability of ${below ? "falling below" : "exceeding"} it`,
                 yValues: decades,
                 yFormat: (value) => `10${F.superscript(Math.round(Math.log10(value)))}`,
               });
@@ -309,7 +233,9 @@
       reached =
         rare.reached === false && strata.length === 0 && rare.probability > 0
           ? " The event was not reached: this is the estimated probability of the last level, which contains the event. Estimated upper bound, not guaranteed."
-          : "";
+          : rare.estimated
+            ? " The upper bound is an estimate, not guaranteed."
+            : "";
     return [
       h(
         "p",
@@ -335,11 +261,11 @@
         ? [
             W.table(
               "Most likely run of the event",
-              ["Dispersion", number("Value"), number("Normal coordinate")],
+              ["Dispersion", number("Value"), "Unit", number("Normal coordinate")],
               likeliest
                 .slice()
                 .sort((a, b) => Math.abs(b.z) - Math.abs(a.z))
-                .map((one) => [one.name, F.number(one.value, 4), `${one.z > 0 ? "+" : ""}${F.fixed(one.z, 2)}`]),
+                .map((one) => [one.name, ...valueOf(one), `${one.z > 0 ? "+" : ""}${F.fixed(one.z, 2)}`]),
               { showCaption: true },
             ),
             h(
@@ -370,12 +296,12 @@
     };
     for (const set of sets) {
       if (W.studySets.includes(set) && W.effectOutputs(set).length) add("sobol", "Sensitivity", set, indices(set));
-      if (set.margin && (set.margin.scales || []).length) add("margin", permissible(set.margin), set, marginWindow(set.margin));
+      if (set.margin && (set.margin.scales || []).length) add("margin", W.permissible(set.margin), set, W.marginWindow(set.margin, set));
       if (!found.has("static") && set.static_margins && (set.static_margins.hinges || []).length)
         add("static", "Static margins", set, staticMargins(set.static_margins, set));
       if (set.rare) add("rare", "Rare events", set, rareEvent(set.rare));
       if (set.fit) {
-        add("fit", "Fit to tests", set, W.fitParts(set.fit));
+        add("fit", "Fit to tests", set, W.fitParts(set.fit, set));
         parts[parts.length - 1].classList.add("across");
       }
     }
@@ -389,7 +315,7 @@
       .filter((kind) => !found.has(kind))
       .map((kind) => names[kind]);
     return [
-      h("div.grid.pairs", parts),
+      h("div.grid.pairs.studies", parts),
       missing.length ? h("p.note", `Not in this report: ${missing.join(", ")}.`) : null,
     ];
   };

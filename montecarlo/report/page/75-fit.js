@@ -6,7 +6,8 @@
   const { h, number, format: F, marks: M } = W;
   const MOST_PAIRED = 4; // parameters in the picture of pairs
 
-  function trace(one) {
+  const thinned = (drawn, all, what) => (all > drawn ? ` The picture has ${F.count(drawn)} of ${F.counted(all, what)}.` : "");
+  function trace(one, level) {
     const { unit, factor } = F.shown(one.unit),
       scaled = (values) => values.map((value) => (W.isNumber(value) ? value * factor : value)),
       [measured, fitted, lower, upper] = [one.measured, one.fitted, one.lower, one.upper].map(scaled),
@@ -15,7 +16,7 @@
       W.isNumber(one.chi_squared)
         ? ` χ² ${F.number(one.chi_squared, 4)} for ${F.count(one.n)} numbers, p ${F.number(one.p_value, 2)}.`
         : ""
-    } ${F.number(one.n_effective, 3)} of them are independent.`;
+    } ${F.number(one.n_effective, 3)} of them are independent.${thinned(one.t.length, one.samples, "sample")}`;
     return W.figure({
       title: `Measured and fitted: ${one.column}, ${one.test}`,
       class: "fit-trace",
@@ -29,9 +30,9 @@
         const top = M.legend(
           svg,
           [
-            { text: "measured", mark: M.colour(1) },
+            { text: "measured", mark: M.colour(5) },
             { text: "fitted", line: M.colour(0) },
-            { text: "95 % band", fill: M.colour(0), opacity: 0.25 },
+            { text: `${level} band`, fill: M.colour(0), opacity: 0.25 },
           ],
           width,
         );
@@ -47,14 +48,14 @@
                 cx: x(one.t[at]),
                 cy: scale(value),
                 r: 1.4,
-                style: { fill: M.colour(1), "fill-opacity": 0.6 },
+                style: { fill: M.colour(5) }, // as dark as a small dot needs
               }),
           );
-        points(svg, measured, y);
         M.put(svg, "path.curve-band", {
           d: M.band(x, y)(one.t.map((t, at) => [t, lower[at], upper[at]])),
           style: { fill: M.colour(0), "fill-opacity": 0.25 },
         });
+        points(svg, measured, y);
         M.trace(svg, M.line(x, y)(one.t.map((t, at) => [t, fitted[at]])), 0);
         const below = { left: box.left, right: box.right, top: box.bottom + 50, bottom: box.bottom + 140 },
           r = M.linear([0, ...residuals], [below.bottom, below.top]);
@@ -65,7 +66,8 @@
     });
   }
 
-  function priorAndPosterior(parameters) {
+  function priorAndPosterior(parameters, level) {
+    const known = (one) => W.isNumber(one.prior.lower); // folders of older versions have no quantiles
     const scaled = parameters.map((one) => ({
       name: one.name,
       at: (value) => (value - one.prior.mean) / one.prior.std,
@@ -74,15 +76,17 @@
     return W.figure({
       title: "Prior and posterior",
       class: "fit-parameters",
-      note: "In standard deviations of the prior from its mean. Light: 95 % of the prior; dark: 95 % interval after the tests.",
+      note: `In standard deviations of the prior from its mean.${parameters.some(known) ? ` Light: ${level} of the prior.` : ""} Dark: ${level} interval after the tests.`,
       description: () =>
         parameters.map((one) => `${one.name}: ${F.number(one.mean, 4)} ± ${F.number(one.std, 2)}`).join("; "),
       table: () => ({
-        columns: ["parameter", "prior mean", "prior sd", "mode", "mean", "sd", "lower", "upper", "sd left"],
+        columns: ["parameter", "prior mean", "prior sd", "prior lower", "prior upper", "mode", "mean", "sd", "lower", "upper", "sd left"],
         rows: parameters.map((one) => [
           one.name,
           one.prior.mean,
           one.prior.std,
+          one.prior.lower,
+          one.prior.upper,
           one.mode,
           one.mean,
           one.std,
@@ -99,7 +103,7 @@
           ),
           box = { left, right: width - 14, top: 16, bottom: 16 + 26 * parameters.length },
           x = M.linear(
-            scaled.flatMap(({ at, one }) => [-2, 2, at(one.lower), at(one.upper)]),
+            scaled.flatMap(({ at, one }) => [...(known(one) ? [at(one.prior.lower), at(one.prior.upper)] : [0]), at(one.lower), at(one.upper)]),
             [box.left, box.right],
           );
         M.axes(svg, box, x, null, { xText: "deviation from the prior's mean (sd of the prior)" });
@@ -114,7 +118,7 @@
               height: tall,
               style: { fill: M.colour(0), "fill-opacity": opacity },
             });
-          bar(-1.96, 1.96, 14, 0.18);
+          if (known(one)) bar(at(one.prior.lower), at(one.prior.upper), 14, 0.18);
           bar(at(one.lower), at(one.upper), 8, 0.9);
         });
         return box.bottom + 40;
@@ -122,7 +126,7 @@
     });
   }
 
-  function pairs({ names, rows }) {
+  function pairs({ names, rows, samples }) {
     const shown = names.slice(0, MOST_PAIRED),
       columns = shown.map((_, at) => rows.map((row) => row[at]));
     if (shown.length < 2) return null;
@@ -130,9 +134,7 @@
       title: "Pairs of parameters after the tests",
       class: "fit-pairs",
       note:
-        names.length > shown.length
-          ? `The picture has the first ${shown.length} of ${names.length} parameters; posterior.csv has all.`
-          : null,
+        [names.length > shown.length ? `The picture has the first ${shown.length} of ${names.length} parameters; posterior.csv has all.` : "", thinned(rows.length, samples, "sample")].join("").trim() || null,
       description: `Samples of ${shown.join(", ")}, pair by pair.`,
       table: () => ({ columns: names, rows }),
       draw: function (svg, width) {
@@ -149,8 +151,8 @@
             const x = M.linear(columns[j], [box.left, box.right]),
               y = M.linear(columns[i], [box.bottom, box.top]);
             M.axes(svg, box, x, j === 0 ? y : null, {
-              xText: shown[j],
-              yText: j === 0 ? shown[i] : null,
+              xText: M.shorten(shown[j], side),
+              yText: j === 0 ? M.shorten(shown[i], box.right) : null,
               xTicks: 3,
               yTicks: 4,
             });
@@ -181,10 +183,10 @@
   }
   const spread = (mean, std) => `${F.sized(mean, std)} ± ${F.sized(std, std)}`;
 
-  function parameterTable(parameters) {
+  function parameterTable(parameters, level) {
     return W.table(
       "Parameters before and after the tests",
-      ["Parameter", number("Before: mean ± sd"), number("After"), number("95 % interval"), number("Share of the sd left")],
+      ["Parameter", number("Before: mean ± sd"), number("After"), number(`${level} interval`), number("Share of the sd left")],
       parameters.map((one) => [
         one.unit ? `${one.name} (${F.unit(one.unit)})` : one.name,
         spread(one.prior.mean, one.prior.std),
@@ -237,23 +239,28 @@
             { showCaption: true },
           )
         : null,
+      outputs.some(([, one]) => [...one.before, ...one.after].includes(null))
+        ? h("p.note", "None: the quantile is over all runs, and too many of them lack the output.")
+        : null,
     ];
   }
 
-  W.fitParts = function (fit) {
+  W.fitParts = function (fit, set) {
+    const level = `${F.given(100 * set.confidence)} %`;
     return [
       ...fit.findings.map((text) => h("p", h("b", text))),
       h(
         "div.grid.pairs",
         h(
           "div",
-          fit.parameters.length ? priorAndPosterior(fit.parameters) : null,
+          fit.parameters.length ? priorAndPosterior(fit.parameters, level) : null,
           fit.unseen.map((one) => h("p", one.text)),
+          (fit.prior_decides || []).length ? h("p", `The prior decides, not the tests: ${fit.prior_decides.join(", ")}.`) : null,
         ),
         fit.samples ? pairs(fit.samples) : null,
-        fit.traces.map(trace),
+        fit.traces.map((one) => trace(one, level)),
       ),
-      fit.parameters.length ? parameterTable(fit.parameters) : null,
+      fit.parameters.length ? parameterTable(fit.parameters, level) : null,
       ...tables(fit),
     ];
   };

@@ -59,7 +59,7 @@
   // Hides sections without content, and their links in the bar.
   function sections() {
     if (W.onlyStudies)
-      ["outputs", "convergence", "inputs"].forEach((id) => (document.getElementById(id).hidden = true));
+      ["outputs", "convergence", "inputs", ...(W.set().wing ? [] : ["wing"])].forEach((id) => (document.getElementById(id).hidden = true));
     document
       .querySelectorAll(".sections a")
       .forEach((link) => (link.parentNode.hidden = document.querySelector(link.getAttribute("href")).hidden));

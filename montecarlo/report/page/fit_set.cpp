@@ -9,8 +9,11 @@
 #include "montecarlo/model/scene_file/scene_parameter.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
+#include <span>
 
 namespace wingspread {
 namespace {
@@ -38,12 +41,42 @@ Json number_of(const std::string& cell) {
   return value ? page_number(*value) : Json(nullptr);
 }
 
-/// At most `most` of `count` rows from `first` on, evenly chosen.
-std::vector<std::size_t> chosen(std::size_t first, std::size_t count, std::size_t most) {
-  std::vector<std::size_t> rows;
+/// The first of `most` parts of `count` rows, as equal as can be; of fewer rows each is a part.
+std::vector<std::size_t> parts_of(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> starts;
   const std::size_t kept = std::min(count, most);
-  for (std::size_t k = 0; k < kept; ++k) rows.push_back(first + k * count / kept);
-  return rows;
+  for (std::size_t k = 0; k < kept; ++k) starts.push_back(k * count / kept);
+  return starts;
+}
+
+using CsvRows =
+    std::span<const std::vector<std::string>>; // of a trace: test, column, t, measured, fitted, …
+
+/// |measured − fitted|; 0 without a measured number.
+double residual_of(const std::vector<std::string>& row) {
+  const double size = std::abs(parse_csv_number(row.at(3)).value_or(undefined) -
+                               parse_csv_number(row.at(4)).value_or(undefined));
+  return std::isnan(size) ? 0 : size;
+}
+
+/// The rows of a trace that are drawn, ascending: of each part the first and the one furthest from the fit, and all
+/// outliers of fit.json, so that no sample that a finding names is missing.
+std::vector<std::size_t> drawn_rows(CsvRows rows, const Json& outliers) {
+  if (rows.size() <= most_times) return parts_of(rows.size(), most_times);
+  std::vector<std::size_t> drawn = parts_of(rows.size(), most_times / 2);
+  const std::vector<std::size_t> starts = drawn;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const CsvRows part =
+        rows.subspan(starts[k], (k + 1 < starts.size() ? starts[k + 1] : rows.size()) - starts[k]);
+    const auto worst = std::ranges::max_element(part, {}, residual_of);
+    drawn.push_back(starts[k] + static_cast<std::size_t>(worst - part.begin()));
+  }
+  for (std::size_t k = 0; k < std::min(outliers.size(), most_times); ++k) // the furthest first
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (parse_csv_number(rows[i].at(2)) == outliers[k].at("t").get<double>()) drawn.push_back(i);
+  std::ranges::sort(drawn);
+  drawn.erase(std::ranges::unique(drawn).begin(), drawn.end());
+  return drawn;
 }
 
 Json traces_json(const std::filesystem::path& folder, const Json& study) {
@@ -59,11 +92,13 @@ Json traces_json(const std::filesystem::path& folder, const Json& study) {
                {"column", rows[first][1]},
                {"unit", unit_of_column(rows[first][1])}};
     for (const char* name : series) trace[name] = Json::array();
-    for (const std::size_t row : chosen(first, last - first, most_times))
-      for (std::size_t i = 0; i < series.size(); ++i)
-        trace[series[i]].push_back(number_of(rows[row].at(i + 2)));
     for (const Json& test : study.at("tests"))
       if (test.at("name") == trace["test"]) trace.update(test.at("traces").at(rows[first][1]));
+    const CsvRows own = CsvRows(rows).subspan(first, last - first);
+    trace["samples"] = own.size();
+    for (const std::size_t row : drawn_rows(own, trace.value("outliers", Json::array())))
+      for (std::size_t i = 0; i < series.size(); ++i)
+        trace[series[i]].push_back(number_of(own[row].at(i + 2)));
     traces.push_back(std::move(trace));
     first = last;
   }
@@ -73,8 +108,8 @@ Json traces_json(const std::filesystem::path& folder, const Json& study) {
 Json samples_json(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   const auto rows = rows_of(folder / posterior_file, names);
-  Json samples{{"names", names}, {"rows", Json::array()}};
-  for (const std::size_t row : chosen(0, rows.size(), most_rows)) {
+  Json samples{{"names", names}, {"rows", Json::array()}, {"samples", rows.size()}};
+  for (const std::size_t row : parts_of(rows.size(), most_rows)) {
     Json values = Json::array();
     for (const std::string& cell : rows[row]) values.push_back(number_of(cell));
     samples["rows"].push_back(std::move(values));
@@ -110,13 +145,14 @@ Json fit_block(const std::filesystem::path& folder, const Scene* scene) {
   for (const Json& test : study.at("tests"))
     for (const auto& [name, value] : test.at("values").items()) {
       Json row{{"test", test.at("name")}, {"name", name}, {"unit", unit_of_value(name, scene)}};
-      row.update(value);
+      row.update(value); // with its unit; of older versions without
       values.push_back(std::move(row));
     }
   return {{"finished", study.at("finished")},
           {"findings", study.at("findings")},
           {"parameters", std::move(parameters)},
           {"unseen", study.at("unseen")},
+          {"prior_decides", study.value("prior_decides", Json::array())},
           {"values", std::move(values)},
           {"traces", traces_json(folder, study)},
           {"samples",

@@ -108,9 +108,12 @@ std::string listed(const std::vector<std::string>& names) {
                            : fmt::format("{} and {}", fmt::join(names.begin(), last, ", "), *last);
 }
 
+/// The scene's name; of studies that an older version wrote without it, the first one's label.
 std::string title_of(const PageSources& sources) {
-  return sources.runs.empty() ? sources.studies.front().at("campaign").get<std::string>()
-                              : sources.runs.front()->stored.campaign.scene.name;
+  if (!sources.runs.empty()) return sources.runs.front()->stored.campaign.scene.name;
+  for (const Json& study : sources.studies)
+    if (study.at("campaign") != "") return study["campaign"];
+  return sources.studies.front().at("label");
 }
 
 } // namespace

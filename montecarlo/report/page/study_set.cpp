@@ -4,23 +4,16 @@
 #include "montecarlo/analyses/margin/margin_report.hpp"
 #include "montecarlo/analyses/rare/rare_report.hpp"
 #include "montecarlo/analyses/sensitivity/design_folder.hpp"
-#include "montecarlo/foundation/formats/csv.hpp"
-#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/wing_json.hpp"
 #include "montecarlo/report/page/fit_set.hpp"
+#include "montecarlo/report/page/margin_block.hpp"
 #include "montecarlo/report/page/static_margins_json.hpp"
 #include "montecarlo/results/results_folder/results_folder.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <map>
-#include <utility>
 
 namespace wingspread {
 namespace {
@@ -42,7 +35,7 @@ Json empty_set(const std::filesystem::path& folder, const std::string& label, co
             {"stopped", false},
             {"shard", nullptr},
             {"design", ""},
-            {"confidence", 0.95},
+            {"confidence", nullptr},
             {"looks", 1},
             {"replicates", 0},
             {"made_by", ""},
@@ -62,130 +55,11 @@ Json empty_set(const std::filesystem::path& folder, const std::string& label, co
 
 void add_campaign(const Campaign& campaign, Json& set) {
   set["campaign"] = campaign.scene.name;
-  set["confidence"] = campaign.statistics.confidence;
   set["wing"] = wing_json(nominal_scene(campaign));
   set["static_margins"] = static_margins_json(campaign);
 }
 
 // ---- margin
-
-/// The rows of margin.csv of one requirement in one case, by scale.
-struct RequirementScales {
-  std::string text;
-  std::vector<double> scales;
-  std::vector<long> runs, broken;
-  std::vector<std::string> verdicts;
-};
-/// The rows of margin.csv by search, then by requirement in the order of the file.
-using MarginTable = std::vector<std::pair<std::string, std::vector<RequirementScales>>>;
-
-/// The first element for which `same` is true; if none, a new one at the end.
-template <class List, class Same, class Make>
-auto& found_or_made(List& list, Same same, Make make) {
-  const auto found = std::ranges::find_if(list, same);
-  if (found != list.end()) return *found;
-  list.push_back(make());
-  return list.back();
-}
-
-/// A verdict in the page's words.
-std::string page_verdict(const std::string& verdict) {
-  return verdict == "pass" ? "passed" : verdict == "fail" ? "failed" : "open";
-}
-
-MarginTable read_margin_csv(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  CsvReader reader(in, path.string());
-  std::map<std::string, std::size_t> place;
-  MarginTable table;
-  while (reader.next()) {
-    const std::vector<std::string>& cells = reader.cells();
-    if (place.empty()) {
-      for (std::size_t i = 0; i < cells.size(); ++i) place[cells[i]] = i;
-      continue;
-    }
-    const auto cell = [&](const char* name) -> const std::string& { return cells[place.at(name)]; };
-    const auto number = [&](const char* name) { return parse_csv_number(cell(name)).value_or(0); };
-    auto& search = found_or_made(
-        table, [&](const auto& each) { return each.first == cell("search"); },
-        [&] {
-          return MarginTable::value_type{cell("search"), {}};
-        });
-    const std::string text = cell("case") == "nominal" ? cell("requirement")
-                                                       : cell("requirement") + " · " + cell("case");
-    RequirementScales& row = found_or_made(
-        search.second, [&](const RequirementScales& each) { return each.text == text; },
-        [&] {
-          return RequirementScales{text, {}, {}, {}, {}};
-        });
-    row.scales.push_back(number("scale"));
-    row.runs.push_back(std::lround(number("runs")));
-    row.broken.push_back(std::lround(number("broken")));
-    row.verdicts.push_back(page_verdict(cell("verdict")));
-  }
-  return table;
-}
-
-Json requirement_json(const RequirementScales& row, double confidence) {
-  Json json{{"text", row.text},
-            {"passed", Json::array()},
-            {"lower", Json::array()},
-            {"upper", Json::array()},
-            {"verdict", row.verdicts}};
-  for (std::size_t i = 0; i < row.scales.size(); ++i) {
-    const long kept = row.runs[i] - row.broken[i];
-    const Interval bounds = clopper_pearson(kept, row.runs[i], confidence);
-    json["passed"].push_back(
-        page_number(static_cast<double>(kept) / static_cast<double>(row.runs[i]), 5));
-    json["lower"].push_back(page_number(bounds.lower, 5));
-    json["upper"].push_back(page_number(bounds.upper, 5));
-  }
-  return json;
-}
-
-/// The requirements, with their cases, that the runs of another seed break at the recommended scale: "M-2 in ambient";
-/// null if they confirm it, or if there is none.
-Json not_confirmed(const Json& recommended) {
-  if (recommended.is_null() || !recommended.contains("confirmation")) return nullptr;
-  const Json& confirmation = recommended.at("confirmation");
-  if (confirmation.at("passes").get<bool>()) return nullptr;
-  std::vector<std::string> broken;
-  for (const Json& verdict : confirmation.at("verdicts")) {
-    if (verdict.at("verdict") == "pass") continue;
-    std::string name = verdict.value("name", verdict.at("output").get<std::string>());
-    if (verdict.contains("case")) name += " in " + verdict["case"].get<std::string>();
-    broken.push_back(std::move(name));
-  }
-  return fmt::format("not met: {}", fmt::join(broken, ", "));
-}
-
-/// @param search one search of margin.json
-Json margin_block(const Json& search, const std::vector<RequirementScales>& rows,
-                  double confidence) {
-  const auto edge = [&](const char* side) -> Json {
-    const Json& window = search.at("window");
-    if (window.is_null()) return nullptr;
-    const Json& found = window.at(side);
-    return found.at("range_end").get<bool>() ? Json(nullptr) : found.at("scale");
-  };
-  Json requirements = Json::array();
-  for (const RequirementScales& row : rows)
-    requirements.push_back(requirement_json(row, confidence));
-  const Json& recommended = search.at("recommended");
-  const Json as_good =
-      recommended.is_null() || !recommended.contains("as_good")
-          ? Json(nullptr) // of an older version
-          : Json::array({recommended["as_good"].at("from"), recommended["as_good"].at("to")});
-  return {{"scales", rows.empty() ? std::vector<double>{} : rows.front().scales},
-          {"requirements", std::move(requirements)},
-          {"recommended", recommended.is_null() ? Json(nullptr) : recommended.at("scale")},
-          {"as_good", as_good},
-          {"not_confirmed", not_confirmed(recommended)},
-          {"why_none", search.at("why_none")},
-          {"of_springs", search.value("of_springs", true)},
-          {"paths", search.value("scales", Json::array())},
-          {"window", {edge("lower"), edge("upper")}}};
-}
 
 std::vector<Json> margin_sets(const std::filesystem::path& folder, const std::string& label) {
   const Json study = parse_json_file(folder / margin_json_file);
@@ -197,11 +71,13 @@ std::vector<Json> margin_sets(const std::filesystem::path& folder, const std::st
     Json set = empty_set(folder, study["searches"].size() > 1 ? label + " · " + name : label,
                          study.value(stamp_key, Json::object()));
     set["campaign"] = study.value("scene", "");
-    if (std::filesystem::exists(recommended)) add_campaign(read_campaign_file(recommended), set);
-    const auto rows = std::ranges::find(table, name, &MarginTable::value_type::first);
-    set["margin"] =
-        margin_block(search, rows == table.end() ? std::vector<RequirementScales>{} : rows->second,
-                     set["confidence"]);
+    if (std::filesystem::exists(recommended)) {
+      const Campaign campaign = read_campaign_file(recommended);
+      add_campaign(campaign, set);
+      set["confidence"] = campaign.statistics.confidence; // older versions write it only there
+    }
+    if (study.contains("confidence")) set["confidence"] = study["confidence"];
+    set["margin"] = margin_block(search, table, set["confidence"]);
     set["warnings"] = study.value("warnings", Json::array());
     sets.push_back(std::move(set));
   }
@@ -238,6 +114,7 @@ Json sobol_set(const std::filesystem::path& folder, const std::string& label) {
   const Json sensitivity = parse_json_file(folder / sensitivity_json_file);
   Json set = empty_set(folder, label, stamp_json(stamp_of(design)));
   add_campaign(design.campaign, set);
+  set["confidence"] = sensitivity.value("confidence", Json(nullptr));
   set["warnings"] = sensitivity.value("warnings", Json::array()); // older versions have none
   set["sensitivity"] = {{"kind", "sobol"}, {"effects", sobol_effects(sensitivity, most_effects)}};
   return set;
@@ -283,14 +160,27 @@ Json strata_json(const Json& study) {
   return strata;
 }
 
+/// Whether a stratum's upper bound, and with it that of the sum, is an estimate.
+bool has_estimated_bound(const Json& study) {
+  const Json strata = study.value("strata", Json(nullptr));
+  return std::any_of(strata.begin(), strata.end(),
+                     [](const Json& part) { return !part.at("reached").get<bool>(); });
+}
+
 Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   const Json study = parse_json_file(folder / rare_json_file);
   Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
+  set["campaign"] = study.value("scene", "");
+  set["confidence"] = study.value("confidence", Json(nullptr));
   Json likeliest = nullptr;
   if (const Json& run = study.at("likeliest"); !run.is_null()) {
-    std::vector<Json> draws; // largest deviation first
+    std::vector<Json> draws;                               // largest deviation first
+    const Json units = run.value("units", Json::object()); // older versions have none
     for (const auto& [name, value] : run.at("draws").items())
-      draws.push_back({{"name", name}, {"value", value}, {"z", run.at("z").at(name)}});
+      draws.push_back({{"name", name},
+                       {"value", value},
+                       {"unit", units.value(name, "")},
+                       {"z", run.at("z").at(name)}});
     std::ranges::stable_sort(draws, std::ranges::greater{},
                              [](const Json& draw) { return std::abs(draw["z"].get<double>()); });
     likeliest = {{"distance", run.at("distance")}, {"draws", draws}};
@@ -304,6 +194,7 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
                  {"upper", study.at("upper")},
                  {"reached", study.at("reached")},
                  {"bias", study.value("bias", Json(nullptr))},
+                 {"estimated", has_estimated_bound(study)},
                  {"levels", repeats_json(study.at("repeats"))},
                  {"warnings", study.value("warnings", Json::array())},
                  {"strata", strata_json(study)},
@@ -314,6 +205,8 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
 Json fit_study_set(const std::filesystem::path& folder, const std::string& label) {
   const Json study = parse_json_file(folder / fit_json_file);
   Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
+  set["campaign"] = study.value("scene", "");
+  set["confidence"] = study.value("confidence", fit_confidence);
   std::optional<Campaign> campaign;
   if (const auto path = folder / campaign_file; std::filesystem::exists(path))
     add_campaign(campaign.emplace(read_campaign_file(path)), set);

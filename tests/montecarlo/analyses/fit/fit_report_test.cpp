@@ -30,6 +30,8 @@ FitSpec spec_of(oracle::Draws& draws) {
   spec.tests[0].times = {0, 0.25, 0.5, 1};
   spec.tests[0].columns.resize(2);
   for (FitColumn& column : spec.tests[0].columns) column.measured = numbers_of(draws, 4);
+  spec.tests[0].campaign.scene.name = "wing";
+  spec.tests[1].values = {{"root.latch_time", "s", std::nullopt, 4.25, 0.1}};
   return spec;
 }
 
@@ -55,6 +57,8 @@ FitResult result_of(oracle::Draws& draws) {
     const auto n = numbers_of(draws, 7);
     result.parameters.push_back(
         {name, "", n[0], n[1], n[2], n[3], draws.uniform(0.1, 0.8) * n[1], n[5], n[6], 0.5, 0});
+    result.parameters.back().prior_lower = n[0] - 3 * n[1];
+    result.parameters.back().prior_upper = n[0] + 2 * n[1];
   }
   result.parameters[2].unit = "s";
   result.correlation = Eigen::MatrixXd::Identity(3, 3);
@@ -150,12 +154,17 @@ TEST_CASE("fit.json has every number of the result under its key") {
   result.other_modes = {{1.5, 0.5, {1, 2, 3}}, {2.5, 4.5, {4, 5, 6}}};
   const Json json = fit_json(result, spec, {{"about", 1}});
   CHECK(json["about"] == 1);
+  CHECK((json["scene"] == "wing" && json["confidence"] == fit_confidence));
   CHECK(json["finished"] == true);
   CHECK(json["findings"] == Json::array());
   CHECK(json["parameters"].size() == 3);
   for (std::size_t i = 0; i < 3; ++i) {
     const FittedParameter& one = result.parameters[i];
-    Json wanted{{"prior", {{"mean", one.prior_mean}, {"std", one.prior_std}}},
+    Json wanted{{"prior",
+                 {{"mean", one.prior_mean},
+                  {"std", one.prior_std},
+                  {"lower", one.prior_lower},
+                  {"upper", one.prior_upper}}},
                 {"mode", one.mode},
                 {"mean", one.mean},
                 {"std", one.std},
@@ -171,6 +180,7 @@ TEST_CASE("fit.json has every number of the result under its key") {
   CHECK(json["sampler"] ==
         Json{{"ess", 71.5}, {"r_hat", 1.03125}, {"acceptance", 0.625}, {"runs", 4321}});
   // of two directions one is unseen, and of its weights one is large
+  CHECK(json["prior_decides"] == Json::array());
   REQUIRE(json["unseen"].size() == 1);
   CHECK(json["unseen"][0]["direction"] == Json{{"spring", 0.99}});
   CHECK(json["unseen"][0]["std_ratio"] == 0.95);
@@ -197,8 +207,11 @@ TEST_CASE("fit.json has every number of the result under its key") {
                                                        {"n_effective", unknown.channel.effective},
                                                        {"p_value", nullptr},
                                                        {"estimated_std", unknown.rms}});
-  CHECK(json["tests"][1]["values"]["root.latch_time"] ==
-        Json{{"measured", 4.25}, {"fitted", 4.125}, {"sigmas", 1.25}, {"p_value", 0.375}});
+  CHECK(json["tests"][1]["values"]["root.latch_time"] == Json{{"unit", "s"},
+                                                              {"measured", 4.25},
+                                                              {"fitted", 4.125},
+                                                              {"sigmas", 1.25},
+                                                              {"p_value", 0.375}});
   REQUIRE(json["candidates"].size() == 2);
   CHECK(json["candidates"][1]["name"] == "more");
   CHECK(json["candidates"][1]["information"] == 2.25);
@@ -206,6 +219,8 @@ TEST_CASE("fit.json has every number of the result under its key") {
   CHECK(json["prediction"]["tip.latch_time"]["before"] == Json{1.5, 2.5, 3.5});
   CHECK(json["prediction"]["tip.latch_time"]["after"] == Json{1.75, 2.25, nullptr});
   CHECK(json["predicted_deployed"] == Json{{"before", 0.75}, {"after", 0.875}});
+  result.parameters[1].score_std = 0.95;
+  CHECK(fit_json(result, spec, {})["prior_decides"] == Json{result.parameters[1].name});
 }
 
 TEST_CASE("the text of a fit prints the numbers of the result") {
@@ -284,6 +299,10 @@ TEST_CASE("each finding of a fit is told on its side of its limit, and not on th
   const auto effective = [&](double numbers) {
     return told([&](FitResult& result) { result.channels[1].channel.effective = numbers; });
   };
+  CHECK_THAT(told([](FitResult& result) { result.beside_cases = true; }),
+             Contains("in none of its cases"));
+  CHECK(
+      told([](FitResult& result) { result.beside_cases = true, result.prediction = {}; }).empty());
   CHECK_THAT(effective(1.9),
              Contains("tip.rate of \"air, 20 °C\" depend") && Contains("4 numbers count as 2"));
   CHECK(effective(2.1).empty());

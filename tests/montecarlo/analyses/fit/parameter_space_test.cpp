@@ -65,6 +65,31 @@ TEST_CASE("offsets and own parameters are each test's own, whichever test has th
 }
 
 // The ranks of an MPI program rebuild a campaign from its JSON.
+TEST_CASE("a prior has its law's quantiles, whatever the law, and the unit of what it sets",
+          "[fit]") {
+  Json json = panel_campaign();
+  json["dispersions"] = parse_json(R"([
+    { "name": "factor", "distribution": { "type": "uniform", "lower": 0.9, "upper": 1.1 },
+      "apply": "scale", "to": ["hinges.root.spring.torque_stowed"] },
+    { "name": "torque", "distribution": { "type": "lognormal", "mu_log": 0, "sigma_log": 2 },
+      "apply": "set", "to": ["hinges.root.friction.coulomb"] } ])");
+  const Campaign campaign = campaign_of(json);
+  const auto of = [&](std::size_t dispersion) {
+    return prior_of({.dispersion = dispersion}, campaign, 0.95);
+  };
+  CHECK(of(0).lower == Approx(0.905));
+  CHECK(of(0).upper == Approx(1.095));
+  CHECK(of(0).unit.empty());
+  CHECK(of(1).lower == Approx(std::exp(-2 * 1.959964)));
+  CHECK(of(1).upper == Approx(std::exp(2 * 1.959964)));
+  CHECK(of(1).unit == "N·m");
+  FitParameter offset{.kind = FitParameter::Kind::time_offset, .std = 0.5, .unit = "s"};
+  const ParameterPrior prior = prior_of(offset, campaign, 0.95);
+  CHECK(prior.upper == Approx(0.979982));
+  CHECK(prior.lower == -prior.upper);
+  CHECK(prior.unit == "s");
+}
+
 TEST_CASE("campaigns with other laws say so in their JSON, whatever entry a draw comes from",
           "[fit]") {
   int entries = 0;

@@ -121,6 +121,19 @@ TEST_CASE("each repeat has a row of its own numbers, and each stratum, the large
   CHECK(words_of(text, "often = 1") == Words{"0.002", "0.375", "0.00075", "77"});
 }
 
+TEST_CASE("rare.json names the scene, and the unit of each draw that sets a parameter", "[rare]") {
+  Campaign campaign = campaign_with(2);
+  campaign.scene.name = "some wing";
+  campaign.dispersions[0].apply = Apply::set, campaign.dispersions[1].apply = Apply::scale;
+  RareResult result = result_of({repeat_of(true)});
+  result.likeliest = LikeliestRun{.draws = {1, 2}, .z = {0.5, -1}};
+  const Json json = rare_json(result, {}, campaign, {});
+  CHECK(json["scene"] == "some wing");
+  const std::string_view unit = unit_of(campaign.dispersions[0].targets.front());
+  CHECK_FALSE(unit.empty());
+  CHECK(json["likeliest"]["units"] == Json{{"d0", unit}, {"d1", ""}});
+}
+
 TEST_CASE("unphysical draws are among the warnings, of the file as of the terminal", "[rare]") {
   RareResult result = result_of({repeat_of(true)});
   CHECK(doubts_of(result).empty());

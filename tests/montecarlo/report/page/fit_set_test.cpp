@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -14,20 +16,25 @@ TEST_CASE("a fit of the page has every trace, value and sample of its folder, wi
   const Folder folder;
   folder.write(fit_json_file, R"({ "finished": true, "findings": ["far"], "unseen": ["x"],
     "parameters": { "spring": { "mean": 1.5 }, "friction": { "mean": 2 } },
-    "tests": [ { "name": "ground", "values": { "root.latch_time": { "measured": 2.5 },
+    "prior_decides": ["spring"], "tests": [ { "name": "ground", "values": { "root.latch_time": { "measured": 2.5 },
                                                "hinges.root.friction.coulomb": { "measured": 0.25 } },
-                 "traces": { "root.angle": { "rms": 0.125 }, "root.rate": { "rms": 0.5 } } },
+                 "traces": { "root.angle": { "rms": 0.125,
+                     "outliers": [ { "t": 703 }, { "t": 701 } ] }, "root.rate": { "rms": 0.5 } } },
                { "name": "flight", "values": {}, "traces": { "root.angle": { "rms": 4 } } } ],
     "candidates": [ { "test": "next" } ],
     "prediction": { "root.peak_moment": { "before": [1, 2, 3] } } })");
   std::string traces = "test,column,t,measured,fitted,lower,upper\n";
-  for (int k = 0; k < 900; ++k) traces += fmt::format("ground,root.angle,{},{},2,,3\n", k, 10 * k);
+  for (int k = 0; k < 900; ++k)
+    traces += fmt::format("ground,root.angle,{},{},2,,3\n", k,
+                          k == 701   ? 99
+                          : k == 703 ? -99
+                                     : k % 9);
   traces += "ground,root.rate,0.5,1,2,3,4\nflight,root.angle,1,5,6,7,8\n";
   folder.write(traces_csv_file, traces);
   const Scene scene = campaign_of(panel_campaign()).scene;
   const Json whole = fit_block(folder.path(), &scene);
   CHECK((whole["finished"] == true && whole["findings"] == Json{"far"} &&
-         whole["unseen"] == Json{"x"}));
+         whole["unseen"] == Json{"x"} && whole["prior_decides"] == Json{"spring"}));
   CHECK(whole["parameters"] == parse_json(R"([ { "name": "spring", "mean": 1.5 },
                                                { "name": "friction", "mean": 2 } ])"));
   CHECK(whole["values"] == parse_json(R"([
@@ -41,13 +48,28 @@ TEST_CASE("a fit of the page has every trace, value and sample of its folder, wi
   REQUIRE(found.size() == 3);
   CHECK((found[0]["test"] == "ground" && found[0]["column"] == "root.angle"));
   CHECK((found[0]["unit"] == "rad" && found[0]["rms"] == 0.125));
-  REQUIRE(found[0]["t"].size() == 400); // evenly, the first among them
-  for (std::size_t k = 0; k < 400; ++k)
-    CHECK(found[0]["t"][k] == static_cast<double>(k * 900 / 400));
-  CHECK((found[0]["measured"][399] == 8970.0 && found[0]["fitted"][399] == 2.0));
+  CHECK(found[0]["samples"] == 900);
+  const auto times = found[0]["t"].get<std::vector<double>>();
+  CHECK((times.size() <= 402 && times.size() > 300));
+  CHECK(std::ranges::adjacent_find(times, std::ranges::greater_equal{}) == times.end());
+  const auto is_drawn = [&](std::size_t k) {
+    return std::ranges::find(times, static_cast<double>(k)) != times.end();
+  };
+  for (std::size_t k = 0; k < 200; ++k) {
+    CHECK(is_drawn(k * 900 / 200));
+    const auto size = [](std::size_t i) {
+      return i == 701 ? 97 : i == 703 ? 101 : std::abs(static_cast<int>(i % 9) - 2);
+    };
+    std::size_t worst = k * 900 / 200;
+    for (std::size_t i = worst; i < (k + 1) * 900 / 200; ++i)
+      if (size(i) > size(worst)) worst = i;
+    CHECK(is_drawn(worst));
+  }
+  CHECK((is_drawn(701) && is_drawn(703))); // both outliers of one part
+  CHECK((found[0]["measured"][0] == 0.0 && found[0]["fitted"][0] == 2.0));
   CHECK((found[0]["lower"][7].is_null() && found[0]["upper"][7] == 3.0));
   CHECK(found[1] == parse_json(R"({ "test": "ground", "column": "root.rate", "unit": "rad/s",
-    "t": [0.5], "measured": [1.0], "fitted": [2.0], "lower": [3.0], "upper": [4.0], "rms": 0.5 })"));
+    "t": [0.5], "measured": [1.0], "fitted": [2.0], "lower": [3.0], "upper": [4.0], "rms": 0.5, "samples": 1 })"));
   CHECK((found[2]["test"] == "flight" && found[2]["t"] == Json{1.0} && found[2]["rms"] == 4));
 
   std::string posterior = "spring,friction\n";
@@ -55,6 +77,7 @@ TEST_CASE("a fit of the page has every trace, value and sample of its folder, wi
   folder.write(posterior_file, posterior);
   const Json samples = fit_block(folder.path(), nullptr)["samples"];
   CHECK(samples["names"] == Json{"spring", "friction"});
+  CHECK(samples["samples"] == 450);
   REQUIRE(samples["rows"].size() == 400);
   CHECK((samples["rows"][0] == Json{0.0, 0.0} && samples["rows"][399] == Json{448.0, -448.0}));
   CHECK(fit_block(folder.path(), nullptr)["values"][1]["unit"] == ""); // without the scene

@@ -163,7 +163,8 @@ TEST_CASE("a folder of a margin study is a set without runs, by hand", "[page]")
       R"({ "wingspread": { "version": "0", "seed": 18446744073709551615, "hash": "h" }, "scene": "wing",
     "searches": [ { "name": "joint", "window": { "lower": { "scale": 0.9, "range_end": false },
       "upper": { "scale": 2, "range_end": true } },
-      "recommended": { "scale": 1.2, "as_good": { "from": 1.1, "to": 1.3 } }, "why_none": null } ] })");
+      "recommended": { "scale": 1.2, "as_good": { "from": 1.1, "to": 1.3 } }, "why_none": null } ],
+    "confidence": 0.95 })");
   folder.write("margin.csv",
                "search,scale,case,runs,requirement,verdict,broken\n"
                "joint,0.5,nominal,100,\"A, b\",fail,100\njoint,1,nominal,100,\"A, b\",pass,1\n"

@@ -2,6 +2,7 @@
 #include "montecarlo/analyses/rare/rare_report.hpp"
 #include "montecarlo/analyses/sensitivity/design_folder.hpp"
 #include "montecarlo/analyses/sensitivity/sobol_report.hpp"
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/report/page/study_set.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
@@ -29,7 +30,7 @@ SobolIndices climbing_indices(std::size_t count) {
 
 /// A rare.json with what the page reads of it.
 Json rare_study() {
-  return parse_json(R"({ "wingspread": { "version": "0", "seed": 3, "hash": "h" },
+  return parse_json(R"({ "wingspread": { "version": "0", "seed": 3, "hash": "h" }, "scene": "wing",
     "event": "not deployed", "beyond": null, "case": "cold", "confidence": 0.9,
     "probability": 2e-5, "lower": 1e-5, "upper": 4e-5, "reached": true, "bias": 0.125,
     "repeats": [ { "levels": [ { "share": 0.5, "threshold": 3.5 }, { "share": 0.125, "threshold": 0 } ] },
@@ -39,7 +40,8 @@ Json rare_study() {
       { "draws": "a = 1, b = 9000", "probability": 1e-3, "event": 0, "upper": 0.25, "reached": false },
       { "draws": "c = 0.5", "probability": 1e-5, "event": 1, "upper": 1, "reached": true } ],
     "warnings": [ "doubt" ],
-    "likeliest": { "distance": 4.5, "draws": { "a": 1, "b": 2, "c": 3 }, "z": { "a": 0.5, "b": -4, "c": 2 } } })");
+    "likeliest": { "distance": 4.5, "draws": { "a": 1, "b": 2, "c": 3 },
+                   "units": { "a": "", "b": "N·m", "c": "rad" }, "z": { "a": 0.5, "b": -4, "c": 2 } } })");
 }
 
 } // namespace
@@ -52,6 +54,7 @@ TEST_CASE("a folder of Sobol' indices is a set with the largest of each output",
   const Campaign campaign = campaign_of(json);
   const SaltelliDesign design{campaign, 64, Shard{1, 2}};
   SobolSensitivity all{64, 250, 256, "random", {}, {}, {}};
+  all.bounds.confidence = 0.99; // by --confidence
   for (int k = 0; k < 15; ++k) all.dispersions.push_back("d" + std::to_string(k));
   all.outputs.push_back({"root.latch_time", climbing_indices(15), 0});
   all.outputs.push_back({"deployment_time", climbing_indices(3), 0});
@@ -64,7 +67,7 @@ TEST_CASE("a folder of Sobol' indices is a set with the largest of each output",
   const auto sets = study_sets_json(folder.path(), "s");
   REQUIRE(sets.size() == 1);
   const Json& set = sets[0];
-  CHECK((set["label"] == "s" && set["campaign"] == "dispersed_wing" && set["confidence"] == 0.9));
+  CHECK((set["label"] == "s" && set["campaign"] == "dispersed_wing" && set["confidence"] == 0.99));
   CHECK((set["seed"] == "7" && set["hash"] == stamp_of(design).hash));
   CHECK((set["margin"].is_null() && set["rare"].is_null() && set["fit"].is_null()));
   CHECK(set["wing"].is_object());
@@ -103,6 +106,7 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
   };
   const Json set = set_of(study), &rare = set["rare"];
   CHECK((set["label"] == "r" && set["seed"] == "3" && set["hash"] == "h"));
+  CHECK((set["campaign"] == "wing" && set["confidence"] == 0.9));
   CHECK((set["margin"].is_null() && set["sensitivity"].is_null() && set["wing"].is_null()));
   for (const char* key : {"beyond", "case", "confidence", "probability", "lower", "upper",
                           "reached", "bias", "warnings"}) {
@@ -119,8 +123,20 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
     { "text": "c = 0.5", "probability": 1e-5, "event": 1.0, "reached": true },
     { "text": "no rare value", "probability": 0.9, "event": 1e-6, "reached": true } ])"));
   CHECK(rare["likeliest"] == parse_json(R"({ "distance": 4.5, "draws": [
-    { "name": "b", "value": 2, "z": -4.0 }, { "name": "c", "value": 3, "z": 2.0 },
-    { "name": "a", "value": 1, "z": 0.5 } ] })"));
+    { "name": "b", "value": 2, "unit": "N·m", "z": -4.0 },
+    { "name": "c", "value": 3, "unit": "rad", "z": 2.0 },
+    { "name": "a", "value": 1, "unit": "", "z": 0.5 } ] })"));
+  CHECK(rare["estimated"] == true); // by the stratum that was not reached
+  Json reached = study;
+  reached["strata"][1]["reached"] = true;
+  CHECK(set_of(reached)["rare"]["estimated"] == false);
+  Json older = study; // without the keys of later versions
+  for (const char* key : {"scene", "beyond", "case", "confidence", "strata"}) older.erase(key);
+  older["likeliest"].erase("units");
+  const Json before = set_of(older);
+  CHECK((before["campaign"] == "" && before["confidence"].is_null()));
+  CHECK(before["rare"]["estimated"] == false);
+  CHECK(before["rare"]["likeliest"]["draws"][0]["unit"] == "");
 
   Json many = study;
   for (int k = 1; k < 20; ++k)
@@ -196,4 +212,68 @@ TEST_CASE("a key that a margin study lacks is refused by its folder, but one of 
     { "name": "M-2", "output": "x", "case": "ambient", "verdict": "fail" },
     { "output": "tip.latch_rate", "verdict": "undecided" } ] })");
   CHECK(set_of(confirmed)["margin"]["not_confirmed"] == "not met: M-2 in ambient, tip.latch_rate");
+}
+
+TEST_CASE("bounds of a margin study have its own confidence, and none where it is not known",
+          "[page]") {
+  const Folder folder;
+  Json study = parse_json(R"({ "scene": "wing", "confidence": 0.5, "searches": [ { "name": "joint",
+    "window": null, "recommended": null, "why_none": "EMPTY" } ] })");
+  folder.write(margin_csv_file, "search,scale,case,runs,requirement,verdict,broken\n"
+                                "joint,1,nominal,100,A,fail,7\n");
+  const auto set_of = [&](const Json& json) {
+    folder.write(margin_json_file, json.dump());
+    return study_sets_json(folder.path(), "m").at(0);
+  };
+  const auto check_bounds = [&](const Json& set, double confidence) {
+    const Interval bounds = clopper_pearson(93, 100, confidence);
+    const Json& one = set["margin"]["requirements"][0];
+    CHECK(set["confidence"] == confidence);
+    CHECK(one["lower"][0].get<double>() == Approx(bounds.lower).epsilon(1e-4));
+    CHECK(one["upper"][0].get<double>() == Approx(bounds.upper).epsilon(1e-4));
+  };
+  check_bounds(set_of(study), 0.5);
+  Json campaign = quick_campaign(10); // an older version writes it only in recommended.json
+  campaign["statistics"] = {{"confidence", 0.8}};
+  folder.write(recommended_file, campaign.dump());
+  check_bounds(set_of(study), 0.5);
+  study.erase("confidence");
+  check_bounds(set_of(study), 0.8);
+  std::filesystem::remove(folder.path() / recommended_file);
+  const Json unknown = set_of(study);
+  CHECK(unknown["confidence"].is_null());
+  const Json& one = unknown["margin"]["requirements"][0];
+  CHECK((one["passed"] == Json{0.93} && one["lower"][0].is_null() && one["upper"][0].is_null()));
+}
+
+TEST_CASE("a margin's page has what limits its window: gaps, further windows, joint confidence",
+          "[page]") {
+  const Folder folder;
+  Json study = parse_json(R"({ "searches": [ { "name": "joint",
+    "window": { "lower": { "scale": 0.9, "range_end": false },
+                "upper": { "scale": 2, "range_end": false },
+                "widest_gap": { "from": 1, "to": 1.5 }, "joint_confidence": 0.4 },
+    "other_windows": [ { "lower": { "scale": 3 }, "upper": { "scale": 4 } } ],
+    "passed_over": { "scale": 1.1 }, "recommended": { "scale": 1.2, "given_up": { "x": 1 } },
+    "why_none": null } ] })");
+  folder.write(margin_csv_file, "search,scale,case,runs,requirement,verdict,broken\n");
+  const auto block_of = [&](const Json& json) {
+    folder.write(margin_json_file, json.dump());
+    return study_sets_json(folder.path(), "m").at(0)["margin"];
+  };
+  const Json margin = block_of(study);
+  CHECK(margin["widest_gap"] == Json{1, 1.5});
+  CHECK(margin["joint_confidence"] == 0.4);
+  REQUIRE(margin["other_windows"].size() == 1);
+  CHECK(margin["other_windows"][0] == Json{3, 4});
+  CHECK(margin["passed_over"]["scale"] == 1.1);
+  CHECK(margin["given_up"]["x"] == 1);
+  study["searches"][0]["window"]["widest_gap"]["to"] = 1; // a window of one scale
+  CHECK(block_of(study)["widest_gap"].is_null());
+  for (const char* key : {"other_windows", "passed_over"}) study["searches"][0].erase(key);
+  study["searches"][0]["window"] = study["searches"][0]["recommended"] = nullptr;
+  const Json none = block_of(study);
+  for (const char* key : {"widest_gap", "joint_confidence", "given_up", "passed_over"})
+    CHECK(none[key].is_null());
+  CHECK(none["other_windows"].empty());
 }
