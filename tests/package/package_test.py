@@ -147,6 +147,18 @@ class Pages(InFolder):
             said = re.sub(r"\s+|.\b", "", done.stdout)
             self.assertGreater(len(said), 100)
 
+    def test_json_is_shown_line_by_line_as_help_shows_it(self):
+        seen = 0
+        for command in commands():
+            shown = subprocess.run(["man", "-E", "UTF-8", "-l", BUILD / f"package/man/wingspread-{command}.1.gz"], capture_output=True, text=True, check=True,
+                                   env={**os.environ, "MANWIDTH": "100", "LC_ALL": "C.UTF-8"}).stdout
+            page = {line.strip() for line in re.sub(r".\b", "", shown).splitlines()}
+            for line in output_of(PROGRAM, command, "--help").splitlines():
+                if re.match(r' +({|"[a-z_]+": )', line):
+                    self.assertIn(line.strip(), page, command)
+                    seen += 1
+        self.assertGreater(seen, 5)
+
     def test_a_path_may_have_blanks(self):
         program = self.folder / "a build" / "wingspread"
         program.parent.mkdir()
@@ -166,6 +178,19 @@ class Pages(InFolder):
                 self.assertIn(option, page)
             for line in shown.split("Example:\n")[1].strip().splitlines():
                 self.assertIn(line.strip(), page)
+
+
+class Installed(InFolder):
+    @unittest.skipUnless((BUILD / "python/wingspread").exists(), "the module is not built")
+    def test_the_module_is_found_where_python_searches_below_the_prefix(self):
+        for prefix in ("usr", "usr/local"):
+            below = self.folder / prefix.replace("/", "_")
+            output_of("cmake", "--install", BUILD, "--component", "python", "--prefix", below / prefix)
+            said = output_of("/usr/bin/python3", "-c", f"import site, sys; sys.path[:0] = site.getsitepackages(['{below}/usr']); import wingspread; print(wingspread.__file__)")
+            self.assertTrue(said.startswith(f"{below}/{prefix}/lib/python3."), said)
+        packaged = self.folder / "packaged"  # into /usr, as a package has it
+        output_of("cmake", "--install", BUILD, "--component", "python", "--prefix", "/usr", env={**os.environ, "DESTDIR": str(packaged)})
+        self.assertTrue((packaged / "usr/lib/python3/dist-packages/wingspread/__init__.py").exists())
 
 
 @unittest.skipUnless(shutil.which("dpkg-deb") and shutil.which("dpkg-shlibdeps"), "no Debian")
@@ -239,11 +264,22 @@ class Packages(unittest.TestCase):
                                       capture_output=True, text=True, check=False)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_the_copyright_names_every_part_that_is_linked(self):
+        parts = ["node-d3", "nlohmann-json3-dev", "libcli11-dev", "libeigen3-dev", "librandom123-dev"]
+        if "WINGSPREAD_HDF5_LINKS:INTERNAL=1" in (BUILD / "CMakeCache.txt").read_text():
+            parts += ["libhdf5-dev", "zlib1g-dev", "libaec-dev"]
+        if (BUILD / "montecarlo/kernel.base64").exists():
+            parts += ["wasi-libc", "libc++-14-dev-wasm32", "libc++abi-14-dev-wasm32", "libclang-rt-14-dev-wasm32"]
+        for name, package in self.packages.items():
+            text = output_of("dpkg-deb", "--fsys-tarfile", package, encoding="latin-1")
+            for part in [*parts, *(["pybind11-dev"] if name.startswith("python3") else [])]:
+                self.assertIn(f"/usr/share/doc/{part}/copyright\n", text, name)
+
     def test_the_others_are_the_library_and_the_module(self):
         library = output_of("dpkg-deb", "--contents", self.packages["libwingspread-dev"])
         self.assertIn("./usr/include/wingspread/wingspread.hpp", library)
         self.assertIn("libwingspread.a", library)
-        self.assertIn("libfmt-dev", self.field("libwingspread-dev", "Depends"))
+        self.assertIn("libfmt-dev (>= 9), libfmt-dev (<< 10~)", self.field("libwingspread-dev", "Depends"))
         if "python3-wingspread" not in self.packages:
             self.skipTest("the module is not built")
         output_of("dpkg-deb", "--extract", self.packages["python3-wingspread"], self.folder / "python")

@@ -29,15 +29,26 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Monte Carlo deployment of spacecraft so
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwingspread-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, g++")
+math(EXPR next "${fmt_VERSION_MAJOR} + 1") # of fmt: its names have the version in them
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev (>= ${fmt_VERSION_MAJOR}), libfmt-dev (<< ${next}~), g++")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Deployment of spacecraft solar wings, the library
  What the program wingspread does, for programs in C++: a static library, its
  header, and what find_package reads.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-wingspread)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${WINGSPREAD_PYTHON_NEEDS}, python3-numpy")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Deployment of spacecraft solar wings, in Python
  What the program wingspread does, with numpy arrays: campaigns, deployments,
  and a wing as a function of its parameters.")
+
+set(unlicensed "${WINGSPREAD_UNLICENSED}")
+if(NOT WINGSPREAD_PYTHON)
+  list(FILTER unlicensed EXCLUDE REGEX pybind11)
+endif()
+if(unlicensed)
+  file(WRITE ${PROJECT_BINARY_DIR}/package/unlicensed.cmake
+    "message(FATAL_ERROR \"The packages would lack the licences of code that they hold: ${unlicensed}\")\n")
+  set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_BINARY_DIR}/package/unlicensed.cmake)
+endif()
 include(CPack)

@@ -41,24 +41,40 @@ install(FILES ${package}/wingspread.bash DESTINATION share/bash-completion/compl
 install(FILES ${package}/wingspread.zsh DESTINATION share/zsh/vendor-completions RENAME _wingspread COMPONENT program)
 install(FILES ${package}/wingspread.fish DESTINATION share/fish/vendor_completions.d COMPONENT program)
 
-# Our licence, and those of what is compiled into the program, as Debian's packages of them state them.
+# Our licence, and those of what is compiled into the program, as Debian's packages of them state them. Boost's asks for no
+# notice in a program.
+set(parts nlohmann-json3-dev libcli11-dev libeigen3-dev librandom123-dev)
+if(WINGSPREAD_HDF5_FOUND)
+  list(APPEND parts libhdf5-dev zlib1g-dev libaec-dev)
+endif()
+if(kernel) # in the report's page
+  list(APPEND parts wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 libclang-rt-14-dev-wasm32)
+endif()
+list(TRANSFORM parts REPLACE "(.+)" "/usr/share/doc/\\1/copyright")
+set(of_python /usr/share/doc/pybind11-dev/copyright)
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE rights)
 string(PREPEND rights "wingspread\n\n")
 string(APPEND rights "\nThe program holds code of the following, and the report's page d3.\n")
-foreach(file ${WINGSPREAD_D3_LICENCE} /usr/share/doc/nlohmann-json3-dev/copyright /usr/share/doc/libcli11-dev/copyright
-             /usr/share/doc/libeigen3-dev/copyright /usr/share/doc/librandom123-dev/copyright
-             /usr/share/doc/libhdf5-dev/copyright /usr/share/doc/zlib1g-dev/copyright)
+set(WINGSPREAD_UNLICENSED "") # for cpack.cmake: no package without the notices that it owes
+foreach(file ${WINGSPREAD_D3_LICENCE} ${parts} ${of_python})
+  set(text "")
   if(EXISTS ${file})
     file(READ ${file} text)
-    string(APPEND rights "\n----------------------------------------------------------------\n${file}\n\n${text}")
+    string(PREPEND text "\n----------------------------------------------------------------\n${file}\n\n")
+  else()
+    list(APPEND WINGSPREAD_UNLICENSED ${file})
+  endif()
+  if(file STREQUAL of_python)
+    file(GENERATE OUTPUT ${made}/copyright.python CONTENT "${rights}${text}")
+  else()
+    string(APPEND rights "${text}")
   endif()
 endforeach()
+set(WINGSPREAD_UNLICENSED "${WINGSPREAD_UNLICENSED}" CACHE INTERNAL "Notices that a package would lack")
 file(GENERATE OUTPUT ${made}/copyright CONTENT "${rights}")
-foreach(package "program wingspread" "development libwingspread-dev" "python python3-wingspread")
-  separate_arguments(package)
-  list(POP_FRONT package component name)
-  install(FILES ${made}/copyright DESTINATION share/doc/${name} COMPONENT ${component})
-endforeach()
+install(FILES ${made}/copyright DESTINATION share/doc/wingspread COMPONENT program)
+install(FILES ${made}/copyright DESTINATION share/doc/libwingspread-dev COMPONENT development)
+install(FILES ${made}/copyright.python DESTINATION share/doc/python3-wingspread RENAME copyright COMPONENT python)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/studies/scenes ${PROJECT_SOURCE_DIR}/studies/campaigns
   DESTINATION share/wingspread/examples COMPONENT program FILES_MATCHING PATTERN *.json PATTERN *.csv)

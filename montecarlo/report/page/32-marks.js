@@ -172,7 +172,7 @@
       axis.tickFormat(options.xFormat || W.format.ticks(options.xValues || ticksOf(x, count)));
       M.put(svg, "g.axis.x", { transform: `translate(0,${box.bottom})` }).call(axis);
       if (options.xText)
-        M.put(svg, "text.axis-text", { x: box.right, y: box.bottom + 33, "text-anchor": "end", text: options.xText });
+        M.put(svg, "text.axis-text", { x: box.right, y: box.bottom + 33, "text-anchor": "end", text: M.shorten(options.xText, box.right) });
     }
     if (y) {
       const count = options.yTicks || Math.max(2, Math.min(8, tall / 40)),
@@ -180,12 +180,10 @@
       if (options.yValues) axis.tickValues(options.yValues);
       axis.tickFormat(options.yFormat || W.format.ticks(options.yValues || ticksOf(y, count)));
       M.put(svg, "g.axis.y", { transform: `translate(${box.left},0)` }).call(axis);
-      if (options.yText)
-        M.put(svg, "text.axis-text", {
-          x: options.yTextAt === undefined ? 0 : options.yTextAt,
-          y: box.top - 8,
-          text: options.yText,
-        });
+      if (options.yText) {
+        const at = options.yTextAt === undefined ? 0 : options.yTextAt;
+        M.put(svg, "text.axis-text", { x: at, y: box.top - 8, text: M.shorten(options.yText, box.right + 8 - at) });
+      }
     }
   };
   // The width of the y axis's numbers, px.

@@ -276,7 +276,7 @@
           isAtMost(one) ? h("span.evidence", `${F.runs(set.runs)} can show no more`) : null,
         ),
         W.verdictBadge(one.verdict),
-        several && h("span.nowrap", set.label),
+        several && h(set.label.length > 24 ? "span.nowrap.long-name" : "span.nowrap", set.label),
         observed(one, set),
         guaranteed(one, set),
         marginText(one, set),
