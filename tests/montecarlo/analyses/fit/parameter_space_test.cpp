@@ -75,7 +75,9 @@ TEST_CASE("a prior has its law's quantiles, whatever the law, and the unit of wh
       "apply": "set", "to": ["hinges.root.friction.coulomb"] } ])");
   const Campaign campaign = campaign_of(json);
   const auto of = [&](std::size_t dispersion) {
-    return prior_of({.dispersion = dispersion}, campaign, 0.95);
+    FitParameter parameter;
+    parameter.dispersion = dispersion;
+    return prior_of(parameter, campaign, 0.95);
   };
   CHECK(of(0).lower == Approx(0.905));
   CHECK(of(0).upper == Approx(1.095));
@@ -83,7 +85,8 @@ TEST_CASE("a prior has its law's quantiles, whatever the law, and the unit of wh
   CHECK(of(1).lower == Approx(std::exp(-2 * 1.959964)));
   CHECK(of(1).upper == Approx(std::exp(2 * 1.959964)));
   CHECK(of(1).unit == "N·m");
-  FitParameter offset{.kind = FitParameter::Kind::time_offset, .std = 0.5, .unit = "s"};
+  FitParameter offset;
+  offset.kind = FitParameter::Kind::time_offset, offset.std = 0.5, offset.unit = "s";
   const ParameterPrior prior = prior_of(offset, campaign, 0.95);
   CHECK(prior.upper == Approx(0.979982));
   CHECK(prior.lower == -prior.upper);

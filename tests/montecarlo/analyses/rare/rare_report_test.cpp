@@ -126,7 +126,8 @@ TEST_CASE("rare.json names the scene, and the unit of each draw that sets a para
   campaign.scene.name = "some wing";
   campaign.dispersions[0].apply = Apply::set, campaign.dispersions[1].apply = Apply::scale;
   RareResult result = result_of({repeat_of(true)});
-  result.likeliest = LikeliestRun{.draws = {1, 2}, .z = {0.5, -1}};
+  result.likeliest.emplace();
+  result.likeliest->draws = {1, 2}, result.likeliest->z = {0.5, -1};
   const Json json = rare_json(result, {}, campaign, {});
   CHECK(json["scene"] == "some wing");
   const std::string_view unit = unit_of(campaign.dispersions[0].targets.front());
