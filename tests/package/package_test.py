@@ -152,7 +152,7 @@ class Pages(InFolder):
         for command in commands():
             shown = subprocess.run(["man", "-E", "UTF-8", "-l", BUILD / f"package/man/wingspread-{command}.1.gz"], capture_output=True, text=True, check=True,
                                    env={**os.environ, "MANWIDTH": "100", "LC_ALL": "C.UTF-8"}).stdout
-            page = {line.strip() for line in re.sub(r".\b", "", shown).splitlines()}
+            page = {line.strip() for line in re.sub(".\x08", "", shown).splitlines()}
             for line in output_of(PROGRAM, command, "--help").splitlines():
                 if re.match(r' +({|"[a-z_]+": )', line):
                     self.assertIn(line.strip(), page, command)
