@@ -14,14 +14,14 @@ template <class T> [[nodiscard]] T beyond_stowed(const HingeTerms<T>& hinge, con
   return hinge.sense * (hinge.stowed - angle);
 }
 
-/// Whether hinge i may turn back inside the step with an overtravel above `most`. If not, the step's ends have its
+/// Whether hinge i, which may start from rest, may turn back inside the step with an overtravel above `most`. If not, the step's ends have its
 /// largest overtravel, or it stays below `most`. For packs: in which lanes.
 template <class T>
 [[nodiscard]] auto may_turn_back(const Wing<T>& wing, const Layout& at, const Step<T>& step, int i,
                                  const T& most) {
   const HingeTerms<T>& hinge = wing.hinges[i];
   const T before = hinge.sense * step.x[at.rate(i)], after = hinge.sense * step.x1[at.rate(i)];
-  const auto turns = before < T(0) && after >= T(0);
+  const auto turns = before <= T(0) && after >= T(0);
   if (!any(turns)) return turns;
   T furthest = most;
   for (const T& c : step.coordinate(at.angle(i), at.freedoms()))
@@ -37,6 +37,7 @@ void raise_overtravel(T& most, const Wing<T>& wing, const Layout& at, const Step
     const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
     Quintic<T> rate = step.rate(at.angle(i), at.freedoms());
     for (T& c : rate) c = hinge.sense * c;
+    if (rate[0] == T(0)) rate = without_root_at_start(rate); // it set out from rest
     if (const std::optional<T> s = first_nonnegative(rate))
       most = larger(most, beyond_stowed(hinge, value(angle, *s)));
   }

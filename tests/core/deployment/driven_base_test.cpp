@@ -65,6 +65,18 @@ TEST_CASE("a ramp of angular acceleration turns a hinge back by its cube") {
   }
 }
 
+TEST_CASE(
+    "a hinge that is carried back from rest, and turns in its first step, tells how far it went") {
+  // φ = k t³/6 − a t²/2 on a base with α = a − k t: furthest back at t = 2a/k, after 10 ms
+  const double a = 0.3, k = 60;
+  Scene scene = left_behind({{0, 5}, {}, {a, a - 5 * k}, {}});
+  for (const double rtol : {1e-5, 1e-6, 1e-8, 1e-10, 1e-12}) {
+    CAPTURE(rtol);
+    CHECK(relative(run_everywhere(scene, rtol, 5).overtravel[0], 2 * a * a * a / (3 * k * k)) <
+          1e-5);
+  }
+}
+
 TEST_CASE("a rate that steps up and down turns a hinge back by its integral") {
   // trapezia: Ω = −2 t to −1 rad/s, held to 1.2 s, and down to 0 at 1.4 s: 1.05 rad at most
   const Scene scene = left_behind({{0, 0.5, 1.2, 1.4}, {}, {}, {0, -1, -1, 0}});

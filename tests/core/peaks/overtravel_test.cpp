@@ -28,7 +28,23 @@ TEST_CASE("overtravel is that of the turn inside the step, or of the step's end"
       raise_overtravel(found, wing, at, step, 1);
       return found;
     };
+    // beyond(s) = a s² − b s³: it sets out from rest, and turns at s = 2a/3b if that is inside
+    const auto from_rest = [&](double a, double b, double h) {
+      Step<double> step;
+      step.t = 1, step.h = h;
+      step.x = {0.4, 0};
+      step.dxdt = {0, -sense * 2 * a / (h * h)};
+      step.x1 = {0.4 - sense * (a - b), -sense * (2 * a - 3 * b) / h};
+      step.dxdt1 = {step.x1[1], -sense * (2 * a - 6 * b) / (h * h)};
+      double found = 0;
+      raise_overtravel(found, wing, at, step, 1);
+      return found;
+    };
     CAPTURE(sense);
+    CHECK(from_rest(0.06, 0.06, 0.3) == Approx(4. / 27 * 0.06));
+    CHECK(from_rest(0.06, 0.12, 3) == Approx(4. / 27 * 0.06 * 0.25)); // well on its way at the end
+    CHECK(from_rest(0.06, 0.04, 0.3) == Approx(0.02));                // turns at the end
+    CHECK(from_rest(-0.06, -0.03, 0.3) == 0);                         // the way to the latch
     CHECK(most(0.05, 0, 0.3, 0) == Approx(0.05));
     CHECK(most(0.05, 0.04, 2, 0) == Approx(0.05 * 1.2 * 1.2));
     CHECK(most(0.05, -0.04, 2, 0) == Approx(0.05 * 0.8 * 0.8));
