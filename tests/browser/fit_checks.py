@@ -89,10 +89,10 @@ class FitChecks:
         names = list(fit["parameters"])
         keys = ("mode", "mean", "std", "lower", "upper")
         for row, (name, one) in zip(self.table("Parameters before and after the tests"), fit["parameters"].items(), strict=True):
-            self.assertEqual(row[0], name)
-            self.check(row[1], one["prior"]["mean"], one["prior"]["std"], about=name)
-            self.check(row[2], one["mean"], one["std"], about=name)
-            self.check(row[3], one["lower"], one["upper"], about=name)
+            unit, factor = {"rad": ("deg", DEGREES), "rad/s": ("deg/s", DEGREES)}.get(one["unit"], (one["unit"], 1))
+            self.assertEqual(row[0], f"{name} ({unit})" if unit else name)
+            for cell, values in zip(row[1:4], ((one["prior"]["mean"], one["prior"]["std"]), (one["mean"], one["std"]), (one["lower"], one["upper"])), strict=True):
+                self.check(cell, *(factor * value for value in values), about=name)
             self.check(row[4], one["std_ratio"], share=True, about=name)
         for got, (name, one) in zip(self.copied("fit-parameters")[1:], fit["parameters"].items(), strict=True):
             self.same_numbers(got, [name, *(one["prior"][key] for key in ("mean", "std", "lower", "upper")), *(one[key] for key in keys), one["std_ratio"]], name)

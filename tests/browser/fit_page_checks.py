@@ -21,7 +21,7 @@ def fit():
     parameter = lambda name, mean, std, after, left, **more: {"name": name, "prior": {"mean": mean, "std": std, "lower": mean - 1.25 * std, "upper": mean + 2.75 * std}, "mode": after + 0.1 * std, "mean": after, "std": std * left, "lower": after - 1.5 * std * left,
                                                              "upper": after + 2.5 * std * left, "std_ratio": left, **more}
     parameters = [parameter("root_spring", 1, 0.05, 1.043, 0.31), parameter("coulomb.mid", 0.4, 0.1, 0.27, 0.82, unit="N m"), parameter("tip_spring", 1, 0.05, 0.91, 0.055),
-                  parameter("harness", 3, 1, 2.5, 0.5), parameter("fifth", -2, 0.5, -2.25, 0.125)]
+                  parameter("harness", 3, 1, 2.5, 0.5, unit="rad"), parameter("fifth", -2, 0.5, -2.25, 0.125)]
     return {"finished": True, "findings": ["the worst first", "then another"], "parameters": parameters, "unseen": [{"text": "no test tells harness from fifth", "direction": {}, "std_ratio": 0.9}],
             "values": [{"test": "ground", "name": "root.latch_rate", "unit": "rad/s", "measured": -1.25, "fitted": -1.2134, "sigmas": 1.37, "p_value": 0.17},
                        {"test": "flight", "name": "hinges.root.friction.coulomb", "unit": "N m", "measured": 0.21, "fitted": 0.2345, "sigmas": -2.44, "p_value": 0.015}],
@@ -151,9 +151,10 @@ class FitPageChecks:
         caption = "Parameters before and after the tests"
         self.assertEqual(self.heads(caption), ["Parameter", "Before: mean ± sd", "After", "95 % interval", "Share of the sd left"])
         for row, each in zip(self.table(caption), one["parameters"], strict=True):
-            self.assertEqual(row[0], each["name"] + (" (N·m)" if "unit" in each else ""))
+            unit, factor = {None: ("", 1), "N m": (" (N·m)", 1), "rad": (" (deg)", DEGREES)}[each.get("unit")]
+            self.assertEqual(row[0], each["name"] + unit)
             for cell, values in zip(row[1:4], ((each["prior"]["mean"], each["prior"]["std"]), (each["mean"], each["std"]), (each["lower"], each["upper"])), strict=True):
-                self.check(cell, *values, about=each["name"])
+                self.check(cell, *(factor * value for value in values), about=each["name"])
             self.check(row[4], each["std_ratio"], share=True, about=each["name"])
         self.assertEqual(self.heads("Measured values"), ["Test", "Value", "Unit", "Measured", "Fitted", "Difference σ", "p"])
         names = [("ground", "root latch rate", "deg/s"), ("flight", "hinges.root.friction.coulomb", "N·m")]

@@ -13,7 +13,7 @@ class StudyPageChecks:
         self.open(pages.made_up("plain"))
         note = lambda **more: self.run_script("Object.assign(W.set().margin, arguments[0]); W.why(); return document.querySelector('figure.margin > .note').textContent", more)
         for window, recommended, why, text in (([1.1, 1.58], 1.42, None, "The window is from 1.100 to 1.580; recommended: 1.420."), ([None, 1.58], None, "no scale has room", "The window is open below to 1.580. No recommendation: no scale has room."),
-                                               ([0.75, None], 1, None, "The window is from 0.7500 and open above; recommended: 1.000."), ([None, None], None, "all are too weak", "all are too weak"), ([None, None], None, None, "No scale meets all requirements."), (None, None, "x", "x")):
+                                               ([0.75, None], 1, None, "The window is from 0.7500 and open above; recommended: 1.000."), ([None, None], None, "all are too weak", "All are too weak."), ([None, None], None, None, "No scale meets all requirements."), (None, None, "x", "X.")):
             self.assertEqual(note(window=window, recommended=recommended, why_none=why), text + " Bands are two-sided 95 % bounds of each share.")
         for window, low, high in (([1.1, None], True, False), ([None, 1.58], False, True)):
             note(window=window)
@@ -86,7 +86,8 @@ class StudyPageChecks:
         self.assertEqual([row[:3] for row in self.table("Most likely run of the event")], [["a", "2.500", "N·m"], ["b", "5.730", "deg"], ["c", "1.000", ""]])
         self.assertFalse(self.one("#wing").is_displayed())
         self.assertEqual(self.run_script("return document.querySelector('#title').textContent"), "mock_wing")
-        self.opened_block("rare_first", lambda: mock.block([mock.study("rare", rare=rare, wing=None), mock.studies()[0]]))
+        self.opened_block("rare_first", lambda: mock.block([mock.study("rare", rare=rare, wing=None, campaign="another wing"), mock.studies()[0]]))
+        self.assertEqual(self.one("#title").text, "another wing and mock_wing")
         self.assertTrue(self.one("#wing figure.still").is_displayed())  # of the study that has one
 
     def test_static_margins_by_standard_group_and_case(self):

@@ -2,6 +2,7 @@
 #include "distributions/copula.hpp"
 #include "distributions/design.hpp"
 #include "distributions/prepared_distribution.hpp"
+#include "tests/support/decompositions.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-/// Eigen's decompositions of large matrices, compiled once for all tests: each takes seconds of every file that uses it.
+/// Eigen's decompositions of large matrices, compiled once: each takes seconds of every file that has them compiled.
 #pragma once
 
 #include <Eigen/Eigenvalues>

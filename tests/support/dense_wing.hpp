@@ -25,7 +25,6 @@
 
 #include "core/scene/scene.hpp"
 #include "tests/support/body_loads.hpp"
-#include "tests/support/decompositions.hpp"
 #include "tests/support/hinge_laws.hpp"
 
 #include <Eigen/Core>

@@ -22,7 +22,7 @@ inline constexpr const char* traces_csv_file = "traces.csv";
 /// The report: misfits, parameters, what the tests do not see, candidates, the prediction.
 [[nodiscard]] std::string fit_text(const FitResult& result, const FitSpec& spec);
 
-/// The parameters of which the tests say nothing.
+/// The parameters that the prior decides, not the tests (unseen_ratio).
 [[nodiscard]] std::vector<std::string> names_by_prior(const FitResult& result);
 
 /// Sentences that a reader needs before the numbers: misfits, further modes, tempering. Empty if there is none.

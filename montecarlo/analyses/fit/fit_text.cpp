@@ -320,8 +320,9 @@ std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& sp
         "every fitted parameter is a test's own: nothing is known of other units, so there is no "
         "posterior.csv, no campaign.json and no prediction");
   if (result.beside_cases && !result.prediction.outputs.empty())
-    list.emplace_back("the prediction is of the campaign's wing in none of its cases; `wingspread "
-                      "run` of the written campaign predicts each");
+    list.emplace_back(
+        "the prediction is of the campaign's wing without any of its cases; `wingspread "
+        "run` of the written campaign predicts each");
   for (const std::string& law : result.lost_laws)
     list.push_back("the law of this case is not in the written campaign, which draws the posterior "
                    "in every case, so that its prediction is not of this case: " +

@@ -176,7 +176,9 @@ private:
 
 Json definitions() {
   return {
-      {"confidence", "of deployed_lower and deployed_upper in margin.csv, two-sided"},
+      {"confidence",
+       "at the top: of deployed_lower and deployed_upper in margin.csv, two-sided; elsewhere a "
+       "requirement's own"},
       {"scale", "factor on the parameters in \"scales\", after all dispersion; the same draws at "
                 "every scale"},
       {"window", "the widest stretch of scales at which every requirement is shown in every case"},

@@ -256,7 +256,10 @@ std::string describe(const Distribution& distribution) {
 
 std::string_view unit_of_draw(const Dispersion& dispersion) {
   if (dispersion.targets.empty() || dispersion.apply == Apply::scale) return "";
-  return unit_of(dispersion.targets.front());
+  const std::string_view unit = unit_of(dispersion.targets.front());
+  const bool common = std::ranges::all_of(
+      dispersion.targets, [&](const auto& target) { return unit_of(target) == unit; });
+  return common ? unit : "";
 }
 
 std::string describe(const Campaign& campaign) {

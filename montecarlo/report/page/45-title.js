@@ -29,7 +29,7 @@
     return `${W.sets.length} ${cases.length ? "cases" : "folders"}: ${W.sets.map((set) => set.label).join(", ")}`;
   }
   // The confidence of a set's bounds, "95 %", and those of all sets: folders may have been analysed at different ones.
-  W.confidenceOf = (set) => `${F.given(100 * (set.confidence || 0.95))} %`;
+  W.confidenceOf = (set) => `${F.given(100 * set.confidence)} %`;
   W.confidences = () => [...new Set(W.sets.map(W.confidenceOf))];
   // What the sets are: cases of a campaign, or folders.
   W.kindOfSets = () => (W.sets.some((set) => set.case) ? "case" : "folder");
@@ -77,7 +77,7 @@
         facts.filter(Boolean).map((fact) => h("span", fact)),
       ),
     );
-    const wings = [...new Set(W.sets.map((each) => each.campaign))].filter(Boolean),
+    const wings = [...new Set((W.onlyStudies ? W.studySets : W.sets).map((each) => each.campaign))].filter(Boolean),
       title = words.title || (wings.length > 1 ? wings.join(" and ") : W.data.title);
     document.getElementById("title").textContent = title;
     document.title = words.title || `${title} · wingspread report`;

@@ -23,7 +23,7 @@
       gap
         ? `Nothing was run between neighbouring scales of the window, up to ${F.number(apart, apart < 10 ? 2 : 3)} % apart (${F.number(gap[0], 4)} and ${F.number(gap[1], 4)}): what fails only there is not seen.`
         : null,
-      passed ? `Scale ${F.number(passed.scale, 4)} breaks fewer runs, but a static margin is too low there: ${passed.drive} (${passed.margin}: ${F.fixed(passed.at_scale, 2)}, now ${F.fixed(passed.at_1, 2)}).` : null,
+      passed && W.isNumber(margin.recommended) ? `Scale ${F.number(passed.scale, 4)} breaks fewer runs, but a static margin is too low there: ${passed.drive} (${passed.margin}: ${F.fixed(passed.at_scale, 2)}, now ${F.fixed(passed.at_1, 2)}).` : null,
       nearer.length ? `Nearer to their limits than with the ${present}, or broken by more runs: ${nearer.join("; ")}.` : null,
       lower.length ? `Lower static margins than with the ${present}: ${lower.join(", ")}.` : null,
     ];
@@ -40,7 +40,7 @@
     const words = [
       bounded
         ? `The window is ${ends}${advice}.${margin.why_none ? ` No recommendation: ${margin.why_none}.` : ""}${margin.not_confirmed ? ` Runs of another seed do not confirm the recommendation: ${margin.not_confirmed}.` : ""}`
-        : margin.why_none || "No scale meets all requirements.",
+        : margin.why_none ? `${margin.why_none[0].toUpperCase()}${margin.why_none.slice(1)}.` : "No scale meets all requirements.",
       ...qualifications(margin),
       W.isNumber(set.confidence) ? `Bands are two-sided ${F.given(100 * set.confidence)} % bounds of each share.` : null,
     ]

@@ -187,13 +187,17 @@
     return W.table(
       "Parameters before and after the tests",
       ["Parameter", number("Before: mean ± sd"), number("After"), number(`${level} interval`), number("Share of the sd left")],
-      parameters.map((one) => [
-        one.unit ? `${one.name} (${F.unit(one.unit)})` : one.name,
-        spread(one.prior.mean, one.prior.std),
-        spread(one.mean, one.std),
-        `${F.sized(one.lower, one.std)} … ${F.sized(one.upper, one.std)}`,
-        F.share(one.std_ratio),
-      ]),
+      parameters.map(function (one) {
+        const { unit, factor } = F.shown(one.unit || ""),
+          sized = (value) => F.sized(value * factor, one.std * factor);
+        return [
+          unit ? `${one.name} (${unit})` : one.name,
+          spread(one.prior.mean * factor, one.prior.std * factor),
+          spread(one.mean * factor, one.std * factor),
+          `${sized(one.lower)} … ${sized(one.upper)}`,
+          F.share(one.std_ratio),
+        ];
+      }),
       { showCaption: true },
     );
   }

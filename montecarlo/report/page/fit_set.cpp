@@ -59,8 +59,8 @@ double residual_of(const std::vector<std::string>& row) {
   return std::isnan(size) ? 0 : size;
 }
 
-/// The rows of a trace that are drawn, ascending: of each part the first and the one furthest from the fit, and all
-/// outliers of fit.json, so that no sample that a finding names is missing.
+/// The rows of a trace that are drawn, ascending: of each part the first and the one furthest from the fit, and the
+/// 400 furthest outliers of fit.json, so that each sample that a finding names is drawn.
 std::vector<std::size_t> drawn_rows(CsvRows rows, const Json& outliers) {
   if (rows.size() <= most_times) return parts_of(rows.size(), most_times);
   std::vector<std::size_t> drawn = parts_of(rows.size(), most_times / 2);

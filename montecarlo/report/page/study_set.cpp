@@ -160,8 +160,10 @@ Json strata_json(const Json& study) {
   return strata;
 }
 
-/// Whether a stratum's upper bound, and with it that of the sum, is an estimate.
+/// Whether the upper bound of strata is an estimate, as `rare` says it: of an event that was found, because strata without it
+/// could change the sum; else because one of them was not reached.
 bool has_estimated_bound(const Json& study) {
+  if (study.at("lower").get<double>() > 0) return !study.at("reached").get<bool>();
   const Json strata = study.value("strata", Json(nullptr));
   return std::any_of(strata.begin(), strata.end(),
                      [](const Json& part) { return !part.at("reached").get<bool>(); });

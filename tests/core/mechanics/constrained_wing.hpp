@@ -14,6 +14,7 @@
 #pragma once
 
 #include "core/mechanics/system.hpp"
+#include "tests/support/decompositions.hpp"
 #include "tests/support/dense_wing.hpp"
 #include "tests/support/random_scenes.hpp"
 

@@ -1,5 +1,6 @@
 #include "core/methods/spectral_radius.hpp"
 #include "tests/support/closed_forms.hpp"
+#include "tests/support/decompositions.hpp"
 #include "tests/support/random_scenes.hpp"
 #include "tests/support/real_scenes.hpp"
 

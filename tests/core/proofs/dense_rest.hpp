@@ -1,6 +1,7 @@
 /// A latched wing about rest by the dense formulation: an oracle of its mass, stiffness and damping.
 #pragma once
 
+#include "tests/support/decompositions.hpp"
 #include "tests/support/dense_wing.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -4,6 +4,7 @@
 #include "core/mechanics/energy.hpp"
 #include "core/proofs/modal_bounds.hpp"
 #include "core/proofs/remaining_energy.hpp"
+#include "tests/support/decompositions.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <Eigen/Dense>

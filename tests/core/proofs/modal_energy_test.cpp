@@ -1,6 +1,7 @@
 // The bounds inside the energy's box, where friction leaves nothing else: against (7) and (10) by other means. They neither
 // fall below nor rise above what the energy allows.
 #include "tests/core/proofs/latched_wing.hpp"
+#include "tests/support/decompositions.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>

@@ -1,5 +1,6 @@
 // The modes of linear models: held against the model, and against a library's QR algorithm.
 #include "core/proofs/modes.hpp"
+#include "tests/support/decompositions.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <Eigen/Dense>

@@ -2,6 +2,7 @@
 #include "core/proofs/natural_modes.hpp"
 #include "tests/core/proofs/dense_rest.hpp"
 #include "tests/support/closed_forms.hpp"
+#include "tests/support/decompositions.hpp"
 #include "tests/support/random_cases.hpp"
 #include "tests/support/random_scenes.hpp"
 

@@ -300,7 +300,7 @@ TEST_CASE("each finding of a fit is told on its side of its limit, and not on th
     return told([&](FitResult& result) { result.channels[1].channel.effective = numbers; });
   };
   CHECK_THAT(told([](FitResult& result) { result.beside_cases = true; }),
-             Contains("in none of its cases"));
+             Contains("without any of its cases"));
   CHECK(
       told([](FitResult& result) { result.beside_cases = true, result.prediction = {}; }).empty());
   CHECK_THAT(effective(1.9),

@@ -204,3 +204,21 @@ TEST_CASE("A campaign names the correlated dispersions that its design does not 
     CHECK(named == lost);
   }
 }
+
+TEST_CASE("a draw has the unit that all its targets have, and a factor none", "[describe]") {
+  const auto unit = [](const char* apply, const char* targets) {
+    Json json = test::small_campaign();
+    json["dispersions"] =
+        Json::array({{{"name", "x"},
+                      {"distribution", {{"type", "normal"}, {"mean", 0}, {"std", 0.01}}},
+                      {"apply", apply},
+                      {"to", parse_json(targets)}}});
+    return std::string(unit_of_draw(read_campaign(json.dump(), "").dispersions[0]));
+  };
+  const char* torques =
+      R"(["hinges.root.spring.torque_stowed", "hinges.root.spring.torque_latched"])";
+  CHECK(unit("add", torques) == "N·m");
+  CHECK(unit("scale", torques) == "");
+  CHECK(unit("add", R"(["hinges.root.angle.stowed"])") == "rad");
+  CHECK(unit("add", R"(["hinges.root.angle.stowed", "hinges.root.spring.torque_stowed"])") == "");
+}

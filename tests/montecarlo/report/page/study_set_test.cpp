@@ -126,10 +126,14 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
     { "name": "b", "value": 2, "unit": "N·m", "z": -4.0 },
     { "name": "c", "value": 3, "unit": "rad", "z": 2.0 },
     { "name": "a", "value": 1, "unit": "", "z": 0.5 } ] })"));
-  CHECK(rare["estimated"] == true); // by the stratum that was not reached
-  Json reached = study;
-  reached["strata"][1]["reached"] = true;
-  CHECK(set_of(reached)["rare"]["estimated"] == false);
+  CHECK(rare["estimated"] == false); // the stratum that was not reached cannot add a hundredth
+  Json estimated = study;
+  estimated["reached"] = false;
+  CHECK(set_of(estimated)["rare"]["estimated"] == true);
+  estimated["lower"] = 0; // by the stratum that was not reached
+  CHECK(set_of(estimated)["rare"]["estimated"] == true);
+  estimated["strata"][1]["reached"] = true;
+  CHECK(set_of(estimated)["rare"]["estimated"] == false);
   Json older = study; // without the keys of later versions
   for (const char* key : {"scene", "beyond", "case", "confidence", "strata"}) older.erase(key);
   older["likeliest"].erase("units");
