@@ -14,12 +14,12 @@ namespace {
 
 using Law = std::function<double(std::mt19937_64&)>;
 
-struct Sample {
+struct DrawnSample {
   std::vector<double> values, sorted;
   Population population;
 };
 
-Sample sample_of(const Law& law, long count) {
+DrawnSample sample_of(const Law& law, long count) {
   std::mt19937_64 random(11);
   std::vector<double> values;
   for (long i = 0; i < count; ++i) values.push_back(law(random));
@@ -56,7 +56,7 @@ TEST_CASE("population: every order statistic lies where it is said to, with the 
   constexpr long count = 100'000;
   for (const auto& [name, law] : laws) {
     CAPTURE(name);
-    const Sample sample = sample_of(law, count);
+    const DrawnSample sample = sample_of(law, count);
     const RankedPopulation ranked(sample.population);
     CHECK(ranked.min() == sample.sorted.front());
     CHECK(ranked.max() == sample.sorted.back());
@@ -82,7 +82,7 @@ TEST_CASE("population: every order statistic lies where it is said to, with the 
 }
 
 TEST_CASE("population: bins are narrow where values are dense") {
-  const Sample sample = sample_of(laws[0].second, 100'000); // normal, standard deviation 0.05
+  const DrawnSample sample = sample_of(laws[0].second, 100'000); // normal, standard deviation 0.05
   const RankedPopulation ranked(sample.population);
   for (const long rank : {10'000L, 50'000L, 90'000L}) {
     const OrderStatistic found = ranked.at(rank);
@@ -94,7 +94,7 @@ TEST_CASE("population: bins are narrow where values are dense") {
 
 TEST_CASE(
     "population: an order statistic is as often above the truth as below, in shares of its bin") {
-  const Sample sample = sample_of(laws[0].second, 100'000);
+  const DrawnSample sample = sample_of(laws[0].second, 100'000);
   const RankedPopulation ranked(sample.population);
   double sum = 0;
   long bins = 0; // ranks in bins
@@ -108,7 +108,7 @@ TEST_CASE(
 }
 
 TEST_CASE("population: zeros are counted apart, so that a quantile among them is one") {
-  const Sample sample = sample_of(laws[5].second, 100'000); // nine of ten are 0
+  const DrawnSample sample = sample_of(laws[5].second, 100'000); // nine of ten are 0
   const OrderStatistic found = RankedPopulation(sample.population).at(50'000);
   CHECK(found.value == 0);
   CHECK(found.rank_error == 0);
@@ -117,7 +117,7 @@ TEST_CASE("population: zeros are counted apart, so that a quantile among them is
 TEST_CASE("population: the same in any order and however it is shared out") {
   for (const auto& [name, law] : laws) {
     CAPTURE(name);
-    const Sample sample = sample_of(law, 20'000);
+    const DrawnSample sample = sample_of(law, 20'000);
     const Grid grid = sample.population.counts().grid();
     std::vector<std::size_t> order(sample.values.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
