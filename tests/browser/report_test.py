@@ -30,7 +30,7 @@ try:
     from drawing_checks import DrawingChecks
     from finding_checks import FindingChecks
     from fit_checks import FitChecks, made_fit
-    from fit_page_checks import FitPageChecks
+    from fit_page_checks import FitPageChecks, fit
     from judgement_checks import JudgementChecks
     from mark_checks import MarkChecks
     from number_checks import NumberChecks, Numbers
@@ -312,8 +312,8 @@ class Quick(CauseChecks, StudyPageChecks, JudgementChecks, ShapeChecks, WordChec
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
         self.assertTrue(wide and max(wide) <= 697, wide)
 
-    def test_letters_of_printed_studies_can_be_read(self):
-        self.open(pages.made_up("beside"))
+    def printed_letters(self):
+        """Of each picture with letters: its name, and the size of its smallest letters on paper in points."""
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
         self.driver.execute_script("dispatchEvent(new Event('beforeprint'))")
         pages.resize(self.driver, 695)
@@ -321,8 +321,15 @@ class Quick(CauseChecks, StudyPageChecks, JudgementChecks, ShapeChecks, WordChec
             0.75 * Math.min(...[...svg.querySelectorAll('text')].map(text => parseFloat(getComputedStyle(text).fontSize))) * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width])""")
         self.driver.execute_script("dispatchEvent(new Event('afterprint'))")
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
-        self.assertTrue({"margin", "tornado", "rare", "static-margins"} <= {name for name, _ in letters})
-        self.assertEqual([one for one in letters if one[1] < 6], [])  # points
+        return letters
+
+    def test_letters_of_printed_studies_can_be_read(self):
+        self.open(pages.made_up("beside"))
+        studies = self.printed_letters()
+        self.opened_block("fit_page", lambda: mock.block([mock.study("fit", fit=fit())]))
+        letters = studies + self.printed_letters()
+        self.assertLessEqual({"margin", "tornado", "rare", "static-margins", "fit-trace", "fit-pairs", "fit-parameters"}, {name for name, _ in letters})
+        self.assertEqual([one for one in letters if one[1] < 6], [])
 
     def test_stills_in_place_of_motion_where_that_is_wanted(self):
         self.open(pages.made_up("plain"))

@@ -64,9 +64,9 @@ TEST_CASE("offsets and own parameters are each test's own, whichever test has th
   }
 }
 
-// The ranks of an MPI program rebuild a campaign from its JSON.
-TEST_CASE("a prior has its law's quantiles, whatever the law, and the unit of what it sets",
-          "[fit]") {
+TEST_CASE(
+    "a prior has its law's moments and quantiles, whatever the law, and the unit of what it sets",
+    "[fit]") {
   Json json = panel_campaign();
   json["dispersions"] = parse_json(R"([
     { "name": "factor", "distribution": { "type": "uniform", "lower": 0.9, "upper": 1.1 },
@@ -79,6 +79,8 @@ TEST_CASE("a prior has its law's quantiles, whatever the law, and the unit of wh
     parameter.dispersion = dispersion;
     return prior_of(parameter, campaign, 0.95);
   };
+  CHECK(of(0).mean == Approx(1));
+  CHECK(of(0).std == Approx(0.2 / std::sqrt(12)));
   CHECK(of(0).lower == Approx(0.905));
   CHECK(of(0).upper == Approx(1.095));
   CHECK(of(0).unit.empty());
@@ -93,6 +95,7 @@ TEST_CASE("a prior has its law's quantiles, whatever the law, and the unit of wh
   CHECK(prior.unit == "s");
 }
 
+// The ranks of an MPI program rebuild a campaign from its JSON.
 TEST_CASE("campaigns with other laws say so in their JSON, whatever entry a draw comes from",
           "[fit]") {
   int entries = 0;

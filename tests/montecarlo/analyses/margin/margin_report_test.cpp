@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <array>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -87,4 +89,51 @@ TEST_CASE("a scale that static margins rule out is told with its own numbers", "
       CHECK(told["margin"] == margin_kind_names[static_cast<std::size_t>(kind)]);
       CHECK((told["at_scale"] == scale - 1 && told["at_1"] == scale + 1));
     }
+}
+
+TEST_CASE("margin.json has the campaign's confidence, and what the recommended scale gives up",
+          "[margin]") {
+  Json json = one_panel_margin(76);
+  json["statistics"] = {{"confidence", 0.8}};
+  const Campaign campaign = campaign_of(json);
+  MarginResult result = margin_of(campaign);
+  MarginSearch& search = result.searches.front();
+  const ClosedForm present = closed_form(campaign, 1);
+  auto weaker = search.seen.find(1); // then the next scale at which more runs do not deploy
+  REQUIRE(weaker != search.seen.end());
+  while (weaker != search.seen.begin() &&
+         closed_form(campaign, weaker->first).not_deployed <= present.not_deployed)
+    --weaker;
+  const double scale = weaker->first;
+  const ClosedForm worse = closed_form(campaign, scale);
+  REQUIRE(worse.not_deployed > present.not_deployed);
+  search.recommended = scale, search.confirmation = weaker->second;
+  const Json found = margin_json(margin_report(campaign, result), Json::object());
+  CHECK(found["confidence"] == 0.8);
+
+  const Json& given_up = found["searches"][0]["recommended"]["given_up"];
+  const Json& requirements = given_up["requirements"];
+  REQUIRE(requirements.size() == 2);
+  const std::array expected{std::pair(present.not_deployed, worse.not_deployed),
+                            std::pair(present.too_fast, worse.too_fast)};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Json& each = requirements[k];
+    CHECK(each["requirement"] == to_string(campaign.requirements[k]));
+    CHECK(each["case"] == "nominal");
+    CHECK(each["at_1"]["failures"]["seen"] == expected[k].first);
+    CHECK(each["at_scale"]["failures"]["seen"] == expected[k].second);
+  }
+  CHECK(requirements[0]["at_1"]["quantile_over_runs"].is_null()); // of "deployed"
+  // The rates are below 0, and smaller in size with weaker springs.
+  const auto rate_at = [&](const char* key) {
+    return requirements[1][key]["quantile_over_runs"].get<double>();
+  };
+  CHECK(rate_at("at_1") < rate_at("at_scale"));
+
+  const Json& margins = given_up["static_margins"];
+  REQUIRE(margins.size() == 4);
+  const Json& gevs = margins[2];
+  CHECK((gevs["margin"] == "gevs" && gevs["drive"] == "root"));
+  CHECK(gevs["at_1"].get<double>() == Approx(0.2 / (3 * 0.8) - 1).epsilon(1e-12));
+  CHECK(gevs["at_scale"].get<double>() == Approx(scale * 0.2 / (3 * 0.8) - 1).epsilon(1e-12));
 }

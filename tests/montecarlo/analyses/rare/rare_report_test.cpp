@@ -121,18 +121,18 @@ TEST_CASE("each repeat has a row of its own numbers, and each stratum, the large
   CHECK(words_of(text, "often = 1") == Words{"0.002", "0.375", "0.00075", "77"});
 }
 
-TEST_CASE("rare.json names the scene, and the unit of each draw that sets a parameter", "[rare]") {
-  Campaign campaign = campaign_with(2);
+TEST_CASE("rare.json names the scene, and the unit of each draw that is no factor", "[rare]") {
+  Campaign campaign = campaign_with(4); // of a spring's torques
   campaign.scene.name = "some wing";
   campaign.dispersions[0].apply = Apply::set, campaign.dispersions[1].apply = Apply::scale;
+  campaign.dispersions[2].apply = Apply::add, campaign.dispersions[3].apply = Apply::set;
+  campaign.dispersions[3].targets.clear(); // only "through"
   RareResult result = result_of({repeat_of(true)});
   result.likeliest.emplace();
-  result.likeliest->draws = {1, 2}, result.likeliest->z = {0.5, -1};
+  result.likeliest->draws = {1, 2, 3, 4}, result.likeliest->z = {0.5, -1, 2, 0};
   const Json json = rare_json(result, {}, campaign, {});
   CHECK(json["scene"] == "some wing");
-  const std::string_view unit = unit_of(campaign.dispersions[0].targets.front());
-  CHECK_FALSE(unit.empty());
-  CHECK(json["likeliest"]["units"] == Json{{"d0", unit}, {"d1", ""}});
+  CHECK(json["likeliest"]["units"] == Json{{"d0", "N·m"}, {"d1", ""}, {"d2", "N·m"}, {"d3", ""}});
 }
 
 TEST_CASE("unphysical draws are among the warnings, of the file as of the terminal", "[rare]") {

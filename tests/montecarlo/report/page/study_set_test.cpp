@@ -1,8 +1,10 @@
+#include "montecarlo/analyses/fit/fit_report.hpp"
 #include "montecarlo/analyses/margin/margin_report.hpp"
 #include "montecarlo/analyses/rare/rare_report.hpp"
 #include "montecarlo/analyses/sensitivity/design_folder.hpp"
 #include "montecarlo/analyses/sensitivity/sobol_report.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "montecarlo/report/page/html_page.hpp"
 #include "montecarlo/report/page/study_set.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
@@ -178,6 +180,36 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
   }
 }
 
+TEST_CASE("a page of studies has the first scene for its title, or the first label without any",
+          "[page]") {
+  const Folder older, named;
+  Json study = rare_study();
+  named.write(rare_json_file, study.dump());
+  study.erase("scene"); // as older versions wrote it
+  older.write(rare_json_file, study.dump());
+  const auto title_of_page = [](const std::vector<std::filesystem::path>& folders) {
+    return page_json(read_page_sources(folders, 1), {}, "", 1)["title"].get<std::string>();
+  };
+  CHECK(title_of_page({named.path()}) == "wing");
+  CHECK(title_of_page({older.path()}) == older.path().filename().string());
+  CHECK(title_of_page({older.path(), named.path()}) == "wing");
+}
+
+TEST_CASE("a fit's set has the fit's scene and confidence", "[page]") {
+  const Folder folder;
+  Json study = parse_json(R"({ "scene": "wing", "confidence": 0.5, "finished": true,
+    "findings": [], "unseen": [], "parameters": {}, "tests": [] })");
+  folder.write(traces_csv_file, "test,column,t,measured,fitted,lower,upper\n");
+  const auto set_of = [&] {
+    folder.write(fit_json_file, study.dump());
+    return study_sets_json(folder.path(), "f").at(0);
+  };
+  const Json set = set_of();
+  CHECK((set["campaign"] == "wing" && set["confidence"] == 0.5));
+  study.erase("confidence"); // of an older version, which had one confidence
+  CHECK(set_of()["confidence"] == 0.95);
+}
+
 TEST_CASE("a key that a margin study lacks is refused by its folder, but one of later versions",
           "[page]") {
   const Folder folder;
@@ -258,7 +290,11 @@ TEST_CASE("a margin's page has what limits its window: gaps, further windows, jo
                 "upper": { "scale": 2, "range_end": false },
                 "widest_gap": { "from": 1, "to": 1.5 }, "joint_confidence": 0.4 },
     "other_windows": [ { "lower": { "scale": 3 }, "upper": { "scale": 4 } } ],
-    "passed_over": { "scale": 1.1 }, "recommended": { "scale": 1.2, "given_up": { "x": 1 } },
+    "passed_over": { "scale": 1.1 }, "recommended": { "scale": 1.2, "given_up": {
+      "requirements": [ { "requirement": "A", "case": "cold",
+                          "at_1": { "failures": { "seen": 1, "allowed": 9 } },
+                          "at_scale": { "failures": { "seen": 2, "allowed": 9 } } } ],
+      "static_margins": [ { "drive": "root", "margin": "nasa", "at_1": 0.5, "at_scale": 0.25 } ] } },
     "why_none": null } ] })");
   folder.write(margin_csv_file, "search,scale,case,runs,requirement,verdict,broken\n");
   const auto block_of = [&](const Json& json) {
@@ -271,7 +307,7 @@ TEST_CASE("a margin's page has what limits its window: gaps, further windows, jo
   REQUIRE(margin["other_windows"].size() == 1);
   CHECK(margin["other_windows"][0] == Json{3, 4});
   CHECK(margin["passed_over"]["scale"] == 1.1);
-  CHECK(margin["given_up"]["x"] == 1);
+  CHECK(margin["given_up"] == study["searches"][0]["recommended"]["given_up"]);
   study["searches"][0]["window"]["widest_gap"]["to"] = 1; // a window of one scale
   CHECK(block_of(study)["widest_gap"].is_null());
   for (const char* key : {"other_windows", "passed_over"}) study["searches"][0].erase(key);
