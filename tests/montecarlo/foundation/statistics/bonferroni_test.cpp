@@ -14,7 +14,7 @@ TEST_CASE("several statements share a risk out among them") {
 }
 
 TEST_CASE("statements that hold each by itself hold together with what their risks leave") {
-  CHECK(joint_confidence({}) == 1);
+  CHECK(joint_confidence(std::span<const double>()) == 1);
   CHECK(joint_confidence(std::vector<double>{0.9}) == Approx(0.9).epsilon(1e-14));
   CHECK(joint_confidence(std::vector<double>{0.9, 0.95, 0.99}) == Approx(0.84).epsilon(1e-14));
   CHECK(joint_confidence(std::vector<double>{0.4, 0.5}) == 0);
