@@ -122,7 +122,7 @@ TEST_CASE("each repeat has a row of its own numbers, and each stratum, the large
 }
 
 TEST_CASE("rare.json names the scene, and the unit of each draw that is no factor", "[rare]") {
-  Campaign campaign = campaign_with(4); // of a spring's torques
+  Campaign campaign = campaign_with(4); // of a spring's torques, and of masses
   campaign.scene.name = "some wing";
   campaign.dispersions[0].apply = Apply::set, campaign.dispersions[1].apply = Apply::scale;
   campaign.dispersions[2].apply = Apply::add, campaign.dispersions[3].apply = Apply::set;
@@ -132,7 +132,7 @@ TEST_CASE("rare.json names the scene, and the unit of each draw that is no facto
   result.likeliest->draws = {1, 2, 3, 4}, result.likeliest->z = {0.5, -1, 2, 0};
   const Json json = rare_json(result, {}, campaign, {});
   CHECK(json["scene"] == "some wing");
-  CHECK(json["likeliest"]["units"] == Json{{"d0", "N·m"}, {"d1", ""}, {"d2", "N·m"}, {"d3", ""}});
+  CHECK(json["likeliest"]["units"] == Json{{"d0", "N·m"}, {"d1", ""}, {"d2", "kg"}, {"d3", ""}});
 }
 
 TEST_CASE("unphysical draws are among the warnings, of the file as of the terminal", "[rare]") {

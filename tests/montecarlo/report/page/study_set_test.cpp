@@ -182,17 +182,19 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
 
 TEST_CASE("a page of studies has the first scene for its title, or the first label without any",
           "[page]") {
-  const Folder older, named;
+  const Folder folder;
+  const std::filesystem::path named = folder.path() / "named", older = folder.path() / "older";
+  for (const auto& path : {named, older}) std::filesystem::create_directories(path);
   Json study = rare_study();
-  named.write(rare_json_file, study.dump());
+  folder.write("named/rare.json", study.dump());
   study.erase("scene"); // as older versions wrote it
-  older.write(rare_json_file, study.dump());
+  folder.write("older/rare.json", study.dump());
   const auto title_of_page = [](const std::vector<std::filesystem::path>& folders) {
     return page_json(read_page_sources(folders, 1), {}, "", 1)["title"].get<std::string>();
   };
-  CHECK(title_of_page({named.path()}) == "wing");
-  CHECK(title_of_page({older.path()}) == older.path().filename().string());
-  CHECK(title_of_page({older.path(), named.path()}) == "wing");
+  CHECK(title_of_page({named}) == "wing");
+  CHECK(title_of_page({older}) == "older");
+  CHECK(title_of_page({older, named}) == "wing");
 }
 
 TEST_CASE("a fit's set has the fit's scene and confidence", "[page]") {
