@@ -89,7 +89,7 @@ class FitChecks:
         names = list(fit["parameters"])
         keys = ("mode", "mean", "std", "lower", "upper")
         for row, (name, one) in zip(self.table("Parameters before and after the tests"), fit["parameters"].items(), strict=True):
-            unit, factor = {"rad": ("deg", DEGREES), "rad/s": ("deg/s", DEGREES)}.get(one["unit"], (one["unit"], 1))
+            unit, factor = {"rad": ("deg", DEGREES), "rad/s": ("deg/s", DEGREES)}.get(one.get("unit"), (one.get("unit", ""), 1))
             self.assertEqual(row[0], f"{name} ({unit})" if unit else name)
             for cell, values in zip(row[1:4], ((one["prior"]["mean"], one["prior"]["std"]), (one["mean"], one["std"]), (one["lower"], one["upper"])), strict=True):
                 self.check(cell, *(factor * value for value in values), about=name)

@@ -6,7 +6,7 @@ import pages
 from number_checks import DEGREES, parsed
 
 PRINTED = {"histogram": 440, "distribution": 440, "history": 440, "scatter": 440, "settling": 440, "still": 300, "envelopes": 940, "tornado": 940, "static-margins": 860, "forest": 860,
-           "stage": 660, "strobe": 660, "strips": 660, "margin": 660, "rare": 660}  # px: as wide as they stand on a printed page
+           "stage": 440, "strobe": 660, "strips": 660, "margin": 660, "rare": 660}  # px: as wide as they stand on a printed page
 
 
 def crossings(box, a, b, c, dotted):

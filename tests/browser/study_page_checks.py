@@ -79,7 +79,7 @@ class StudyPageChecks:
             self.assertIn(words, text)
         self.assertIn("no guarantee", note(joint_confidence=-0.2))
 
-    def test_studies_without_a_scene_have_a_title_and_units(self):
+    def test_studies_without_a_scene_have_units_and_no_empty_section(self):
         rare = mock.mock_wing.studies(["root", "mid", "tip"])["rare"]
         rare["likeliest"]["draws"] = [{"name": "a", "value": 2.5, "unit": "N·m", "z": 3}, {"name": "b", "value": 0.1, "unit": "rad", "z": 2}, {"name": "c", "value": 1, "unit": "", "z": 1}]
         self.opened_block("rare_alone", lambda: mock.block([mock.study("rare", rare=rare, wing=None)]))
