@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/model/static_margins/static_margin.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 
 #include <fmt/format.h>
@@ -118,6 +119,23 @@ Json other_windows(const Json& search) {
   return windows;
 }
 
+/// A static margin of margin.json with its standard in words.
+Json with_standard_in_words(Json margin) {
+  if (!margin.is_object() || !margin.contains("margin")) return margin;
+  const auto key = std::ranges::find(margin_kind_names, margin["margin"].get<std::string>());
+  if (key != margin_kind_names.end())
+    margin["margin"] = margin_kind_texts[static_cast<std::size_t>(key - margin_kind_names.begin())];
+  return margin;
+}
+
+/// What the recommended scale gives up; null without one, and of an older version.
+Json given_up(const Json& recommended) {
+  Json json = recommended.is_null() ? Json(nullptr) : recommended.value("given_up", Json(nullptr));
+  if (json.is_null()) return json;
+  for (Json& margin : json.at("static_margins")) margin = with_standard_in_words(margin);
+  return json;
+}
+
 } // namespace
 
 Json margin_block(const Json& search, const MarginTable& table, const Json& confidence) {
@@ -143,9 +161,8 @@ Json margin_block(const Json& search, const MarginTable& table, const Json& conf
           {"recommended", recommended.is_null() ? Json(nullptr) : recommended.at("scale")},
           {"as_good", as_good},
           {"not_confirmed", not_confirmed(recommended)},
-          {"given_up",
-           recommended.is_null() ? Json(nullptr) : recommended.value("given_up", Json(nullptr))},
-          {"passed_over", search.value("passed_over", Json(nullptr))},
+          {"given_up", given_up(recommended)},
+          {"passed_over", with_standard_in_words(search.value("passed_over", Json(nullptr)))},
           {"widest_gap", widest_gap_of(window)},
           {"other_windows", other_windows(search)},
           {"joint_confidence",

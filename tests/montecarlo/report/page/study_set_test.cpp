@@ -292,7 +292,7 @@ TEST_CASE("a margin's page has what limits its window: gaps, further windows, jo
                 "upper": { "scale": 2, "range_end": false },
                 "widest_gap": { "from": 1, "to": 1.5 }, "joint_confidence": 0.4 },
     "other_windows": [ { "lower": { "scale": 3 }, "upper": { "scale": 4 } } ],
-    "passed_over": { "scale": 1.1 }, "recommended": { "scale": 1.2, "given_up": {
+    "passed_over": { "scale": 1.1, "drive": "root", "margin": "gevs" }, "recommended": { "scale": 1.2, "given_up": {
       "requirements": [ { "requirement": "A", "case": "cold",
                           "at_1": { "failures": { "seen": 1, "allowed": 9 } },
                           "at_scale": { "failures": { "seen": 2, "allowed": 9 } } } ],
@@ -308,8 +308,11 @@ TEST_CASE("a margin's page has what limits its window: gaps, further windows, jo
   CHECK(margin["joint_confidence"] == 0.4);
   REQUIRE(margin["other_windows"].size() == 1);
   CHECK(margin["other_windows"][0] == Json{3, 4});
-  CHECK(margin["passed_over"]["scale"] == 1.1);
-  CHECK(margin["given_up"] == study["searches"][0]["recommended"]["given_up"]);
+  CHECK(margin["passed_over"] ==
+        parse_json(R"({ "scale": 1.1, "drive": "root", "margin": "GEVS" })"));
+  Json given_up = study["searches"][0]["recommended"]["given_up"];
+  given_up["static_margins"][0]["margin"] = "NASA";
+  CHECK(margin["given_up"] == given_up);
   study["searches"][0]["window"]["widest_gap"]["to"] = 1; // a window of one scale
   CHECK(block_of(study)["widest_gap"].is_null());
   for (const char* key : {"other_windows", "passed_over"}) study["searches"][0].erase(key);
