@@ -14,8 +14,8 @@ template <class T> [[nodiscard]] T beyond_stowed(const HingeTerms<T>& hinge, con
   return hinge.sense * (hinge.stowed - angle);
 }
 
-/// Whether hinge i, which may start from rest, may turn back inside the step with an overtravel above `most`. If not, the step's ends have its
-/// largest overtravel, or it stays below `most`. For packs: in which lanes.
+/// Whether hinge i may turn back inside the step with an overtravel above `most`. If not, the step's ends have its
+/// largest overtravel, or it stays below `most`. It may begin the step at rest. For packs: in which lanes.
 template <class T>
 [[nodiscard]] auto may_turn_back(const Wing<T>& wing, const Layout& at, const Step<T>& step, int i,
                                  const T& most) {

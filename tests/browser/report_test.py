@@ -8,7 +8,6 @@ WINGSPREAD_AXE or a folder of the build; where there is no npm that question is 
 """
 
 import base64
-import json
 import os
 import pathlib
 import shutil
@@ -21,8 +20,6 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 try:
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
-    import assemble
-    import mock
     import pages
     from cause_checks import CauseChecks
     from change_checks import ChangeChecks
@@ -30,7 +27,7 @@ try:
     from drawing_checks import DrawingChecks
     from finding_checks import FindingChecks
     from fit_checks import FitChecks, made_fit
-    from fit_page_checks import FitPageChecks, fit
+    from fit_page_checks import FitPageChecks
     from judgement_checks import JudgementChecks
     from mark_checks import MarkChecks
     from number_checks import NumberChecks, Numbers
@@ -294,42 +291,6 @@ class Quick(CauseChecks, StudyPageChecks, JudgementChecks, ShapeChecks, WordChec
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
         self.assertTrue(37_500 < len(self.printed()) < 4_000_000)  # fills as SVG patterns took 20 MB: each is printed as an image
         self.assertGreaterEqual(self.run_script("return document.querySelectorAll('.picture svg').length"), before)
-
-    def test_long_names_widen_neither_a_narrow_screen_nor_a_printed_page(self):
-        block = mock.KINDS["cases"]()
-        text = json.dumps(block).replace('"root', '"' + "root_hinge_of_the_outer_wing_with_a_name_as_long_as_a_line").replace('"cold', '"' + "cold" * 16)
-        path = pages.SCRATCH / "long_names.html"
-        path.write_text(assemble.page(text), "utf-8")
-        self.open(path, 360)
-        self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), 360)
-        cut = self.run_script("""return [...document.querySelectorAll('svg.chart .axis-text')].filter(text => text.getClientRects().length && text.getBBox().x + text.getBBox().width > text.ownerSVGElement.viewBox.baseVal.width + 1
-            || text.getBBox().x < -1).map(text => text.textContent)""")
-        self.assertEqual(cut, [])
-        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
-        self.run_script("document.querySelectorAll('#verdicts details').forEach(one => one.open = true)")
-        pages.resize(self.driver, 695)
-        wide = self.run_script("return [...document.querySelectorAll('#verdicts table.requirements')].map(table => table.getBoundingClientRect().right)")
-        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
-        self.assertTrue(wide and max(wide) <= 697, wide)
-
-    def printed_letters(self):
-        """Of each picture with letters: its name, and the size of its smallest letters on paper in points."""
-        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
-        self.driver.execute_script("dispatchEvent(new Event('beforeprint'))")
-        pages.resize(self.driver, 695)
-        letters = self.run_script("""return [...document.querySelectorAll('figure svg.chart')].filter(svg => svg.getClientRects().length).map(svg => [svg.closest('figure').className,
-            0.75 * Math.min(...[...svg.querySelectorAll('text')].map(text => parseFloat(getComputedStyle(text).fontSize))) * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width])""")
-        self.driver.execute_script("dispatchEvent(new Event('afterprint'))")
-        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
-        return letters
-
-    def test_letters_of_printed_studies_can_be_read(self):
-        self.open(pages.made_up("beside"))
-        studies = self.printed_letters()
-        self.opened_block("fit_page", lambda: mock.block([mock.study("fit", fit=fit())]))
-        letters = studies + self.printed_letters()
-        self.assertLessEqual({"margin", "tornado", "rare", "static-margins", "fit-trace", "fit-pairs", "fit-parameters"}, {name for name, _ in letters})
-        self.assertEqual([one for one in letters if one[1] < 6], [])
 
     def test_stills_in_place_of_motion_where_that_is_wanted(self):
         self.open(pages.made_up("plain"))

@@ -1,8 +1,12 @@
 """The page's building blocks: texts of numbers and units, copying, legends, upright lines, hatches, dashes, saved and printed pictures, poses and states in words."""
 
+import json
 import re
 
+import assemble
+import mock
 import pages
+from fit_page_checks import fit
 from number_checks import DEGREES, parsed
 
 PRINTED = {"histogram": 440, "distribution": 440, "history": 440, "scatter": 440, "settling": 440, "still": 300, "envelopes": 940, "tornado": 940, "static-margins": 860, "forest": 860,
@@ -212,3 +216,39 @@ class ShapeChecks:
             document.querySelector('main').prepend(svg); const all = [...svg.querySelectorAll('text')].map(text => text.getBoundingClientRect()).sort((a, b) => a.left - b.left); return [all.length, all.some((box, at) => at && box.left < all[at - 1].right)]; })""")
         self.assertEqual([overlaps for _, overlaps in crowded], [False] * 4, crowded)
         self.assertTrue(any(count > 1 for count, _ in crowded), crowded)
+
+    def test_long_names_widen_neither_a_narrow_screen_nor_a_printed_page(self):
+        block = mock.KINDS["cases"]()
+        text = json.dumps(block).replace('"root', '"' + "root_hinge_of_the_outer_wing_with_a_name_as_long_as_a_line").replace('"cold', '"' + "cold" * 16)
+        path = pages.SCRATCH / "long_names.html"
+        path.write_text(assemble.page(text), "utf-8")
+        self.open(path, 360)
+        self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), 360)
+        cut = self.run_script("""return [...document.querySelectorAll('svg.chart .axis-text')].filter(text => text.getClientRects().length && text.getBBox().x + text.getBBox().width > text.ownerSVGElement.viewBox.baseVal.width + 1
+            || text.getBBox().x < -1).map(text => text.textContent)""")
+        self.assertEqual(cut, [])
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        self.run_script("document.querySelectorAll('#verdicts details').forEach(one => one.open = true)")
+        pages.resize(self.driver, 695)
+        wide = self.run_script("return [...document.querySelectorAll('#verdicts table.requirements')].map(table => table.getBoundingClientRect().right)")
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        self.assertTrue(wide and max(wide) <= 697, wide)
+
+    def printed_letters(self):
+        """Of each picture with letters: its name, and the size of its smallest letters on paper in points."""
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        self.driver.execute_script("dispatchEvent(new Event('beforeprint'))")
+        pages.resize(self.driver, 695)
+        letters = self.run_script("""return [...document.querySelectorAll('figure svg.chart')].filter(svg => svg.getClientRects().length).map(svg => [svg.closest('figure').className,
+            0.75 * Math.min(...[...svg.querySelectorAll('text')].map(text => parseFloat(getComputedStyle(text).fontSize))) * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width])""")
+        self.driver.execute_script("dispatchEvent(new Event('afterprint'))")
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        return letters
+
+    def test_letters_of_printed_studies_can_be_read(self):
+        self.open(pages.made_up("beside"))
+        studies = self.printed_letters()
+        self.opened_block("fit_page", lambda: mock.block([mock.study("fit", fit=fit())]))
+        letters = studies + self.printed_letters()
+        self.assertLessEqual({"margin", "tornado", "rare", "static-margins", "fit-trace", "fit-pairs", "fit-parameters"}, {name for name, _ in letters})
+        self.assertEqual([one for one in letters if one[1] < 6], [])

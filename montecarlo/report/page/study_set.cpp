@@ -160,8 +160,8 @@ Json strata_json(const Json& study) {
   return strata;
 }
 
-/// Whether the upper bound of strata is an estimate, as `rare` says it: of an event that was found, because strata without it
-/// could change the sum; else because one of them was not reached.
+/// Whether `rare` calls the upper bound of its strata an estimate. If runs with the event were found: where the strata without
+/// any could add more than a hundredth to the sum (`reached` is false). Else: where a stratum was not reached.
 bool has_estimated_bound(const Json& study) {
   if (study.at("lower").get<double>() > 0) return !study.at("reached").get<bool>();
   const Json strata = study.value("strata", Json(nullptr));

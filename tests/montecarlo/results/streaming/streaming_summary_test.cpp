@@ -7,7 +7,6 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -398,31 +397,4 @@ TEST_CASE("without rows there are as many kinds of latch orders as with them, li
     CHECK(found.latch_order_kinds == static_cast<long>(kinds));
     CHECK(found.latch_orders.size() == std::min(kinds, most_latch_orders));
   }
-}
-
-TEST_CASE(
-    "without rows the hinges that turn back through their stowed angle are those of the rows") {
-  Json json = quick_campaign(10);
-  json["outputs"] = {"latch_time", "overtravel"};
-  json["scene"]["hinges"][2]["stop"] = parse_json(R"({ "stiffness": 100, "dissipation": 0 })");
-  const Campaign campaign = campaign_of(json);
-  const ResultNames names = RunPlan(campaign).names();
-  constexpr double degree = 0.017453292519943295;
-  Results rows(names);
-  StreamingStatistics statistics(campaign, names, rows);
-  const std::array<double, 6> root{-0.3, 2 * degree, 40 * degree, degree, undefined, 3 * degree};
-  for (std::size_t k = 0; k < root.size(); ++k) {
-    ResultRow row = even_row(names, static_cast<long>(k), 1);
-    for (std::size_t i = 0; i < names.outputs.size(); ++i)
-      row.outputs[i] = names.outputs[i] == "root.overtravel"  ? root[k]
-                       : names.outputs[i] == "tip.overtravel" ? 9 * degree // it has a stop
-                                                              : 0;
-    (void)statistics.add(row, {});
-  }
-  const Summary found =
-      streaming_summary({"r", campaign, stamp_of(campaign, {})}, statistics, campaign.statistics);
-  REQUIRE(found.overtravels.size() == 1);
-  CHECK(found.overtravels[0].hinge == "root");
-  CHECK(found.overtravels[0].runs == 3);
-  CHECK(found.overtravels[0].largest == 40 * degree);
 }
