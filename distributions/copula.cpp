@@ -1,8 +1,7 @@
 #include "distributions/copula.hpp"
 
 #include "distributions/continuous_law.hpp"
-
-#include <Eigen/Eigenvalues>
+#include "distributions/decompositions.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -10,6 +9,13 @@
 #include <limits>
 #include <numbers>
 #include <utility>
+
+template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&,
+                                                        int);
+template Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>&
+Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::MatrixXd&,
+                                                                   const Eigen::MatrixXd&, int);
 
 namespace wingspread {
 namespace {

@@ -13,9 +13,6 @@ namespace {
 
 constexpr double wider = 1.02; ///< heuristic: ratio of a box to its image; see find_bounds()
 
-/// A·B by plain sums: for the few bodies of a wing a blocked product costs more to set up.
-template <class A, class B> auto product(const A& a, const B& b) { return a.lazyProduct(b); }
-
 /// Row i of A·v.
 double sum_of_row(const Eigen::MatrixXd& A, int i, const ModalBounds::ModeVector& v) {
   double sum = 0;

@@ -149,6 +149,11 @@ public:
                                                           double spin);
 
 private:
+  /// A·B by plain sums: for the few bodies of a wing a blocked product costs more to set up.
+  template <class A, class B> [[nodiscard]] static auto product(const A& a, const B& b) {
+    return a.lazyProduct(b);
+  }
+
   using Matrix = Eigen::MatrixXd;
 
   /// A real one, or one of a conjugate pair.

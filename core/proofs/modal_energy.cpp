@@ -7,13 +7,6 @@
 
 namespace wingspread {
 
-namespace {
-
-/// As in modal_bounds.cpp.
-template <class A, class B> auto product(const A& a, const B& b) { return a.lazyProduct(b); }
-
-} // namespace
-
 /// The second root of (7). For a pair of modes, Re P_j and −Im P_j are half of two rows of P.
 double ModalBounds::largest_by_energy(const Mode& mode, const double* least) const {
   const int n = size();

@@ -9,3 +9,7 @@ template Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>&
 Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::MatrixXd&,
                                                                    const Eigen::MatrixXd&, int);
 template void Eigen::PartialPivLU<Eigen::MatrixXd>::compute();
+template void
+Eigen::PartialPivLU<Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>>::compute();
+template void Eigen::PartialPivLU<
+    Eigen::Matrix<wingspread::oracle::Quad, Eigen::Dynamic, Eigen::Dynamic>>::compute();

@@ -1,7 +1,8 @@
 #include "montecarlo/analyses/fit/identifiability.hpp"
 
+#include "distributions/decompositions.hpp"
+
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>

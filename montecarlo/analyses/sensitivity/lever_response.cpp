@@ -1,9 +1,8 @@
 #include "montecarlo/analyses/sensitivity/lever_response.hpp"
 
+#include "distributions/decompositions.hpp"
 #include "montecarlo/foundation/statistics/jackknife.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +22,13 @@ std::array<double, 5> solved(const Sums& sums, double scale) {
   if (!(n > sums_size + 10)) return curve; // heuristic: fewer runs do not show a curve
   const Eigen::Matrix<double, 6, 1> mean = sums.block<6, 1>(1, 0) / n;
   const Eigen::Matrix<double, 6, 6> c = sums.block<6, 6>(1, 1) / n - mean * mean.transpose();
-  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, 5, 5>> factors;
-  factors.setThreshold(1e-9);
-  factors.compute(c.topLeftCorner<5, 5>());
-  const Eigen::Matrix<double, 5, 1> found = factors.solve(c.block<5, 1>(0, 5));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of(Eigen::MatrixXd(c.topLeftCorner<5, 5>()));
+  Eigen::Matrix<double, 5, 1> found = Eigen::Matrix<double, 5, 1>::Zero();
+  for (int k = 0; k < 5; ++k)
+    if (of.eigenvalues()[k] > 1e-9 * of.eigenvalues()[4]) {
+      const auto q = of.eigenvectors().col(k);
+      found += q.dot(c.block<5, 1>(0, 5)) / of.eigenvalues()[k] * q;
+    }
   for (int k = 0; k < 5; ++k)
     curve[static_cast<std::size_t>(k)] = k < 2 ? found[k] : found[k] / scale;
   return curve;

@@ -1,8 +1,8 @@
 #include "montecarlo/model/campaign/wanted_correlations.hpp"
 
+#include "distributions/decompositions.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>

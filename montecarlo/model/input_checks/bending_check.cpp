@@ -1,8 +1,8 @@
 #include "montecarlo/model/input_checks/bending_check.hpp"
 
 #include "core/scene/segments.hpp"
+#include "distributions/decompositions.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>

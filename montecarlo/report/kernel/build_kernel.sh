@@ -18,9 +18,10 @@ together() { printf '#include "%s"\n' "${@:2}" > "$work/$1.cpp"; }
 cd "$sources"
 together scene core/outcome.cpp core/scene/*.cpp montecarlo/report/data/motion.cpp
 together proofs core/proofs/{modes,natural_modes,rest_model,rest_model_bounds}.cpp # share decompositions of matrices
+together modal core/proofs/modal_*.cpp
 together laws distributions/{continuous_law,step_law,truncated_law,prepared_distribution,copula}.cpp
 together designs distributions/{random_stream,design,latin_hypercube,owen_scrambling,sobol_sequence}.cpp
-printf '%s\n' montecarlo/report/kernel/kernel.cpp "$work"/{proofs,scene,laws,designs}.cpp core/proofs/modal_*.cpp |
+printf '%s\n' montecarlo/report/kernel/kernel.cpp "$work"/{proofs,modal,scene,laws,designs}.cpp |
   xargs -P 2 -I{} sh -c 'file=$1; shift; "$@" -c "$file" -o "'"$work"'/$(basename "$file").o"' sh {} "${compiler[@]}" "${flags[@]}"
 "${compiler[-1]}" --target=wasm32-wasi -Os -mexec-model=reactor "$work"/*.o -o "$work/kernel.wasm" \
   -Wl,--strip-all -Wl,--gc-sections

@@ -33,13 +33,13 @@ TEST_CASE("a hinge on its elastic hold swings with the hinge that a loop ties to
       held.spring.torque_stowed = slope, held.spring.torque_latched = 0;
       const auto found = natural_modes(scene, std::vector<int>{0});
       REQUIRE((found && found->modes.size() == 2));
-      Eigen::Matrix2d K, C, M = Eigen::Vector2d(1, 2).asDiagonal();
+      Eigen::MatrixXd K(2, 2), C(2, 2), M = Eigen::Vector2d(1, 2).asDiagonal();
       K << 1000 + 50 * gear * gear, -50 * gear, -50 * gear, 400 + 50 + slope;
       C << 0.05 + 0.01 * gear * gear, -0.01 * gear, -0.01 * gear, 0.02 + 0.01;
-      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> modes(K, M);
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(K, M);
       for (int k = 0; k < 2; ++k) {
         const double omega = std::sqrt(modes.eigenvalues()(k));
-        const Eigen::Vector2d v = modes.eigenvectors().col(k);
+        const Eigen::VectorXd v = modes.eigenvectors().col(k);
         CHECK(found->modes[k].frequency == Approx(omega / (2 * std::numbers::pi)).epsilon(1e-10));
         CHECK(found->modes[k].damping_ratio ==
               Approx(v.dot(C * v) / (2 * omega * v.dot(M * v))).epsilon(1e-8));

@@ -65,8 +65,8 @@ TEST_CASE("a wing between stops swings about a rest that balances and is stable"
     const double stiffest = dense.stiffness.cwiseAbs().maxCoeff();
     CHECK(dense.unbalanced.cwiseAbs().maxCoeff() < 1e-9 * (1 + stiffest));
     if (barely_touches(scene, found->rest)) continue;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-        0.5 * (dense.stiffness + dense.stiffness.transpose()));
+    const Eigen::MatrixXd symmetric = 0.5 * (dense.stiffness + dense.stiffness.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(symmetric);
     CHECK(modes.eigenvalues()(0) > -1e-6 * stiffest);
     const auto wanted = dense.modes();
     REQUIRE(wanted.size() == found->modes.size());
