@@ -53,6 +53,18 @@ Json empty_set(const std::filesystem::path& folder, const std::string& label, co
   return json;
 }
 
+/// The confidence of a study's bounds.
+/// @param otherwise of a study without one: older versions wrote none
+/// @throws SpecError unless it is a number, > 0 and < 1
+Json confidence_of(const Json& study, const std::filesystem::path& file, Json otherwise = nullptr) {
+  if (!study.contains("confidence")) return otherwise;
+  const Json& confidence = study["confidence"];
+  if (!confidence.is_number() || !is_proper_share(confidence.get<double>()))
+    throw SpecError(
+        {{file.string(), "/confidence", describe_value(confidence), "a number, > 0 and < 1"}});
+  return confidence;
+}
+
 void add_campaign(const Campaign& campaign, Json& set) {
   set["campaign"] = campaign.scene.name;
   set["wing"] = wing_json(nominal_scene(campaign));
@@ -76,7 +88,7 @@ std::vector<Json> margin_sets(const std::filesystem::path& folder, const std::st
       add_campaign(campaign, set);
       set["confidence"] = campaign.statistics.confidence; // older versions write it only there
     }
-    if (study.contains("confidence")) set["confidence"] = study["confidence"];
+    set["confidence"] = confidence_of(study, folder / margin_json_file, set["confidence"]);
     set["margin"] = margin_block(search, table, set["confidence"]);
     set["warnings"] = study.value("warnings", Json::array());
     sets.push_back(std::move(set));
@@ -114,7 +126,7 @@ Json sobol_set(const std::filesystem::path& folder, const std::string& label) {
   const Json sensitivity = parse_json_file(folder / sensitivity_json_file);
   Json set = empty_set(folder, label, stamp_json(stamp_of(design)));
   add_campaign(design.campaign, set);
-  set["confidence"] = sensitivity.value("confidence", Json(nullptr));
+  set["confidence"] = confidence_of(sensitivity, folder / sensitivity_json_file);
   set["warnings"] = sensitivity.value("warnings", Json::array()); // older versions have none
   set["sensitivity"] = {{"kind", "sobol"}, {"effects", sobol_effects(sensitivity, most_effects)}};
   return set;
@@ -173,7 +185,7 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   const Json study = parse_json_file(folder / rare_json_file);
   Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
   set["campaign"] = study.value("scene", "");
-  set["confidence"] = study.value("confidence", Json(nullptr));
+  set["confidence"] = confidence_of(study, folder / rare_json_file);
   Json likeliest = nullptr;
   if (const Json& run = study.at("likeliest"); !run.is_null()) {
     std::vector<Json> draws;                               // largest deviation first
@@ -190,7 +202,7 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   set["rare"] = {{"text", study.at("event")},
                  {"beyond", study.value("beyond", Json(nullptr))},
                  {"case", study.value("case", Json(nullptr))},
-                 {"confidence", study.value("confidence", Json(nullptr))},
+                 {"confidence", set["confidence"]},
                  {"probability", study.at("probability")},
                  {"lower", study.at("lower")},
                  {"upper", study.at("upper")},
@@ -208,7 +220,7 @@ Json fit_study_set(const std::filesystem::path& folder, const std::string& label
   const Json study = parse_json_file(folder / fit_json_file);
   Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
   set["campaign"] = study.value("scene", "");
-  set["confidence"] = study.value("confidence", fit_confidence);
+  set["confidence"] = confidence_of(study, folder / fit_json_file, fit_confidence);
   std::optional<Campaign> campaign;
   if (const auto path = folder / campaign_file; std::filesystem::exists(path))
     add_campaign(campaign.emplace(read_campaign_file(path)), set);

@@ -12,6 +12,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -210,6 +213,32 @@ TEST_CASE("a fit's set has the fit's scene and confidence", "[page]") {
   CHECK((set["campaign"] == "wing" && set["confidence"] == 0.5));
   study.erase("confidence"); // of an older version, which had one confidence
   CHECK(set_of()["confidence"] == 0.95);
+}
+
+TEST_CASE("a study's confidence is a share, or is refused by its key", "[page]") {
+  const Json margin = parse_json(R"({ "scene": "wing", "searches": [ { "name": "joint",
+    "window": { "lower": { "scale": 0.9, "range_end": false },
+                "upper": { "scale": 2, "range_end": true } }, "recommended": null, "why_none": "none" } ] })");
+  const Json fit = parse_json(R"({ "scene": "wing", "finished": true, "findings": [], "unseen": [],
+    "parameters": {}, "tests": [] })");
+  for (const auto& [file, study] : std::vector<std::pair<const char*, Json>>{
+           {margin_json_file, margin}, {fit_json_file, fit}, {rare_json_file, rare_study()}}) {
+    CAPTURE(file);
+    const Folder folder;
+    folder.write(margin_csv_file, "search,scale,case,runs,requirement,verdict,broken\n");
+    folder.write(traces_csv_file, "test,column,t,measured,fitted,lower,upper\n");
+    const auto confidence_of = [&](const Json& confidence) {
+      Json changed = study;
+      changed["confidence"] = confidence;
+      folder.write(file, changed.dump());
+      return study_sets_json(folder.path(), "s").at(0)["confidence"];
+    };
+    CHECK(confidence_of(0.8) == 0.8);
+    for (const Json& wrong : {Json(2), Json(-1), Json(0), Json(1), Json("x"), Json(Json::array())})
+      CHECK_THAT(message_of([&] { return confidence_of(wrong); }),
+                 Catch::Contains(std::string(file) + ": /confidence: found") &&
+                     Catch::Contains("expected a number, > 0 and < 1"));
+  }
 }
 
 TEST_CASE("a key that a margin study lacks is refused by its folder, but one of later versions",
