@@ -52,7 +52,7 @@ TEST_CASE("latches, peak moments and peak forces agree with extended precision b
   compare(run(oracle::seed_scene(), 1e-12, 12), exact, 1e-11, 1e-10);
 }
 
-TEST_CASE("peaks inside the long steps of extrapolation have the accuracy of its steps") {
+TEST_CASE("peaks inside the long steps of extrapolation have the accuracy of its steps", "[long]") {
   // A step spans more than a peak. The dense output alone is off by 2e-6 and 4e-6 in the first two,
   // whatever the tolerance; in the third its maximum stands so far from the force's own that a step
   // to it gives 7e-11 too little.

@@ -168,7 +168,7 @@ TEST_CASE(
   CHECK(std::abs(tip(4, 16)) < 0.02);
 }
 
-TEST_CASE("random wings with joints and flexible bodies agree with the reference") {
+TEST_CASE("random wings with joints and flexible bodies agree with the reference", "[long]") {
   const auto cases = static_cast<std::uint64_t>(random_cases(200, 3));
   std::size_t latches = 0, bent = 0;
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {

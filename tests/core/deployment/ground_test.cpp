@@ -97,7 +97,7 @@ TEST_CASE("a tilted hinge line: gravity in the plane pulls, and the energy stays
   compare(run_everywhere(scene, 1e-10, 7, true), exact, 1e-8, 1e-7);
 }
 
-TEST_CASE("a wing in the air agrees with the reference, on every base") {
+TEST_CASE("a wing in the air agrees with the reference, on every base", "[long]") {
   for (const BaseMotion motion : {BaseMotion::fixed, BaseMotion::prescribed, BaseMotion::free}) {
     Scene scene = seed_scene();
     scene.base.motion = motion;

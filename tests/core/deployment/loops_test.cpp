@@ -205,7 +205,7 @@ TEST_CASE("no step leaps over the angles at which both strands of a loop are tau
   }
 }
 
-TEST_CASE("loops by tables, damped and slack, agree with the reference") {
+TEST_CASE("loops by tables, damped and slack, agree with the reference", "[long]") {
   Scene scene = coaxial_discs(2, 0.5);
   scene.hinges[0].spring.torque_stowed = 1, scene.hinges[0].spring.torque_latched = 0.5;
   scene.hinges[0].latch = Latch{1e3, 10};

@@ -26,7 +26,7 @@ double largest_overtravel(const Outcome& out) {
 
 } // namespace
 
-TEST_CASE("the yoke wing without stops goes through itself, and says so") {
+TEST_CASE("the yoke wing without stops goes through itself, and says so", "[long]") {
   const Scene scene = yoke_wing();
   const Outcome out = run_everywhere(scene, 1e-10, 60);
   CHECK(out.latches.size() == 5);

@@ -80,7 +80,8 @@ void check_lives(int first, int cases, bool motors) {
 
 } // namespace
 
-TEST_CASE("random wings live as the dense formulation says: holds, captures, latches that let go") {
+TEST_CASE("random wings live as the dense formulation says: holds, captures, latches that let go",
+          "[long]") {
   check_lives(9000, random_cases(200, 10), false);
 }
 

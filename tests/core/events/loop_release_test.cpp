@@ -123,7 +123,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "hinges that stick between loops that go slack move as in the limit of regularized friction") {
+    "hinges that stick between loops that go slack move as in the limit of regularized friction",
+    "[long]") {
   for (const std::uint64_t seed :
        {159, 198, 239, 254, 413, 514}) { // strands slacken where one is let go
     const Scene scene = slackening(seed);

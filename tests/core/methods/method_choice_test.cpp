@@ -261,7 +261,8 @@ TEST_CASE("after stiff latches auto continues with seulex, and phases tell it") 
 }
 
 TEST_CASE(
-    "auto's choice saves most of the work where latches are stiff, and loses little elsewhere") {
+    "auto's choice saves most of the work where latches are stiff, and loses little elsewhere",
+    "[long]") {
   struct Case {
     Latch latch;
     double rtol, at_most; ///< of the evaluations that the explicit method takes
@@ -298,7 +299,7 @@ TEST_CASE("auto goes on implicitly where an elastic hold is stiff on a light pan
   CHECK(time_by("seulex", out) > 0.6 * out.t_end);
 }
 
-TEST_CASE("what a run records changes neither its methods nor its motion") {
+TEST_CASE("what a run records changes neither its methods nor its motion", "[long]") {
   const int wings = random_cases(600, 40),
             first = 100; // two of the 40 leave the implicit method by its cost
   int implicit = 0;

@@ -147,7 +147,8 @@ TEST_CASE("Rosenbrock's method is L-stable") {
   }
 }
 
-TEST_CASE("linearly implicit extrapolation is L-stable but for 0.2 degrees of the imaginary axis") {
+TEST_CASE("linearly implicit extrapolation is L-stable but for 0.2 degrees of the imaginary axis",
+          "[long]") {
   Seulex<Real> method;
   const double infinity = std::numeric_limits<double>::infinity();
   CHECK(info("seulex").real_limit == infinity);

@@ -95,7 +95,7 @@ double error_of_fitted_step(std::uint64_t seed, const Scene& scene, From from, d
 
 } // namespace
 
-TEST_CASE("a step that series fit to the tolerance keeps it: chains, latched and not") {
+TEST_CASE("a step that series fit to the tolerance keeps it: chains, latched and not", "[long]") {
   constexpr int scenes = 60;
   double worst = 0;
   for (int k = 0; k < scenes; ++k) {
@@ -160,7 +160,7 @@ TEST_CASE("a step that series fit keeps the tolerance where its last terms vanis
   CHECK(worst > 1e-4);
 }
 
-TEST_CASE("halving a step by series divides its error by two to the seventeenth") {
+TEST_CASE("halving a step by series divides its error by two to the seventeenth", "[long]") {
   const Scene scene = random_scene(731, chain_of(4));
   std::vector<double> errors;
   for (const double h : {0.02, 0.01}) {

@@ -37,7 +37,7 @@ double largest_error(const std::vector<Peak>& got, const std::vector<ReferencePe
 
 } // namespace
 
-TEST_CASE("a peak force is found where both ends of a step are low, by every method") {
+TEST_CASE("a peak force is found where both ends of a step are low, by every method", "[long]") {
   const Scene scene = swinging_wing();
   ReferenceOptions options;
   options.t_end = 9, options.rtol = 1e-15, options.atol = 1e-16;
