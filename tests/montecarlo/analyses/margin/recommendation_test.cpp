@@ -182,20 +182,3 @@ TEST_CASE("weaker springs that fall short at rest are passed over, and said", "[
   CHECK(none.withheld == Withheld::short_of_torque);
   CHECK(none.passed_over);
 }
-
-// From 0.2 to 0.4 a spring may double; from 2 to 3 it may not, though the difference is five times as large.
-TEST_CASE("of several stretches that are equally good the widest by its ratio is taken",
-          "[margin]") {
-  Wing wing{[](double s) {
-              return s < 0.1 ? 50.0 : s < 0.2 ? 5 : s <= 0.4 ? 0 : s < 2 ? 5 : 0;
-            },
-            [](double s) { return s <= 3  ? 0.0
-                                  : s < 5 ? 5
-                                          : 50; },
-            {0.05, 0.15, 0.2, 0.3, 0.4, 1, 2, 2.5, 3, 4, 6}};
-  const MarginSearch search = wing.recommended();
-  REQUIRE(search.recommended);
-  CHECK(*search.recommended == Approx(std::sqrt(0.2 * 0.4)).epsilon(0.02));
-  CHECK(search.as_good.lower == Approx(0.2).epsilon(0.02));
-  CHECK(search.as_good.upper == Approx(0.4).epsilon(0.02));
-}
