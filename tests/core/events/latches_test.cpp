@@ -266,3 +266,19 @@ TEST_CASE("a hinge stands exactly at its latched angle when its latch engages, w
       CHECK(engaged_off(damped, off) == 0);
     }
 }
+
+TEST_CASE(
+    "a latch captures a pass that is as slow as it says and misses a faster one, either way") {
+  for (const bool turned : {false, true})
+    for (const double capture_rate : {0.9, 1.1}) {
+      Scene scene = thrown_panel(1); // at its latch after 1 s
+      scene.hinges[0].latch = Latch{.stiffness = 1e4, .damping = 100, .capture_rate = capture_rate};
+      if (turned) scene = other_sense(scene);
+      const Outcome out = Deployment().run(scene, within(1e-10, 2), latches_only);
+      CAPTURE(turned, capture_rate);
+      CHECK(out.latches.size() == (capture_rate > 1 ? 1u : 0u));
+      REQUIRE(out.missed.size() == (capture_rate > 1 ? 0u : 1u));
+      CHECK((out.latches.empty() ? out.missed[0].time : out.latches[0].time) == Approx(1));
+      if (out.latches.empty()) CHECK(std::abs(out.missed[0].rate) == Approx(1));
+    }
+}

@@ -108,3 +108,25 @@ TEST_CASE(
   CHECK(named(false, true, true) == Hinges{1, 2});
   CHECK(named(false, false, true) == Hinges{2});
 }
+
+TEST_CASE("a hold lets go its delay after its event: a time, the start, or another's release") {
+  Scene scene = latching_panel();
+  scene.bodies.push_back(scene.bodies[0]);
+  Hinge other = scene.hinges[0];
+  scene.bodies[1].name = "other", other.name = "other", other.child = 1; // beside the first
+  other.release = Release{.event = Release::Event::released, .after = 0, .delay = 0.5};
+  scene.hinges.push_back(other);
+  const auto times = [&] {
+    std::vector<double> of_hinge(2, 0);
+    for (const HingeEvent& event : Deployment().run(scene, within(1e-8, 30), latches_only).releases)
+      of_hinge[event.hinge] = event.time;
+    return of_hinge;
+  };
+  using Times = std::vector<double>;
+  scene.hinges[0].release = Release{};
+  CHECK(times() == Times{0, 0.5}); // the first is let go at the start
+  scene.hinges[0].release = Release{.time = 0.5, .delay = 0.25};
+  CHECK(times() == Times{0.75, 1.25});
+  scene.hinges[0].release = Release{.time = 0, .delay = 0.25};
+  CHECK(times() == Times{0.25, 0.75});
+}

@@ -108,14 +108,41 @@ TEST_CASE("samples show how a base moves, free or driven") {
   Scene scene = unit_oscillator(1);
   scene.base.motion = BaseMotion::prescribed;
   scene.base.angle = 0.2, scene.base.rate = 0.1, scene.base.angular_acceleration = 0.02;
-  std::vector<Sample> samples;
-  const auto keep = [&](const Sample& sample) { samples.push_back(sample); };
-  (void)Deployment().run(scene, within(1e-8, 3), to_the_end, keep);
-  for (const Sample& sample : samples) {
-    const double t = sample.t;
-    CHECK(sample.base_angle == Approx(0.2 + 0.1 * t + 0.01 * t * t).epsilon(1e-14));
-    CHECK(sample.base_rate == Approx(0.1 + 0.02 * t).epsilon(1e-14));
+  Goal goal = to_the_end;
+  for (const bool motion_only : {false, true}) {
+    goal.sample_motion_only = motion_only;
+    std::vector<Sample> samples;
+    const auto keep = [&](const Sample& sample) { samples.push_back(sample); };
+    (void)Deployment().run(scene, within(1e-8, 3), goal, keep);
+    CHECK(samples.size() > 5);
+    for (const Sample& sample : samples) {
+      const double t = sample.t;
+      CAPTURE(motion_only, t);
+      CHECK(sample.base_angle == Approx(0.2 + 0.1 * t + 0.01 * t * t).epsilon(1e-14));
+      CHECK(sample.base_rate == Approx(0.1 + 0.02 * t).epsilon(1e-14));
+    }
   }
+}
+
+// Base and panel are hinged at both centres of mass: their angular momentum stays 0, and the base's centre at rest drifts.
+TEST_CASE("samples of the motion alone have a free base's place, angle and rate too") {
+  Scene scene = unit_oscillator(1);
+  scene.base.motion = BaseMotion::free, scene.base.mass = 5, scene.base.inertia = 3;
+  scene.base.position = {1, -2}, scene.base.velocity = {0.5, 0.25};
+  scene.hinges[0].parent_point.setZero(), scene.hinges[0].child_point.setZero();
+  Goal goal = to_the_end;
+  goal.sample_motion_only = true, goal.sample_interval = 0.25;
+  const double share = scene.bodies[0].inertia / (scene.bodies[0].inertia + 3);
+  int seen = 0;
+  const auto check = [&](const Sample& sample) {
+    CHECK(sample.base_position.x() == Approx(1 + 0.5 * sample.t));
+    CHECK(sample.base_position.y() == Approx(-2 + 0.25 * sample.t));
+    CHECK(sample.base_angle == Approx(-share * (sample.angles[0] - 1)).margin(1e-7));
+    CHECK(sample.base_rate == Approx(-share * sample.rates[0]).margin(1e-7));
+    ++seen;
+  };
+  (void)Deployment().run(scene, within(1e-10, 3), goal, check);
+  CHECK(seen == 13);
 }
 
 // Two panels about one fixed axis, the second carried by the first: without torques both turn uniformly.

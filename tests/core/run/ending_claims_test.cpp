@@ -214,3 +214,18 @@ TEST_CASE("on a base that turns and is pushed, loads that grow after a quiet end
   CHECK_FALSE(Deployment().run(scene, within(1e-8, 40), {}).latches_final); // it may let go
   CHECK_FALSE(Deployment().run(scene, within(1e-8, 400), {}).let_go.empty());
 }
+
+TEST_CASE("a run that is to end at its first latch stalls as any other if no hinge can latch") {
+  Goal goal = latches_only;
+  goal.first_latch_only = true;
+  Scene held = latching_panel();
+  held.hinges[0].release = Release{.fails = 1};
+  const Outcome out = Deployment().run(held, within(1e-8, 30), goal);
+  CHECK(out.status == Status::stalled);
+  CHECK(out.never_released == std::vector<int>{0});
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const Outcome stuck = Deployment().run(immovable(seed), within(1e-8, 5), goal);
+    CAPTURE(seed, stuck.reason);
+    CHECK(stuck.status == Deployment().run(immovable(seed), within(1e-8, 5), latches_only).status);
+  }
+}

@@ -84,6 +84,19 @@ TEST_CASE("outputs that happen in one of two integrations have moved, those in n
   REQUIRE(check);
   CHECK(std::isnan(output_of(*check, "deployment_time").reference));
   CHECK_FALSE(output_of(*check, "deployment_time").moved);
+  const Scene scene = campaign_of(quick_campaign(1)).scene;
+  Integration integration;
+  integration.t_end = 12;
+  const Goal goal{.to_t_end = true};
+  Outcome own = Deployment().run(scene, integration, goal, Observer{});
+  REQUIRE(own.status == Status::deployed);
+  own.latches.pop_back(), own.status = Status::timed_out; // as if the last latch had been missed
+  const auto other = check_run(scene, integration, goal, own);
+  REQUIRE(other);
+  const CheckedOutput& time = output_of(*other, "deployment_time");
+  CHECK((std::isnan(time.value) && !std::isnan(time.reference)));
+  CHECK((time.moved && time.digits == 0));
+  CHECK_FALSE(other->agrees);
 }
 
 TEST_CASE("a base that only rounding turns has not moved", "[accuracy]") {

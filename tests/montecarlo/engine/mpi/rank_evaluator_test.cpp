@@ -1,6 +1,7 @@
 #include "montecarlo/analyses/margin/margin_report.hpp"
 #include "montecarlo/analyses/rare/rare_event.hpp"
 #include "montecarlo/analyses/sensitivity/saltelli.hpp"
+#include "montecarlo/engine/mpi/messages.hpp"
 #include "montecarlo/engine/mpi/rank_evaluator.hpp"
 #include "montecarlo/foundation/formats/machine_error.hpp"
 #include "tests/montecarlo/engine/mpi/memory_transport.hpp"
@@ -10,6 +11,8 @@
 
 #include <bit>
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <stdexcept>
 
 using namespace wingspread;
@@ -206,4 +209,39 @@ TEST_CASE("the occupancy counts the trial steps of all ranks", "[parallel]") {
     (void)lines(evaluator, plan, {0, 300});
     CHECK(steps(evaluator) == steps(alone));
   }
+}
+
+namespace {
+
+/// Two other ranks that fail as soon as they are sent a plan, the first one first.
+class FailingRanks final : public Transport {
+public:
+  [[nodiscard]] int rank() const override { return 0; }
+  [[nodiscard]] int size() const override { return 3; }
+  void send(int to, std::string) override {
+    if (to != 2 || answered_) return; // by then both have the plan
+    answered_ = true;
+    for (const int from : {1, 2})
+      waiting_.push_back({from, closed_message({{}, "fault " + std::to_string(10 * from)})});
+  }
+  [[nodiscard]] std::optional<Message> receive() override {
+    if (waiting_.empty()) return std::nullopt;
+    Message message = std::move(waiting_.front());
+    waiting_.pop_front();
+    return message;
+  }
+
+private:
+  bool answered_ = false;
+  std::deque<Message> waiting_;
+};
+
+} // namespace
+
+TEST_CASE("of several ranks that fail the first is told: the others may fail because of it",
+          "[parallel]") {
+  const Campaign campaign = campaign_of(quick_campaign(8));
+  RankEvaluator evaluator(std::make_unique<FailingRanks>(), {.threads = 1}, never);
+  CHECK_THROWS_WITH(evaluator.make(RunPlan(campaign), {0, 8}, {[](const Batch&) {}}),
+                    "rank 1: fault 10");
 }

@@ -74,3 +74,23 @@ TEST_CASE("a point that is given by both of its tails is drawn by the smaller on
     CHECK(draw[0] == Approx(1 + 0.05 * score).epsilon(1e-12));
   }
 }
+
+TEST_CASE(
+    "of rows the point takes the one in whose share of the interval it lies, from either end") {
+  Json json = quick_campaign(1);
+  json["dispersions"] = {parse_json(R"({ "name": "fitted",
+    "rows": { "values": { "a": [7, 1, 5, 3, 9, 2, 8, 4, 6, 10] }, "apply": "add",
+              "columns": { "a": "hinges.root.friction.coulomb" } } })")};
+  const Campaign campaign = campaign_of(json);
+  const std::vector<double> rows{7, 1, 5, 3, 9, 2, 8, 4, 6, 10};
+  std::vector<double> draw(1);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double below = (static_cast<double>(k) + 0.3) / 10;
+    const RunPlan plan(campaign, [&](long, std::span<Tails> u) { u[0] = Tails{below, 1 - below}; });
+    plan.draw(0, draw);
+    CHECK(draw[0] == rows[k]);
+  }
+  const RunPlan last(campaign, [](long, std::span<Tails> u) { u[0] = Tails{1, 1e-20}; });
+  last.draw(0, draw);
+  CHECK(draw[0] == 10);
+}

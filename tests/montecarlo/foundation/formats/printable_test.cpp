@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <string>
+
 using namespace wingspread;
 
 TEST_CASE("control characters are spelled out, and all other text is left alone") {
@@ -28,4 +30,13 @@ TEST_CASE("a text has control characters or not") {
   CHECK(has_control_characters(std::string_view("\0", 1)));
   CHECK(has_control_characters("\xC2\x85"));
   CHECK_FALSE(has_control_characters("μ-root é"));
+}
+
+TEST_CASE("a word of a command is quoted where a shell would split, expand or lose it") {
+  for (const char* plain : {"part_1/c-2.json", "root=0.5", "a@b:%+,"})
+    CHECK(shell_word(plain) == plain);
+  CHECK(shell_word("") == "''");
+  for (const char* special : {"two halves", "$HOME", "a;b", "*", "~", "a\"b", "höhe"})
+    CHECK(shell_word(special) == '\'' + std::string(special) + '\'');
+  CHECK(shell_word("it's") == R"('it'\''s')");
 }

@@ -213,3 +213,22 @@ TEST_CASE("proportions' bounds are evaluated in double") {
   if (std::numeric_limits<long double>::digits > std::numeric_limits<double>::digits)
     CHECK(differing > 0); // or this test could not fail
 }
+
+TEST_CASE(
+    "bounds of a share are Clopper–Pearson's where it is one of whole hits, and rise between") {
+  for (const double confidence : {0.8, 0.95}) {
+    Interval before{-1, -1};
+    for (long half = 0; half <= 80; ++half) {
+      const Interval bounds =
+          clopper_pearson_of_share(static_cast<double>(half) / 80, 40, confidence);
+      CAPTURE(confidence, half);
+      CHECK((bounds.lower > before.lower || half <= 1 || bounds.lower == 0));
+      CHECK((bounds.upper > before.upper || bounds.upper == 1));
+      before = bounds;
+      if (half % 2 != 0) continue;
+      const Interval whole = clopper_pearson(half / 2, 40, confidence);
+      CHECK(bounds.lower == Approx(whole.lower).epsilon(1e-10));
+      CHECK(bounds.upper == Approx(whole.upper).epsilon(1e-10));
+    }
+  }
+}

@@ -81,7 +81,10 @@ TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_setting
 TEST_CASE("a free base has columns of its own, for which runs go to t_end") {
   Scene scene = read_scene_file(three_panel_file());
   const Outputs asked{OutputFamily::base_motion};
-  CHECK(column_names(scene, asked) == std::vector<std::string>{"deployment_time"});
+  for (const BaseMotion imposed : {BaseMotion::fixed, BaseMotion::prescribed}) {
+    scene.base.motion = imposed;
+    CHECK(column_names(scene, asked) == std::vector<std::string>{"deployment_time"});
+  }
   scene.base.motion = BaseMotion::free;
   CHECK(column_names(scene, asked) ==
         std::vector<std::string>{"base.peak_angle", "base.peak_rate", "deployment_time"});

@@ -58,6 +58,13 @@ TEST_CASE("the worst case fails, or has the least margin", "[comparison]") {
   used.summary.requirements[0].allowed = 3;
   used.summary.requirements[0].broken = {4, 7};
   CHECK(worst_case({tight, used, pass}, 0) == 1);
+  // where no number may be proven: of 20 runs a fifth, so that three are more than two of three
+  CaseSummary unproven = decided("g", Decision::pass, 2);
+  unproven.summary.requirements[0].allowed.reset();
+  unproven.summary.requirements[0].broken = {1, 2, 3};
+  CHECK(worst_case({used, unproven}, 0) == 1);
+  unproven.summary.requirements[0].broken = {1, 2};
+  CHECK(worst_case({used, unproven}, 0) == 0);
   used.summary.requirements[0].broken = {4}; // and one of three too
   CHECK(worst_case({tight, used, pass}, 0) == 1);
 }
