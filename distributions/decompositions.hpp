@@ -1,5 +1,5 @@
-/// Eigen's decompositions of symmetric matrices, compiled once, in copula.cpp: each takes seconds of every file that has
-/// them compiled.
+/// Eigen's decompositions of symmetric matrices, compiled once for distributions and montecarlo, in copula.cpp: each takes
+/// seconds of every file that compiles it. core, which does not include this, has its own.
 #pragma once
 
 #include <Eigen/Eigenvalues>

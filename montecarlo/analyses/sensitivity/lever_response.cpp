@@ -22,13 +22,20 @@ std::array<double, 5> solved(const Sums& sums, double scale) {
   if (!(n > sums_size + 10)) return curve; // heuristic: fewer runs do not show a curve
   const Eigen::Matrix<double, 6, 1> mean = sums.block<6, 1>(1, 0) / n;
   const Eigen::Matrix<double, 6, 6> c = sums.block<6, 6>(1, 1) / n - mean * mean.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of(Eigen::MatrixXd(c.topLeftCorner<5, 5>()));
-  Eigen::Matrix<double, 5, 1> found = Eigen::Matrix<double, 5, 1>::Zero();
-  for (int k = 0; k < 5; ++k)
-    if (of.eigenvalues()[k] > 1e-9 * of.eigenvalues()[4]) {
-      const auto q = of.eigenvectors().col(k);
-      found += q.dot(c.block<5, 1>(0, 5)) / of.eigenvalues()[k] * q;
+  const Eigen::MatrixXd terms = c.topLeftCorner<5, 5>();
+  const Eigen::VectorXd wanted = c.block<5, 1>(0, 5);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(terms);
+  Eigen::VectorXd found = Eigen::VectorXd::Zero(5);
+  // Solved twice, the second time for what is left: terms of very different sizes cost digits.
+  for (int pass = 0; pass < 2; ++pass) {
+    const Eigen::VectorXd left = wanted - terms * found;
+    for (int k = 0; k < 5; ++k) {
+      const double value = modes.eigenvalues()[k];
+      if (value <= 1e-9 * modes.eigenvalues()[4]) continue;
+      const auto mode = modes.eigenvectors().col(k);
+      found += mode.dot(left) / value * mode;
     }
+  }
   for (int k = 0; k < 5; ++k)
     curve[static_cast<std::size_t>(k)] = k < 2 ? found[k] : found[k] / scale;
   return curve;

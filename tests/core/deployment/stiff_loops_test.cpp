@@ -103,7 +103,7 @@ TEST_CASE("a strand that goes slack costs no accuracy: default tolerances agains
   CHECK(taut.moment < 1e-7);
 }
 
-TEST_CASE("random wings with loops as stiff as cables agree with the dense formulation", "[long]") {
+TEST_CASE("random wings with loops as stiff as cables agree with the dense formulation") {
   RealFeatures features = nothing;
   features.loops = features.preloads = features.tables = true;
   features.softest = 1e3, features.stiffest = 1e6;

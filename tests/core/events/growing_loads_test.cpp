@@ -43,9 +43,11 @@ std::vector<int> at_once(const Scene& scene) {
 }
 
 /// Torques that grow from zero to their values in small steps, in which the angles do not change: a hinge that slides
-/// has a rate too small to be felt, and stops if it accelerates against it.
-std::vector<int> grown(const Scene& scene) {
-  constexpr int steps = 4000;
+/// has a rate too small to be felt, and stops if it accelerates against it. Contacts are sorted by the function under
+/// test, but nearly always one hinge at a time exceeds its limit.
+/// @param[out] unsettled counts the steps in which contacts go on changing
+std::vector<int> grown(const Scene& scene, int& unsettled) {
+  constexpr int steps = 2000, most_passes = 8;
   constexpr double tiny = 1e-12;
   Wing<double> wing = make_wing<double>(scene, outward_order(scene));
   set_parameters(wing, scene);
@@ -55,7 +57,7 @@ std::vector<int> grown(const Scene& scene) {
   system.start(x);
   for (int step = 1; step <= steps; ++step) {
     set_parameters(wing, with_torques_of(scene, static_cast<double>(step) / steps));
-    for (int passes = 0; passes < 8; ++passes) { // what one release sets off
+    for (int pass = 0;; ++pass) { // what one release sets off
       sort_contacts(system, x, dxdt, 0.0, 0);
       const Layout& at = system.layout();
       const State<double> before = x;
@@ -64,6 +66,10 @@ std::vector<int> grown(const Scene& scene) {
         x[at.rate(i)] = sense * dxdt[at.rate(i)] >= 0 ? tiny * sense : 0;
       }
       if (x == before) break;
+      if (pass == most_passes) {
+        ++unsettled;
+        break;
+      }
     }
   }
   return senses_of(system);
@@ -90,11 +96,11 @@ Scene random_chain(std::uint64_t seed) {
 
 TEST_CASE("loads that are there at once set the hinges sliding that loads growing from zero do") {
   constexpr int scenes = 600;
-  int differ = 0, slide = 0, stick = 0;
+  int differ = 0, unsettled = 0, slide = 0, stick = 0;
   for (std::uint64_t k = 0; k < scenes; ++k) {
-    const Scene scene = random_chain(52000 + k);
+    const Scene scene = random_chain(52600 + k);
     const std::vector<int> found = at_once(scene);
-    differ += found != grown(scene);
+    differ += found != grown(scene, unsettled);
     for (const int sense : found) ++(sense == 0 ? stick : slide);
   }
   CHECK(slide > scenes);

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <vector>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -140,4 +141,77 @@ TEST_CASE("a rigid hold holds a hinge whose friction alone would let it slide") 
   system.set_contact(1, Contact::stuck); // it lets go
   sort_contacts(system, x, dxdt, 0.0, 0);
   CHECK_FALSE(system.is_locked(1));
+}
+
+// A loop's load is the small difference of two large numbers: what rounding adds to an angle, 1e-14 rad, is 1e-8 N·m.
+TEST_CASE("wings that mirror each other slide alike though their loops are stiff") {
+  int slide = 0, stick = 0;
+  for (int k = 0; k < 1000; ++k) {
+    Draws draws(9000 + k);
+    Scene scene = symmetric_tree(); // its hinges: root and mid on the right, the same on the left
+    for (int i : {0, 1}) {
+      const double torque = draws.uniform(0.2, 3), coulomb = draws.uniform(0.2, 1.5);
+      for (Hinge* hinge : {&scene.hinges[i], &scene.hinges[i + 2]}) {
+        hinge->spring = {torque, torque}, hinge->harness = {0, 0};
+        rub(*hinge, coulomb, 1.5 * coulomb);
+      }
+    }
+    for (int first : {0, 2}) {
+      Synchronisation loop;
+      loop.first = first, loop.second = first + 1, loop.stiffness = 1e6;
+      scene.synchronisations.push_back(loop);
+    }
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::free> system(wing, std::nullopt, work);
+    system.writable_workspace().least_motion = 1e-9;
+    State<double> x, dxdt(system.layout().size());
+    system.start(x);
+    std::vector<int> senses(4);
+    for (int i = 1; i <= wing.size(); ++i)
+      if (wing.hinge_of[i] == 3) x[system.layout().angle(i)] += 1e-14;
+    sort_contacts(system, x, dxdt, 0.0, 0);
+    for (int i = 1; i <= wing.size(); ++i) {
+      senses[wing.hinge_of[i]] = sliding_sense(system, i);
+      ++(system.is_locked(i) ? stick : slide);
+    }
+    CAPTURE(k);
+    CHECK((senses[2] == -senses[0] && senses[3] == -senses[1]));
+  }
+  CHECK((slide > 200 && stick > 200));
+}
+
+TEST_CASE("bodies of very different masses need rounds in which one hinge changes, and they end") {
+  constexpr std::uint64_t seed = 300120; // found among 40,000 such wings: two need these rounds
+  RandomScene options;
+  options.bodies = 10, options.branching = false;
+  options.motion = BaseMotion::free;
+  options.mass_lower = 1, options.mass_upper = 1e4;
+  Scene scene = random_scene(seed, options);
+  Draws draws(seed);
+  for (Hinge& hinge : scene.hinges) {
+    const double torque = draws.log_uniform(0.01, 10) * draws.sign();
+    hinge.spring = {torque, torque}, hinge.harness = {0, 0}, hinge.friction = {};
+    hinge.initial_rate = draws.chance(0.2) ? draws.uniform(-2, 2) : 0;
+    const double coulomb = draws.log_uniform(0.003, 10);
+    rub(hinge, coulomb, 1.5 * coulomb);
+  }
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::free> system(wing, std::nullopt, work);
+  State<double> x, dxdt(system.layout().size());
+  system.start(x);
+  sort_contacts(system, x, dxdt, 0.0, 0);
+  CHECK(work.evaluations > 39); // 16 rounds, and two for each of 10 hinges and of the base
+  for (int i = 1; i <= wing.size(); ++i) {
+    CAPTURE(i);
+    const double limit = wing.hinges[i].static_friction;
+    if (system.is_locked(i))
+      CHECK(std::abs(system.locking_moment(x, i)) <= limit * (1 + 1e-9));
+    else if (x[system.layout().rate(i)] == 0)
+      CHECK(sliding_sense(system, i) * dxdt[system.layout().rate(i)] >
+            -1e-8 * limit / wing.bodies[i].central_inertia);
+  }
 }

@@ -73,6 +73,11 @@ TEST_CASE("a folder of Sobol' indices is a set with the largest of each output",
   REQUIRE(sets.size() == 1);
   const Json& set = sets[0];
   CHECK((set["label"] == "s" && set["campaign"] == "dispersed_wing" && set["confidence"] == 0.99));
+  Json impossible = sensitivity_json(all, {});
+  impossible["confidence"] = 2;
+  folder.write(sensitivity_json_file, impossible.dump());
+  CHECK_THAT(message_of([&] { return study_sets_json(folder.path(), "s"); }),
+             Catch::Contains("sensitivity.json: /confidence: found 2"));
   CHECK((set["seed"] == "7" && set["hash"] == stamp_of(design).hash));
   CHECK((set["margin"].is_null() && set["rare"].is_null() && set["fit"].is_null()));
   CHECK(set["wing"].is_object());
