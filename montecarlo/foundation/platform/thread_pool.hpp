@@ -21,8 +21,8 @@ inline constexpr double operations_worth_threads = 1 << 22;
 /// thread_count(wanted) for at least operations_worth_threads operations, else 1.
 [[nodiscard]] int threads_worth(int wanted, double operations);
 
-/// Calls `work` once on each of up to `threads` threads, and returns when all calls have ended. The first exception
-/// that leaves a call is rethrown here.
+/// Calls `work` once on each of up to `threads` threads, of which the caller's is one, and returns when all calls have
+/// ended. The threads are fewer if the machine refuses more. The first exception that leaves a call is rethrown here.
 /// @param on_exception called at once when an exception is caught, to end the other calls
 void run_on_threads(int threads, const std::function<void()>& work,
                     const std::function<void()>& on_exception);
