@@ -45,8 +45,8 @@ int threads_worth(int wanted, double operations) {
 void run_on_threads(int threads, const std::function<void()>& work,
                     const std::function<void()>& on_exception) {
   SharedWork shared_work{work, on_exception};
-  std::vector<std::thread>
-      others; // OpenMP's own threads would end the process where the machine refuses one
+  // Threads of the standard library: OpenMP's end the process where the machine refuses one.
+  std::vector<std::thread> others;
   try {
     for (int k = thread_count(threads); k > 1; --k)
       others.emplace_back([&] { shared_work.one_thread(); });
