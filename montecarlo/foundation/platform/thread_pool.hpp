@@ -13,9 +13,9 @@ namespace wingspread {
 inline constexpr int most_threads = 1024;
 
 /// With fewer operations one thread is faster than several. An operation is one term of a compensated sum, or equal
-/// work: some 6 ns. If other programs use the processors, all threads spin until the last one has ended. Measured with
-/// `studies/drivers/team_costs.cpp` on two processors shared with other programs: 2¹⁶ operations took 0.51 ms on one
-/// thread and 6.8 ms on two, 2²² 28 ms and 29 ms, 2²⁴ 206 ms and 85 ms.
+/// work: some 6 ns. If other programs use the processors, all threads wait until the last one has had one. Measured with
+/// `studies/drivers/team_costs.cpp` on two processors shared with other programs: 2¹⁶ operations took 0.43 ms on one
+/// thread and 26 ms on two, 2²² 36 ms and 38 ms, 2²⁴ 261 ms and 193 ms.
 inline constexpr double operations_worth_threads = 1 << 22;
 
 /// thread_count(wanted) for at least operations_worth_threads operations, else 1.
