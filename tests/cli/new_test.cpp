@@ -2,9 +2,12 @@
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>
+#include <sys/wait.h>
 
 #include <fstream>
+#include <pty.h>
 #include <sstream>
+#include <unistd.h>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -176,4 +179,24 @@ TEST_CASE("printed commands quote their paths for a shell") {
       folder, {"replay", results, "--case", "cold", "--run", "0", "--scene", wing + "/s 1.json"});
   CHECK_THAT(replayed.out,
              Catch::Contains("\n  wingspread simulate " + shell_word(wing + "/s 1.json") + " "));
+}
+
+TEST_CASE("the end of the input at a question writes no wing") {
+  const Folder folder;
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    if (chdir(folder.path().c_str()) == 0) execl(program_path, "wingspread", "new", nullptr);
+    _exit(127);
+  }
+  CHECK(write(terminal, "sat\n\x04", 5) == 5); // a name, then Ctrl-D
+  std::string said;
+  char part[4096];
+  for (ssize_t got = 0; (got = read(terminal, part, sizeof part)) > 0;) said.append(part, got);
+  int status = 0;
+  CHECK(waitpid(child, &status, 0) == child);
+  close(terminal);
+  CHECK(WEXITSTATUS(status) == 2);
+  CHECK_THAT(said, HasFacts({"the end of the input", "nothing is written"}));
+  CHECK(std::filesystem::is_empty(folder.path()));
 }

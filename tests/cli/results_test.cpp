@@ -43,6 +43,10 @@ TEST_CASE("analyze leaves an untouched folder as it is, and takes other settings
   CHECK(code == 0);
   CHECK(error.empty());
   CHECK(contents(done.path) == before);
+  std::string written; // neither the campaign nor its rows
+  for (const char* file : {summary_file, histograms_json_file, histograms_csv_file})
+    written += (done.path / file).string() + '\n';
+  CHECK(out == written);
 
   CHECK(done.program({"analyze", done.path, "--quantiles", "0.25,0.75", "--confidence", "0.5",
                       "--bins", "4"})

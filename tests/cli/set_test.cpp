@@ -32,6 +32,17 @@ TEST_CASE("what --set changes is the nominal scene, and part of the campaign") {
              Catch::Contains("panel_2: mass 11 kg"));
 }
 
+TEST_CASE("a name with an equals sign can be set") {
+  const Folder folder;
+  Json json = parse_json_file(three_panel_file());
+  json["hinges"][0]["name"] = "ro=ot";
+  const std::string file = folder.write("s.json", json.dump());
+  const auto shown =
+      run_program(folder, {"check", file, "--set", "hinges.ro=ot.initial_rate=-0.1"});
+  CHECK(shown.code == 0);
+  CHECK(shown.out != run_program(folder, {"check", file}).out);
+}
+
 TEST_CASE("Each fault of --set is told") {
   const Folder folder;
   const std::string file = folder.write("c.json", quick_campaign(4).dump());

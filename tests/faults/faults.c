@@ -1,6 +1,6 @@
 /* A library to be preloaded: it makes one call of a program fail as a full disk or a broken one does.
  *
- *   FAULTS_PATH   only calls on files below this folder count
+ *   FAULTS_PATH   only calls on files below this folder count, and threads
  *   FAULTS_CALLS  which calls count, by name: "write,fsync,rename"; all of them if left out
  *   FAULTS_AT     the number of the call that fails, from 1; none if left out
  *   FAULTS_ERROR  how: the name of an errno (ENOSPC, EIO, …); SHORT, a write or read of one byte; KILL, the
@@ -16,6 +16,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -49,7 +50,8 @@ static int error_named(const char* name) {
     const char* name;
     int number;
   } errors[] = {{"ENOSPC", ENOSPC}, {"EIO", EIO},     {"EINTR", EINTR}, {"EACCES", EACCES},
-                {"EROFS", EROFS},   {"EDQUOT", EDQUOT}, {"ENOMEM", ENOMEM}, {"EMFILE", EMFILE}};
+                {"EROFS", EROFS},   {"EDQUOT", EDQUOT}, {"ENOMEM", ENOMEM}, {"EMFILE", EMFILE},
+                {"EAGAIN", EAGAIN}};
   for (size_t i = 0; i < sizeof errors / sizeof *errors; ++i)
     if (strcmp(name, errors[i].name) == 0) return errors[i].number;
   return EIO;
@@ -184,6 +186,11 @@ int posix_fallocate(int file, off_t at, off_t size) {
 int posix_fallocate64(int file, off64_t at, off64_t size) {
   const int found = fault_at_file("allocate", file);
   return found > 0 ? found : NEXT(posix_fallocate64)(file, at, size);
+}
+/* A thread is of no file: it counts as a call on the folder itself. It returns the error and leaves errno alone. */
+int pthread_create(pthread_t* thread, const pthread_attr_t* how, void* (*work)(void*), void* with) {
+  const int found = fault_at("thread", getenv("FAULTS_PATH"));
+  return found > 0 ? found : NEXT(pthread_create)(thread, how, work, with);
 }
 void* mmap(void* where, size_t size, int protection, int flags, int file, off_t at) {
   if (file >= 0) {

@@ -7,7 +7,8 @@ Each scenario is a command in a folder. It is done once without faults, for its 
 that it makes (faults.c counts those below its folder); then again for every call and every way in which that call
 can fail. What a fault may lead to:
 
-    a signal or a short write       nothing: the same exit code and the same files
+    a signal, a short write or no   nothing: the same exit code and the same files
+    further thread
     a refusal of the machine        exit code 4, each line of standard error an error, the place named in one; nothing
                                     where it is of no account: a folder or the lock that cannot be looked at
     the process is killed there     what was complete of the rows is still there
@@ -29,13 +30,13 @@ import shutil
 import subprocess
 import sys
 
-HARMLESS = ("EINTR", "SHORT")
+HARMLESS = ("EINTR", "SHORT", "EAGAIN")
 KINDS = [  # how a call fails, and whether those after it do too: a full disk stays full
     ("write", "ENOSPC", True), ("write", "EIO", False), ("write", "EINTR", False), ("write", "SHORT", False),
     ("open", "EACCES", False), ("open", "EMFILE", False), ("mkdir", "EACCES", False), ("read", "EIO", False),
     ("read", "EINTR", False), ("read", "SHORT", False), ("fsync", "EIO", False), ("fsync", "EINTR", False),
     ("close", "EIO", False), ("rename", "ENOSPC", False), ("truncate", "EIO", False), ("flock", "EIO", False),
-    ("allocate", "ENOSPC", True), ("mmap", "ENOMEM", False),
+    ("allocate", "ENOSPC", True), ("mmap", "ENOMEM", False), ("thread", "EAGAIN", True), ("thread", "EAGAIN", False),
     ("write", "KILL", False), ("fsync", "KILL", False), ("rename", "KILL", False), ("truncate", "KILL", False),
     ("unlink", "KILL", False)]
 SCENE = {
@@ -93,6 +94,8 @@ SCENARIOS = [
     Scenario("sample", ["sample", "{}/campaign.json", "--out", "{}/draws.csv"]),
     Scenario("spilling", ["analyze", "{}/long"], given=[RUN, "lengthen"], calls=("open", "allocate", "mmap")),
     Scenario("simulate", ["simulate", "{}/campaign.json", "--out", "{}/trajectory.csv"]),
+    *(Scenario(f"{command[0]} on threads", ["3" if word == "1" else word for word in command], calls=("thread",))
+      for command in (RUN, MARGIN)),
 ]
 Ended = collections.namedtuple("Ended", "code out error")
 

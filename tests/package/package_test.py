@@ -106,6 +106,11 @@ class Completions(InFolder):
         self.assertIn("here", self.bash("wingspread run x.json --out he"))
         self.assertEqual(set(self.bash("wingspread ")), {*commands(), "-h", "--help", "--version"})
         self.assertEqual(self.bash("wingspread report "), ["here", "my wing.json"])
+        for command in commands():
+            with self.subTest(command):
+                _, *positionals = output_of(PROGRAM, command, "--help").split("Positionals:\n")
+                if positionals and "|" not in positionals[0].splitlines()[0]:
+                    self.assertEqual(self.bash(f"wingspread {command} "), ["here", "my wing.json"])
 
     def test_fish(self):
         if not shutil.which("fish"):
@@ -114,6 +119,7 @@ class Completions(InFolder):
         self.assertEqual(self.fish("wingspread run --re"), ["--resume"])
         self.assertEqual(self.fish("wingspread simulate --latch "), ["event"])
         self.assertEqual(self.fish("wingspread run --out he"), ["here"])
+        self.assertEqual(self.fish("wingspread fit my"), ["my wing.json"])
         self.assertEqual(set(self.fish("wingspread ")), set(commands()))
 
     def test_zsh(self):
@@ -123,6 +129,7 @@ class Completions(InFolder):
         self.assertEqual(self.zsh("wingspread run --res"), "wingspread run --resume")
         self.assertEqual(self.zsh("wingspread simulate --latch e"), "wingspread simulate --latch event")
         self.assertEqual(self.zsh("wingspread run --out he"), "wingspread run --out here/")
+        self.assertEqual(self.zsh("wingspread fit he"), "wingspread fit here/")
 
     def test_every_option_of_help_is_offered(self):
         for command in commands():
@@ -158,6 +165,22 @@ class Pages(InFolder):
                     self.assertIn(line.strip(), page, command)
                     seen += 1
         self.assertGreater(seen, 5)
+
+    def test_paragraphs_and_examples_of_help_are_whole_in_the_page(self):
+        for command in commands():
+            page = subprocess.run(["man", "-E", "UTF-8", "--nj", "--nh", "-l", BUILD / f"package/man/wingspread-{command}.1.gz"],
+                                  capture_output=True, text=True, check=True,
+                                  env={**os.environ, "MANWIDTH": "160", "LC_ALL": "C.UTF-8"}).stdout
+            page = re.sub(".\x08", "", page)
+            lines = {line.strip().removeprefix("$ ") for line in page.splitlines()}
+            paragraphs = [" ".join(each.split()) for each in page.split("\n\n")]
+            help_text = output_of(PROGRAM, command, "--help")
+            for line in re.findall(r"(?m)^  wingspread .*", help_text):
+                self.assertIn(line.strip(), lines, command)
+            for paragraph in help_text.split("\n\n")[1:]:
+                said = paragraph.splitlines()
+                if not any(line.startswith(" ") or line.endswith(":") for line in said):
+                    self.assertTrue(any(" ".join(said) in each for each in paragraphs), f"{command}: {said}")
 
     def test_a_path_may_have_blanks(self):
         program = self.folder / "a build" / "wingspread"
@@ -276,6 +299,24 @@ class Packages(unittest.TestCase):
             text = output_of("dpkg-deb", "--fsys-tarfile", package, encoding="latin-1")
             for part in [*parts, *(["pybind11-dev"] if name.startswith("python3") else [])]:
                 self.assertIn(f"/usr/share/doc/{part}/copyright\n", text, name)
+
+    def test_each_package_has_a_synopsis_of_its_own(self):
+        described = [self.field(package, "Description").splitlines() for package in self.packages]
+        self.assertEqual(len({synopsis for synopsis, *_ in described}), len(self.packages))
+        for synopsis, *lines in described:
+            self.assertLess(len(synopsis), 80)
+            self.assertGreater(len(lines), 1)
+            for line in lines:
+                self.assertRegex(line, "^ [^ ]")
+
+    def test_the_library_is_found_through_a_link_to_its_folder(self):
+        root = self.folder / "linked"
+        output_of("dpkg-deb", "--extract", self.packages["libwingspread-dev"], root)
+        (root / "lib").symlink_to("usr/lib")
+        output_of("cmake", "-S", ROOT / "tests/consumer", "-B", self.folder / "consumer", "-G", "Ninja",
+                  f"-DCMAKE_PREFIX_PATH={root}")
+        found = re.search(r"(?m)^wingspread_DIR:\w+=(.*)$", (self.folder / "consumer/CMakeCache.txt").read_text()).group(1)
+        self.assertTrue(found.startswith(f"{root}/lib/"), found)
 
     def test_the_others_are_the_library_and_the_module(self):
         library = output_of("dpkg-deb", "--contents", self.packages["libwingspread-dev"])

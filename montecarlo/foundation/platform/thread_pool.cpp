@@ -6,30 +6,11 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <omp.h>
+#include <system_error>
 #include <thread>
-#include <unistd.h>
-
-// GCC's OpenMP runtime synchronises with futexes, which the thread sanitizer does not see. It would report races at the
-// start and at the end of the threads, so release() and acquire() announce both to the sanitizer. One store comes too
-// late for release(): the compiler stores the address of the shared data just before the threads start. So
-// start_and_join, which touches nothing else of the shared data, is not instrumented; everything it calls is.
-#ifdef __SANITIZE_THREAD__
-extern "C" {
-void __tsan_acquire(void* address);
-void __tsan_release(void* address);
-}
-namespace {
-char edge; // its address is all that matters
-void acquire() { __tsan_acquire(&edge); }
-void release() { __tsan_release(&edge); }
-} // namespace
-#else
-namespace {
-void acquire() {}
-void release() {}
-} // namespace
-#endif
+#include <vector>
 
 namespace wingspread {
 namespace {
@@ -61,37 +42,19 @@ int threads_worth(int wanted, double operations) {
   return operations < operations_worth_threads ? 1 : thread_count(wanted);
 }
 
-namespace {
-
-[[gnu::no_sanitize_thread]] void start_and_join(int threads, SharedWork& shared_work) {
-  release();
-#pragma omp parallel num_threads(threads) default(none) shared(shared_work)
-  {
-    acquire();
-    shared_work.one_thread();
-    release();
-  }
-  acquire();
-}
-
-/// Whether this process is a copy, by fork, of one that had used threads here. OpenMP's threads, which wait for the next
-/// work of the thread that started them, do not exist in the copy, and work for them would wait for ever. A new thread
-/// starts new ones.
-bool is_forked() {
-  static const pid_t first = getpid();
-  return getpid() != first;
-}
-
-} // namespace
-
 void run_on_threads(int threads, const std::function<void()>& work,
                     const std::function<void()>& on_exception) {
   SharedWork shared_work{work, on_exception};
-  const int count = thread_count(threads);
-  if (count > 1 && is_forked())
-    std::thread([&] { start_and_join(count, shared_work); }).join();
-  else
-    start_and_join(count, shared_work);
+  // Threads of the standard library: OpenMP's end the process where the machine refuses one.
+  std::vector<std::thread> others;
+  try {
+    for (int k = thread_count(threads); k > 1; --k)
+      others.emplace_back([&] { shared_work.one_thread(); });
+  } catch (const std::system_error&) { // no more threads than these
+  } catch (const std::bad_alloc&) {
+  }
+  shared_work.one_thread();
+  for (std::thread& each : others) each.join();
   if (shared_work.first) std::rethrow_exception(shared_work.first);
 }
 

@@ -13,16 +13,16 @@ namespace wingspread {
 inline constexpr int most_threads = 1024;
 
 /// With fewer operations one thread is faster than several. An operation is one term of a compensated sum, or equal
-/// work: some 6 ns. If other programs use the processors, all threads spin until the last one has ended. Measured with
-/// `studies/drivers/team_costs.cpp` on two processors shared with other programs: 2¹⁶ operations took 0.51 ms on one
-/// thread and 6.8 ms on two, 2²² 28 ms and 29 ms, 2²⁴ 206 ms and 85 ms.
+/// work: some 6 ns. If other programs use the processors, all threads wait until the last one has had one. Measured with
+/// `studies/drivers/team_costs.cpp` on two processors shared with other programs: 2¹⁶ operations took 0.43 ms on one
+/// thread and 26 ms on two, 2²² 36 ms and 38 ms, 2²⁴ 261 ms and 193 ms.
 inline constexpr double operations_worth_threads = 1 << 22;
 
 /// thread_count(wanted) for at least operations_worth_threads operations, else 1.
 [[nodiscard]] int threads_worth(int wanted, double operations);
 
-/// Calls `work` once on each of up to `threads` threads, and returns when all calls have ended. The first exception
-/// that leaves a call is rethrown here.
+/// Calls `work` once on each of up to `threads` threads, of which the caller's is one, and returns when all calls have
+/// ended. The threads are fewer if the machine refuses more. The first exception that leaves a call is rethrown here.
 /// @param on_exception called at once when an exception is caught, to end the other calls
 void run_on_threads(int threads, const std::function<void()>& work,
                     const std::function<void()>& on_exception);

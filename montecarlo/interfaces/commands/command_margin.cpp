@@ -232,9 +232,11 @@ void add_margin_options(CLI::App& command, MarginOptions& options) {
 scale and judges the campaign's requirements there. The window is the range of scales at which all
 of them are met. Each edge is located to 1 % ("tolerance"); the report names the requirement that
 sets it, and how many runs break it on either side.
-  An end of the range is not an edge: if no requirement fails there, the range is widened until one
+
+An end of the range is not an edge: if no requirement fails there, the range is widened until one
 does, up to "widest". Without both edges there is no recommendation.
-  The recommended scale maximises the margin of the worst requirement: the share of runs that may
+
+The recommended scale maximises the margin of the worst requirement: the share of runs that may
 break it over the share that does. Where a range of scales is equally good, the report says which:
 the present springs are kept if they are in it, else the geometric mean of its ends is recommended.
 The report says what this costs against the present springs. The recommendation is confirmed by runs
@@ -242,7 +244,8 @@ with a seed of their own. Weaker springs are not recommended if static margins o
 would become negative; a warning names those that are negative at the recommended scale. If no
 scale works, the report names the requirements that rule it out. A peak that t_end cut breaks a
 requirement, as in `wingspread run`; a warning names the scale with most of them.
-  All runs are made; "until" is ignored. A run stops once its requirements are decided: if none is
+
+All runs are made; "until" is ignored. A run stops once its requirements are decided: if none is
 about a peak, a run that fails numerically after its last latch counts as deployed here, and as
 failed in `wingspread run`. Each verdict holds with its requirement's confidence; the report gives
 the joint confidence of all verdicts and both edges.
@@ -271,8 +274,6 @@ Example:
   wingspread margin campaign.json --scale 'hinges.*.spring.scale' --range 0.5 2 --out results/m1
   wingspread run results/m1/recommended.json --out results/resized
   wingspread margin campaign.json --scale 'hinges.*.damper.scale' --range 0.8 1.5 --out results/m2
-
-Example, of a campaign with a "margin":
   wingspread margin campaign.json --out results/margin
   wingspread margin campaign.json --shard 1/2 --out results/part1
   wingspread margin campaign.json --shard 2/2 --out results/part2

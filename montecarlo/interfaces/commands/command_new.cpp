@@ -12,6 +12,7 @@
 
 #include <array>
 #include <iostream>
+#include <optional>
 #include <string_view>
 #include <unistd.h>
 #include <utility>
@@ -75,7 +76,13 @@ int copy_example(const NewOptions& options) {
 int make_new(const NewOptions& options) {
   if (!options.example.empty()) return copy_example(options);
   const bool asks = !options.designed && isatty(STDIN_FILENO) == 1;
-  const WingDesign design = asks ? ask_design(std::cin, std::cout) : options.design;
+  const std::optional<WingDesign> answered =
+      asks ? ask_design(std::cin, std::cout) : std::optional(options.design);
+  if (!answered) {
+    fmt::print("\n"); // the line of the last question
+    throw SpecError({{"", "questions", "the end of the input", "an answer; nothing is written"}});
+  }
+  const WingDesign& design = *answered;
   if (design.panels >= many_panels)
     print_message("the wing is deployed several times to choose its damper and its limits: with "
                   "{} panels this takes some minutes\n",

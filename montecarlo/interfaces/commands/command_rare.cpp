@@ -206,18 +206,21 @@ void add_rare_options(CLI::App& command, RareCommandOptions& options) {
       R"(Estimates probabilities that are too small to count runs, by subset simulation: the runs nearest to
 the event start Markov chains that come nearer, level by level; each level is a tenth as likely as
 the one before. A probability of one in a million takes some ten thousand runs.
-  The coefficient of variation is the estimate's standard deviation as a share of the estimate; the
+
+The coefficient of variation is the estimate's standard deviation as a share of the estimate; the
 independent repeats show it too. The estimate is biased high by 0.5 of one repeat's squared
 coefficient of variation: more --samples reduce the bias, more --repeats do not. Draws are
 independent, whatever the campaign's design. A value of a discrete dispersion that is too rare to be
 drawn (a release that fails, one in 100,000) is simulated by itself, with its exact probability.
-  If the simulation does not reach the event, it prints the estimated probability of the last level:
+
+If the simulation does not reach the event, it prints the estimated probability of the last level:
 an estimated upper bound, not guaranteed.
-  A run without the output (it stalled before, or failed) counts as the event. So does a run whose
+
+A run without the output (it stalled before, or failed) counts as the event. So does a run whose
 peak t_end cut, as it breaks a requirement in `wingspread run`, unless --below X is given and the
 peak has reached X; their number is printed. A longer t_end ("integration" in the campaign) decides
-them. A run that did not deploy but has the output
-counts by its value, although it breaks every requirement in `wingspread run`.
+them. A run that did not deploy but has the output counts by its value, although it breaks every
+requirement in `wingspread run`.
 
 With --out the folder has looks.log, a checkpoint of all runs, until the study is finished: after an
 interruption, a crash or a kill the same command with --resume gives the same bytes.

@@ -85,7 +85,7 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
   command.add_option("--out", options.out, "The page; default: report.html in the first folder")
       ->type_name("FILE");
   within(command.add_option("--threads", options.threads,
-                            "Number of threads; default: 0, all processors"),
+                            "Threads; default: 0, OMP_NUM_THREADS or all processors"),
          0, most_threads)
       ->type_name("N");
   for (const auto& [key, help, member] : header_words)

@@ -161,6 +161,12 @@ FolderLock::For lock_purpose(const AnalyzeOptions& options) {
   return options.out.empty() ? FolderLock::For::writing : FolderLock::For::reading;
 }
 
+Display display_of(const AnalyzeOptions& options) {
+  Display display = options.display;
+  display.statistics_only = options.out.empty();
+  return display;
+}
+
 int analyze_cases(const AnalyzeOptions& options, const std::filesystem::path& to) {
   StoredCampaign whole = read_stored_campaign(options.folder);
   std::deque<FolderLock> locks;
@@ -176,7 +182,7 @@ int analyze_cases(const AnalyzeOptions& options, const std::filesystem::path& to
     cases.push_back(case_summary(whole, stored.campaign.of_case,
                                  summarize_again(stored, to / stored.campaign.of_case)));
   write_cases_file(whole, cases, to);
-  return show_all_cases(whole, cases, options.display);
+  return show_all_cases(whole, cases, display_of(options));
 }
 
 /// Says that cases.json beside a case's folder does not know of its new analysis.
@@ -220,7 +226,7 @@ int analyze(const AnalyzeOptions& options) {
   StoredCampaign stored = as_asked(read_any_campaign(options.folder), options);
   const Summary summary = summarize_again(stored, to);
   warn_of_cases_file(stored);
-  return show_results(stored, summary, options.display);
+  return show_results(stored, summary, display_of(options));
 }
 
 void add_merge_options(CLI::App& command, MergeOptions& options) {

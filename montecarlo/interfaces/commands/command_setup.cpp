@@ -53,7 +53,7 @@ void refuse_empty_arguments(CLI::App& command) {
 
 void add_machine_options(CLI::App& command, MachineOptions& options) {
   within(command.add_option("--threads", options.threads,
-                            "Number of threads; default: all processors"),
+                            "Threads; default: OMP_NUM_THREADS, or all processors"),
          1, most_threads)
       ->type_name("N");
   one_of(command.add_option("--lanes", options.lanes,

@@ -36,7 +36,7 @@ void add_command(CLI::App& app, Action& action, const char* name, const char* de
 
 /// How this machine makes the runs. The results do not depend on it.
 struct MachineOptions {
-  int threads = 0; ///< 0: all processors
+  int threads = 0; ///< 0: OMP_NUM_THREADS, or all processors
   int lanes = 0;   ///< runs that one thread makes at once; 0: the most
   std::string isa; ///< instruction set; empty: the widest
 };

@@ -44,7 +44,11 @@ Outcome plain_outcome(const Scene& scene, const wingspread::Outcome& outcome) {
 
 } // namespace
 
-Input from_file(std::filesystem::path file) { return {std::move(file), {}, {}}; }
+Input from_file(std::filesystem::path file) {
+  if (file.empty())
+    throw SpecError({{"", "file", "an empty path", "the path of a scene or of a campaign"}});
+  return {std::move(file), {}, {}};
+}
 
 Input from_text(std::string json, std::filesystem::path directory) {
   return {{}, std::move(json), std::move(directory)};

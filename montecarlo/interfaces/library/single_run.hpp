@@ -38,7 +38,7 @@ struct Task {
 /// @throws SpecError unless the interval of a trajectory, s, is a number > 0 that gives at most 10⁸ rows up to t_end
 void check_interval(double interval, double t_end);
 
-/// The problem of a number of threads that is not allowed; 0: all processors.
+/// The problem of a number of threads that is not allowed; 0: OMP_NUM_THREADS, or all processors.
 [[nodiscard]] std::optional<Problem> problem_of_threads(int threads);
 /// @throws SpecError with that problem
 void check_threads(int threads);

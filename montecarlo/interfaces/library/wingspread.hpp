@@ -39,6 +39,7 @@ struct Input {
   std::string text;
   std::filesystem::path directory; ///< files named in the text are relative to it
 };
+/// @throws SpecError for an empty path
 [[nodiscard]] Input from_file(std::filesystem::path file);
 [[nodiscard]] Input from_text(std::string json, std::filesystem::path directory = {});
 
@@ -100,7 +101,7 @@ struct Outcome {
 struct RunOptions {
   std::optional<std::int64_t> runs{};
   std::optional<std::uint64_t> seed{};
-  int threads = 0;                         ///< 0: all processors
+  int threads = 0;                         ///< 0: OMP_NUM_THREADS, or all processors
   std::string of_case{};                   ///< the case; required for a campaign with cases
   std::vector<std::string> set{};          ///< "PATH=VALUE"
   const std::atomic<bool>* stop = nullptr; ///< once true, no further run begins
@@ -166,7 +167,7 @@ struct FitRequest {
   std::filesystem::path out{}; ///< the folder to write, new or empty; empty: writes no files
   std::optional<std::uint64_t> seed{};
   long runs = 0;                           ///< most runs of the sampler; 0: 400 for each sample
-  int threads = 0;                         ///< 0: all processors
+  int threads = 0;                         ///< 0: OMP_NUM_THREADS, or all processors
   const std::atomic<bool>* stop = nullptr; ///< once true, no further run begins
   bool resume = false; ///< goes on with the chains that an earlier call left in `out`
 };
@@ -207,7 +208,7 @@ public:
   /// its row of x alone.
   /// @param x n rows of parameters, row by row, SI
   /// @param y n rows of outputs, which are set; NaN for a missing value, or if the parameters are unphysical
-  /// @param threads 0: all processors
+  /// @param threads 0: OMP_NUM_THREADS, or all processors
   /// @return false if `stop` ended the call before the last row
   /// @throws SpecError unless x.size() == n · parameters() and y.size() == n · outputs().size(), and for a wrong number of
   ///   threads

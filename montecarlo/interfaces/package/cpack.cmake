@@ -21,26 +21,28 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wingspread)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Monte Carlo deployment of spacecraft solar wings
- How far the deployment of a spacecraft's solar wing may stray from the
- drawing: rigid panels, hinges with springs, friction, dampers and latches;
- a campaign over what varies in them, its statistics, and the requirements
- that it has to meet.")
+# A summary would be the synopsis of all packages. CPack indents the lines of a description.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Monte Carlo deployment of spacecraft solar wings
+How far the deployment of a spacecraft's solar wing may stray from the
+drawing: rigid panels, hinges with springs, friction, dampers and latches;
+a campaign over what varies in them, its statistics, and the requirements
+that it has to meet.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwingspread-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 math(EXPR next "${fmt_VERSION_MAJOR} + 1") # of fmt: its names have the version in them
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev (>= ${fmt_VERSION_MAJOR}), libfmt-dev (<< ${next}~), g++")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Deployment of spacecraft solar wings, the library
- What the program wingspread does, for programs in C++: a static library, its
- header, and what find_package reads.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Deployment of spacecraft solar wings, the library
+What the program wingspread does, for programs in C++: a static library, its
+header, and what find_package reads.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-wingspread)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${WINGSPREAD_PYTHON_NEEDS}, python3-numpy")
-set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Deployment of spacecraft solar wings, in Python
- What the program wingspread does, with numpy arrays: campaigns, deployments,
- and a wing as a function of its parameters.")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Deployment of spacecraft solar wings, in Python
+What the program wingspread does, with numpy arrays: campaigns, deployments,
+and a wing as a function of its parameters.")
 
 set(unlicensed "${WINGSPREAD_UNLICENSED}")
 if(NOT WINGSPREAD_PYTHON)

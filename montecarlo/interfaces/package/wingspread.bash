@@ -10,7 +10,7 @@ _wingspread() {
     [[ $before == --* ]] &&
       type=$(sed -n "$options"'s/^  \(-[a-z],\)\?'"$before"' \([^ ][^ ]*\).*/\2/p' <<<"$help")
     if [[ -z $type && $word != -* ]]; then
-      type=$(sed -n '/^Positionals:/,/^$/s/^  [a-z]* \([^ ]*\).*/\1/p' <<<"$help")
+      type=$(sed -n '/^Positionals:/,/^$/{s/^  [a-z]* \([^ ]*\).*/\1/p;T;q}' <<<"$help")
     fi
   fi
   case $type in

@@ -15,7 +15,7 @@ function __wingspread_candidates
         return
     end
     if test -z "$type"; and test (count $words) -gt 1
-        set type (printf '%s\n' $help | sed -n '/^Positionals:/,/^$/s/^  [a-z]* \([^ ]*\).*/\1/p')
+        set type (printf '%s\n' $help | sed -n '/^Positionals:/,/^$/{s/^  [a-z]* \([^ ]*\).*/\1/p;T;q}')
     end
     switch "$type"
         case TEXT 'FILE*' 'DIR*'

@@ -12,7 +12,7 @@ _wingspread() {
     [[ $words[CURRENT-1] == --* ]] &&
       type=$(sed -n '/^Options:/,/^$/s/^  \(-[a-z],\)\?'$words[CURRENT-1]' \([^ ][^ ]*\).*/\2/p' <<<"$help")
     if [[ -z $type && $PREFIX != -* ]]; then
-      type=$(sed -n '/^Positionals:/,/^$/s/^  [a-z]* \([^ ]*\).*/\1/p' <<<"$help")
+      type=$(sed -n '/^Positionals:/,/^$/{s/^  [a-z]* \([^ ]*\).*/\1/p;T;q}' <<<"$help")
     fi
   fi
   case $type in

@@ -7,34 +7,71 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <atomic>
 #include <chrono>
 #include <future>
+#include <memory>
 #include <new>
+#include <pthread.h>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
 namespace py = pybind11;
 
 namespace wingspread::api {
 namespace {
 
-/// Heuristic: for up to this many rows, which an optimiser may ask for again and again, `evaluate` starts no thread, and does
-/// not check for Ctrl-C.
+/// Heuristic: an optimiser may ask `evaluate` for a few rows again and again. If the last such call was quick, the next one
+/// starts no thread, and does not check for Ctrl-C.
 constexpr py::ssize_t few_rows = 8;
+constexpr std::chrono::milliseconds quick(50);
+
+std::atomic<int> calls = 0; ///< under way, in any thread of Python
+std::atomic<bool> is_python_ending = false;
+
+/// A call that releases the GIL. When Python ends, a thread that waits for the GIL ends inside C++, which aborts the process.
+/// So Python waits for all calls before it ends (`end_calls`); SystemExit ends their threads, and those of later calls.
+class Call {
+public:
+  Call() {
+    if (is_python_ending) PyErr_SetNone(PyExc_SystemExit), throw py::error_already_set();
+    ++calls;
+  }
+  ~Call() { --calls; }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+};
+
+void end_calls() {
+  const py::gil_scoped_release release;
+  is_python_ending = true;
+  while (calls > 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
+enum class OnStop : std::uint8_t { wait, leave };
 
 /// Runs `work` in a thread of its own, without the GIL, while this thread checks for Ctrl-C.
-/// @param work is called with a flag that, once true, tells it to stop
-template <class Work> auto run_interruptibly(const Work& work) {
-  std::atomic<bool> stop = false;
-  auto future = std::async(std::launch::async, [&] { return work(stop); });
+/// @param work is called with a flag that, once true, tells it to stop. It owns what it uses, nothing of Python's
+/// @param on_stop leave: a second after a stop the call ends, and the work goes on alone until it sees the flag: one
+///   deployment may take minutes. wait: for work that writes files
+template <class Work> auto run_interruptibly(Work work, OnStop on_stop = OnStop::leave) {
+  const Call call;
+  const auto stop = std::make_shared<std::atomic<bool>>(false);
+  std::packaged_task task([work = std::move(work), stop] { return work(*stop); });
+  auto future = task.get_future();
+  std::thread(std::move(task)).detach();
   const auto is_done = [&](std::chrono::milliseconds most) {
     const py::gil_scoped_release release;
     return future.wait_for(most) == std::future_status::ready;
   };
   while (!is_done(std::chrono::milliseconds(50))) {
-    if (PyErr_CheckSignals() == 0) continue;
-    stop = true;
-    while (!is_done(std::chrono::seconds(1))) {
+    if (is_python_ending)
+      PyErr_SetNone(PyExc_SystemExit);
+    else if (PyErr_CheckSignals() == 0)
+      continue;
+    *stop = true;
+    while (!is_done(std::chrono::seconds(1)) && on_stop == OnStop::wait) {
     }
     throw py::error_already_set();
   }
@@ -80,14 +117,14 @@ py::list reasons_of(const Table& table) {
 Table run_it(const Input& input, std::optional<std::int64_t> runs,
              std::optional<std::uint64_t> seed, int threads, const std::string& of_case,
              const std::vector<std::string>& set) {
-  return run_interruptibly([&](const std::atomic<bool>& stop) {
+  return run_interruptibly([=](const std::atomic<bool>& stop) {
     return run(input, {runs, seed, threads, of_case, set, &stop});
   });
 }
 
 py::tuple simulate_it(const Input& input, const Settings& settings, std::optional<double> interval,
                       bool check) {
-  const Outcome outcome = run_interruptibly([&](const std::atomic<bool>& stop) {
+  const Outcome outcome = run_interruptibly([=](const std::atomic<bool>& stop) {
     return simulate(input, settings, interval, check, &stop);
   });
   py::dict trajectory;
@@ -99,9 +136,11 @@ py::tuple simulate_it(const Input& input, const Settings& settings, std::optiona
 
 py::tuple fit_it(const Input& campaign, const Input& tests, const std::filesystem::path& out,
                  std::optional<std::uint64_t> seed, long runs, int threads, bool resume) {
-  const Fit made = run_interruptibly([&](const std::atomic<bool>& stop) {
-    return fit(campaign, tests, {out, seed, runs, threads, &stop, resume});
-  });
+  const Fit made = run_interruptibly(
+      [=](const std::atomic<bool>& stop) {
+        return fit(campaign, tests, {out, seed, runs, threads, &stop, resume});
+      },
+      OnStop::wait);
   py::dict posterior;
   for (const Series& series : made.posterior)
     posterior[py::str(series.name)] =
@@ -111,23 +150,47 @@ py::tuple fit_it(const Input& campaign, const Input& tests, const std::filesyste
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-py::array evaluate_it(const Model& model, const Numbers& x, int threads) {
+/// A model that notes whether its last call with few rows was quick.
+struct PacedModel : Model {
+  using Model::Model;
+  mutable std::atomic<bool> was_quick = false;
+};
+
+/// A numpy array that owns these rows.
+py::array array_of(std::vector<double>&& values, py::ssize_t rows, py::ssize_t columns) {
+  auto kept = std::make_unique<std::vector<double>>(std::move(values));
+  double* data = kept->data();
+  const py::capsule owner(kept.get(),
+                          [](void* at) { delete static_cast<std::vector<double>*>(at); });
+  (void)kept.release();
+  return py::array_t<double>({rows, columns}, data, owner);
+}
+
+py::array evaluate_it(const PacedModel& model, const Numbers& x, int threads) {
   const auto parameters = static_cast<py::ssize_t>(model.parameters());
   if (x.ndim() != 2 || x.shape(1) != parameters)
     throw py::value_error("found x of shape " + std::string(py::str(x.attr("shape"))) +
                           ", expected (n, " + std::to_string(parameters) + ")");
-  const auto outputs = static_cast<py::ssize_t>(model.outputs().size());
-  py::array_t<double> y({x.shape(0), outputs});
-  const std::span<const double> from(x.data(), static_cast<std::size_t>(x.size()));
-  const std::span<double> to(y.mutable_data(), static_cast<std::size_t>(y.size()));
-  if (x.shape(0) <= few_rows) {
+  const py::ssize_t rows = x.shape(0), outputs = static_cast<py::ssize_t>(model.outputs().size());
+  const auto evaluate =
+      [model = Model(model), threads, from = std::vector(x.data(), x.data() + x.size()),
+       size = static_cast<std::size_t>(rows * outputs)](const std::atomic<bool>& stop) {
+        std::vector<double> to(size);
+        (void)model.evaluate(from, to, threads, &stop);
+        return to;
+      };
+  if (rows > few_rows) return array_of(run_interruptibly(std::move(evaluate)), rows, outputs);
+  const auto began = std::chrono::steady_clock::now();
+  std::vector<double> made;
+  if (model.was_quick) {
+    const Call call;
     const py::gil_scoped_release release;
-    (void)model.evaluate(from, to, threads);
+    made = evaluate(false);
   } else {
-    (void)run_interruptibly(
-        [&](const std::atomic<bool>& stop) { return model.evaluate(from, to, threads, &stop); });
+    made = run_interruptibly(std::move(evaluate));
   }
-  return y;
+  model.was_quick = std::chrono::steady_clock::now() - began < quick;
+  return array_of(std::move(made), rows, outputs);
 }
 
 void add_errors(py::module_& module) {
@@ -163,6 +226,8 @@ void add_errors(py::module_& module) {
 PYBIND11_MODULE(_native, module) {
   module.doc() = "The native half of wingspread; use the module wingspread";
   add_errors(module);
+  py::module_::import("atexit").attr("register")(py::cpp_function(&end_calls));
+  pthread_atfork(nullptr, nullptr, [] { calls = 0; }); // the parent's calls are not the child's
   module.def("version", &version, "The library's version");
 
   py::class_<Input>(module, "Input", "A scene or a campaign in JSON")
@@ -200,14 +265,14 @@ PYBIND11_MODULE(_native, module) {
       .def("words", &words_of, py::arg("column"), "A view of codes, and the texts that they index")
       .def("reasons", &reasons_of, "Why the wing did not deploy, by run");
 
-  py::class_<Model>(module, "Model", "A wing as a function of some of its parameters")
+  py::class_<PacedModel>(module, "Model", "A wing as a function of some of its parameters")
       .def(py::init<const Input&, const std::vector<std::string>&, std::vector<std::string>,
                     const Settings&>(),
            py::arg("input"), py::arg("paths"), py::arg("outputs"), py::arg("settings"))
-      .def_property_readonly("outputs", &Model::outputs)
-      .def_property_readonly("nominal", &Model::nominal)
+      .def_property_readonly("outputs", &PacedModel::outputs)
+      .def_property_readonly("nominal", &PacedModel::nominal)
       .def_property_readonly("notices",
-                             [](const Model& model) { return texts_of(model.notices()); })
+                             [](const PacedModel& model) { return texts_of(model.notices()); })
       .def("evaluate", &evaluate_it, py::arg("x"), py::arg("threads"),
            "Returns a row of outputs for each row of parameters");
 

@@ -78,7 +78,7 @@ std::optional<std::string> read_damper(std::string_view text, WingDesign& design
   return std::nullopt;
 }
 
-WingDesign ask_design(std::istream& in, std::ostream& out) {
+std::optional<WingDesign> ask_design(std::istream& in, std::ostream& out) {
   WingDesign design;
   out << "A new wing. Enter keeps the value in brackets; numbers may have a unit: 1.8 m, 12 "
          "in*lbf\n";
@@ -101,11 +101,11 @@ WingDesign ask_design(std::istream& in, std::ostream& out) {
                fmt::format("{} {}", design.*number.value, number.dimension.unit),
                [&](const std::string& text) { return read_design_number(text, number, design); });
   }
-  if (more)
-    (void)ask(in, out, "damper of the root hinge, 0: none",
-              fmt::format("one that doubles the time, to a tenth, {}", damper_dimension.unit),
-              [&](const std::string& text) { return read_damper(text, design); });
-  return design;
+  more =
+      more && ask(in, out, "damper of the root hinge, 0: none",
+                  fmt::format("one that doubles the time, to a tenth, {}", damper_dimension.unit),
+                  [&](const std::string& text) { return read_damper(text, design); });
+  return more ? std::optional(design) : std::nullopt;
 }
 
 std::string command_of(const WingDesign& design, const std::string& out) {

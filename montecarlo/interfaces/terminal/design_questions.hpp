@@ -17,8 +17,8 @@ read_design_number(std::string_view text, const DesignNumber& number, WingDesign
 [[nodiscard]] std::optional<std::string> read_damper(std::string_view text, WingDesign& design);
 
 /// Asks for each part of the design in turn. An empty line keeps the value in brackets. A question is repeated until
-/// its answer can be read. At the end of the input all remaining parts keep their values.
-[[nodiscard]] WingDesign ask_design(std::istream& in, std::ostream& out);
+/// its answer can be read. @return nothing if the input ends before the last answer
+[[nodiscard]] std::optional<WingDesign> ask_design(std::istream& in, std::ostream& out);
 
 /// "wingspread new --panels 4 --yoke --out wing": the options that differ from the defaults, ready for a shell.
 /// @param out the folder of --out; empty: not given

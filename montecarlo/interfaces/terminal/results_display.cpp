@@ -152,11 +152,12 @@ bool wants_table(const Display& display) {
 
 namespace {
 
-void print_files(const std::filesystem::path& folder) {
-  for (const char* file :
-       {campaign_file, is_streaming_folder(folder) ? broken_runs_file : runs_file, summary_file,
-        histograms_json_file, histograms_csv_file})
-    fmt::print("{}\n", (folder / file).string());
+void print_files(const std::filesystem::path& folder, const Display& display) {
+  std::vector<const char*> files{summary_file, histograms_json_file, histograms_csv_file};
+  if (!display.statistics_only)
+    files.insert(files.begin(),
+                 {campaign_file, is_streaming_folder(folder) ? broken_runs_file : runs_file});
+  for (const char* file : files) fmt::print("{}\n", (folder / file).string());
 }
 
 } // namespace
@@ -237,9 +238,9 @@ void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cas
                                  : compact_cases_table(cases, first, whole.folder.string()));
     return;
   }
-  fmt::print("{}\n{}\n", (whole.folder / campaign_file).string(),
-             (whole.folder / cases_file).string());
-  for (const CaseSummary& each : cases) print_files(whole.folder / each.name);
+  if (!display.statistics_only) fmt::print("{}\n", (whole.folder / campaign_file).string());
+  fmt::print("{}\n", (whole.folder / cases_file).string());
+  for (const CaseSummary& each : cases) print_files(whole.folder / each.name, display);
 }
 
 Json show_finished(const std::filesystem::path& file, bool whole) {
@@ -253,7 +254,7 @@ int show_results(const StoredCampaign& stored, const Summary& summary, const Dis
   if (wants_table(display))
     show_table(stored, summary, display);
   else
-    print_files(stored.folder);
+    print_files(stored.folder, display);
   return judge_results(stored, summary);
 }
 

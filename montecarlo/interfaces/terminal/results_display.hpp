@@ -14,9 +14,10 @@ namespace wingspread {
 
 /// The options --table and --histograms.
 struct Display {
-  bool table = false;      ///< print the table even when standard output is not a terminal
-  bool histograms = false; ///< print the table and each output's histogram
-  bool all = false;        ///< print the table with every line
+  bool table = false;           ///< print the table even when standard output is not a terminal
+  bool histograms = false;      ///< print the table and each output's histogram
+  bool all = false;             ///< print the table with every line
+  bool statistics_only = false; ///< list no campaign and no rows: they were there before
 };
 void add_display_options(CLI::App& command, Display& display);
 

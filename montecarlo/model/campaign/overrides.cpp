@@ -22,9 +22,12 @@ std::string option_of(std::string_view pointer) {
   return option;
 }
 
-std::string path_in(const std::string& change) {
-  return change.substr(0, std::min(change.find('='), change.size()));
+/// The last '=': a name in the path may have one, a value has none.
+std::size_t equals_in(const std::string& change) {
+  return std::min(change.rfind('='), change.size());
 }
+
+std::string path_in(const std::string& change) { return change.substr(0, equals_in(change)); }
 
 /// Refuses changes that a dispersion would overwrite.
 void refuse_lost(const Campaign& campaign, const std::vector<std::string>& changes) {
@@ -54,7 +57,7 @@ Scene changed_scene(Scene scene, const std::vector<std::string>& changes) {
   std::vector<CaseChange> read;
   std::map<std::string, std::string> written; // the values as given, by path
   for (const std::string& change : changes) {
-    const std::size_t equals = std::min(change.find('='), change.size());
+    const std::size_t equals = equals_in(change);
     const std::string path = path_in(change);
     const std::string text = change.substr(std::min(equals + 1, change.size()));
     const auto number = parse_number<double>(text);

@@ -14,7 +14,7 @@ All numbers are in SI units and radians. The same seed gives the same bits as `w
 threads. A scene or a campaign is the path of a file, JSON text, or a dictionary as json.load returns it; files named in
 text or dictionaries are relative to the working directory. Wrong input raises SpecError with the text that the program
 prints; MachineError is raised when the machine refuses something (memory, disk space). Input that only looks wrong gives
-a warning (Notice). Ctrl-C ends a long call.
+a warning (Notice). Ctrl-C ends a long call within about a second.
 """
 
 from __future__ import annotations
@@ -146,8 +146,8 @@ def run(campaign: Source, *, runs: int | None = None, seed: int | None = None, t
         set: Changes | None = None) -> Table:
     """Makes a campaign's runs in memory and returns their rows; writes no files.
 
-    runs, seed: the number of runs and the seed; default: the campaign's. threads: 0 for all processors.
-    case: the case, required for a campaign with cases. set: changes of the nominal wing.
+    runs, seed: the number of runs and the seed; default: the campaign's. threads: 0 for OMP_NUM_THREADS, or all
+    processors. case: the case, required for a campaign with cases. set: changes of the nominal wing.
     """
     table = _native.run(_input_of(campaign), _whole("runs", runs, 1, _MOST_RUNS), _whole("seed", seed, 0, _MOST_SEED),
                         _required("threads", threads, 0, _MOST_THREADS), _text("case", case), _changes_of(set))
@@ -160,9 +160,9 @@ def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", se
     """Fits parameters of a campaign to deployment tests, as `wingspread fit`.
 
     tests: the tests and the parameters. out: the folder to write; default: no files. runs: most runs of the sampler;
-    0: 400 for each sample. threads: 0 for all processors. resume: go on with the chains that an earlier call, or
-    `wingspread fit`, left in the folder out. If result["finished"] is False, the chains are too short, and the numbers are
-    no result; a Notice says so.
+    0: 400 for each sample. threads: 0 for OMP_NUM_THREADS, or all processors. resume: go on with the chains that an
+    earlier call, or `wingspread fit`, left in the folder out. If result["finished"] is False, the chains are too short, and
+    the numbers are no result; a Notice says so.
     """
     if _truth("resume", resume) and not os.fspath(out):
         raise _wrong("resume", resume, "out, the folder of the fit to go on with")
@@ -231,10 +231,10 @@ class Model:
         return np.array(self._native.nominal)
 
     def __call__(self, x: npt.ArrayLike, *, threads: int = 0) -> Floats:
-        """Simulates one deployment for each row of x, on all processors and without the GIL.
+        """Simulates one deployment for each row of x, on several threads and without the GIL.
 
         x: parameters in SI units, shape (n, d). Returns outputs, shape (n, m); NaN for a missing value, or if the
-        parameters are unphysical. threads: 0 for all processors.
+        parameters are unphysical. threads: 0 for OMP_NUM_THREADS, or all processors.
         """
         if np.ma.isMaskedArray(x):
             raise _wrong("x", "a masked array", "numbers without a mask")
@@ -266,10 +266,13 @@ def _input_of(source: Source) -> _native.Input:
         if problems:
             raise _spec_error(problems)
         return _native.Input.from_text(json.dumps(plain), "")
-    if isinstance(source, str) and source.lstrip().startswith("{"):
-        return _native.Input.from_text(source, "")
+    if isinstance(source, str) and (text := source.lstrip("\ufeff \t\r\n")).startswith("{"):
+        return _native.Input.from_text(text, "")
     if isinstance(source, (str, os.PathLike)):
-        return _native.Input.from_file(os.fspath(source))
+        path = os.fspath(source)
+        if not path or "\0" in os.fsdecode(path):
+            raise _spec_error([("", "source", repr(path), "the path of a file, JSON text or a dictionary")])
+        return _native.Input.from_file(path)
     raise TypeError(f"found {type(source).__name__}, expected a path, JSON text or a dictionary")
 
 

@@ -203,6 +203,10 @@ TEST_CASE("a deployment of the library is that of simulate, with its trajectory"
   CHECK(outcome.trajectory[1].values[0] == scene.hinges[0].stowed);
 }
 
+TEST_CASE("an empty path is refused as one") {
+  CHECK_THROWS_WITH(api::from_file(""), Catch::Contains("an empty path"));
+}
+
 TEST_CASE("a model's rows are deployments of their own, in lanes or alone", "[parallel]") {
   const api::Input input = api::from_file(three_panel_file());
   const std::vector<std::string> outputs{"deployment_time", "root.peak_moment"};

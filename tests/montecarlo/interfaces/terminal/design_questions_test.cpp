@@ -10,7 +10,7 @@ TEST_CASE("answers on a terminal make a wing; an empty line keeps what is in bra
   std::istringstream in("sat\n2\n4\ny\n70.866 in\n\n9 kg\n"
                         "\n\n\n\n\n12 in*lbf\n\n\n0\n");
   std::ostringstream out;
-  const WingDesign design = ask_design(in, out);
+  const WingDesign design = ask_design(in, out).value();
   CHECK(design.name == "sat");
   CHECK(design.wings == 2);
   CHECK(design.panels == 4);
@@ -24,10 +24,10 @@ TEST_CASE("answers on a terminal make a wing; an empty line keeps what is in bra
   CHECK(out.str().find("mass of the yoke [3.5 kg]: ") != std::string::npos);
 }
 
-TEST_CASE("an answer that cannot be read is asked again, and the end of the input keeps the rest") {
-  std::istringstream in("sat\nthree\n1\n99\n2\nn\n-1\n3 kg\n2\n");
+TEST_CASE("an answer that cannot be read is asked again") {
+  std::istringstream in("sat\nthree\n1\n99\n2\nn\n-1\n3 kg\n2\n" + std::string(20, '\n'));
   std::ostringstream out;
-  const WingDesign design = ask_design(in, out);
+  const WingDesign design = ask_design(in, out).value();
   CHECK(design.panels == 2);
   CHECK_FALSE(design.yoke);
   CHECK(design.panel_length == 2);
@@ -38,6 +38,16 @@ TEST_CASE("an answer that cannot be read is asked again, and the end of the inpu
   CHECK(said.find("  found -1, expected a number, m, > 0") != std::string::npos);
   CHECK(said.find("  found 3 kg, expected a number, m, > 0") != std::string::npos);
   CHECK(said.find("yoke [") == std::string::npos); // nothing more of a yoke
+}
+
+TEST_CASE("no wing is made when the input ends before the last answer") {
+  const std::string answers = "sat\n2\n4\ny\n" + std::string(9, '\n');
+  for (const std::size_t length : {0, 1, 4, 9, 12}) {
+    CAPTURE(length);
+    std::istringstream in(answers.substr(0, length));
+    std::ostringstream out;
+    CHECK_FALSE(ask_design(in, out).has_value());
+  }
 }
 
 TEST_CASE("the command of a wing names what is not the default") {
