@@ -292,7 +292,7 @@ void add_sensitivity_options(CLI::App& command, SensitivityOptions& options) {
          20, 1'000'000)
       ->type_name("N");
   command.add_option("--out", options.out,
-                     "A folder for a campaign's runs, or for the tables of a folder: new or empty");
+                     "For a campaign's runs, or a folder's tables: a folder, new or empty");
   command.add_flag("--resume", options.resume, "Continue an interrupted study in --out");
   add_shard_option(command, options.shard,
                    "Make only part I of N of the design's runs, e.g. 2/5; needs --out");
