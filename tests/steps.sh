@@ -1,8 +1,6 @@
 # shellcheck shell=bash disable=SC2034,SC2154 # variables are those of the scripts that source this
 # The steps that tests/run and tests/nightly are made of. Sourced by both, from the repository's root.
 
-export OMP_WAIT_POLICY=passive # a thread that waits sleeps: spinning, it would take the processor from other tests
-
 tests_from=() # the build whose test objects the sanitizers' builds link
 
 # known_words KNOWN -- WORDS…: refuses all words but KNOWN

@@ -187,7 +187,7 @@ def run(command, number, seconds, folder, **environment):
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
     with tempfile.TemporaryFile() as output:
         process = subprocess.Popen(command, cwd=folder, stdout=output, stderr=subprocess.STDOUT, preexec_fn=limits, start_new_session=True,
-                                   env={**os.environ, "WINGSPREAD_MUTANT": str(number), "OMP_NUM_THREADS": "2", "OMP_WAIT_POLICY": "passive", **environment})
+                                   env={**os.environ, "WINGSPREAD_MUTANT": str(number), "OMP_NUM_THREADS": "2", **environment})
         try:
             code = process.wait(timeout=30 * seconds)
         except subprocess.TimeoutExpired:

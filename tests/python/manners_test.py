@@ -68,6 +68,23 @@ class Manners(unittest.TestCase):
                     call(odd)
         text = pathlib.Path(SCENE).read_text()
         np.testing.assert_equal(wingspread.simulate("\ufeff" + text), wingspread.simulate(text))
+        for call, argument in ((lambda: wingspread.read("a\0b"), "folder"), (lambda: wingspread.read(""), "folder"),
+                               (lambda: wingspread.fit(CAMPAIGN, "{}", out="a\0b"), "out")):
+            with self.assertRaisesRegex(wingspread.SpecError, f"{argument}: found .*, expected a"):
+                call()
+
+    def test_a_mistake_in_text_has_its_line(self):
+        with self.assertRaisesRegex(wingspread.SpecError, "line 4"):
+            wingspread.simulate('\n\n{ "name": "a",\n "x" 3 }')
+
+    def test_a_function_that_is_called_at_the_end_of_python_may_simulate(self):
+        script = ("import atexit, sys\n"
+                  "atexit.register(lambda: print(len(wingspread.simulate(sys.argv[1]).trajectory)))\n"
+                  "import wingspread\n")
+        done = subprocess.run([sys.executable, "-c", script, SCENE], capture_output=True, text=True, timeout=60,
+                              check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertGreater(int(done.stdout), 0)
 
     def test_a_name_with_an_equals_sign_can_be_set(self):
         text = pathlib.Path(SCENE).read_text().replace('"root"', '"ro=ot"')

@@ -179,8 +179,8 @@ std::vector<ResultRow> repeat_runs(const Campaign& campaign, const Integration& 
     rows[static_cast<std::size_t>(place)] = std::move(row);
   };
   run_on_threads(
-      thread_count(pool.threads), [&] { (void)Runner(plan).run_all(pool.set, next, keep); },
-      [&] { claimed = runs.size(); });
+      threads_for(pool.threads, runs.size()),
+      [&] { (void)Runner(plan).run_all(pool.set, next, keep); }, [&] { claimed = runs.size(); });
   return rows;
 }
 

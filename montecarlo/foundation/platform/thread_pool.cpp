@@ -36,7 +36,14 @@ struct SharedWork {
 
 } // namespace
 
-int thread_count(int wanted) { return wanted > 0 ? wanted : omp_get_max_threads(); }
+int thread_count(int wanted) {
+  return wanted > 0 ? wanted : std::min(omp_get_max_threads(), most_threads);
+}
+
+int threads_for(int wanted, std::size_t tasks) {
+  return static_cast<int>(
+      std::clamp<std::size_t>(tasks, 1, static_cast<std::size_t>(thread_count(wanted))));
+}
 
 int threads_worth(int wanted, double operations) {
   return operations < operations_worth_threads ? 1 : thread_count(wanted);
@@ -60,9 +67,8 @@ void run_on_threads(int threads, const std::function<void()>& work,
 
 void for_each_task(int threads, std::size_t count, const std::function<void(std::size_t)>& task) {
   std::atomic<std::size_t> next = 0;
-  const auto most = static_cast<int>(std::clamp<std::size_t>(count, 1, 1024));
   run_on_threads(
-      std::min(thread_count(threads), most),
+      threads_for(threads, count),
       [&] {
         for (std::size_t i = next++; i < count; i = next++) task(i);
       },

@@ -7,8 +7,11 @@
 namespace wingspread {
 
 /// The number of threads for `wanted`: the same number, or for 0 what OpenMP offers (OMP_NUM_THREADS, or the number
-/// of processors).
+/// of processors), at most most_threads.
 [[nodiscard]] int thread_count(int wanted);
+
+/// thread_count(wanted), but at least 1 and at most one for each task.
+[[nodiscard]] int threads_for(int wanted, std::size_t tasks);
 /// The most threads a user can ask for.
 inline constexpr int most_threads = 1024;
 

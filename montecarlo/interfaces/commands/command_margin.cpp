@@ -270,6 +270,8 @@ which scales come next. The first scales can be made in shards on separate machi
 part of the runs at every scale. --from then continues from all shards and gives the same bytes as
 one process. Exit code 0: there is a window and a confirmed recommendation; 1: there is none.
 
+The last four commands below are for a campaign with a "margin".
+
 Example:
   wingspread margin campaign.json --scale 'hinges.*.spring.scale' --range 0.5 2 --out results/m1
   wingspread run results/m1/recommended.json --out results/resized

@@ -45,8 +45,9 @@ Outcome plain_outcome(const Scene& scene, const wingspread::Outcome& outcome) {
 } // namespace
 
 Input from_file(std::filesystem::path file) {
-  if (file.empty())
-    throw SpecError({{"", "file", "an empty path", "the path of a scene or of a campaign"}});
+  if (file.empty() || file.native().find('\0') != std::string::npos)
+    throw SpecError({{"", "file", file.empty() ? "an empty path" : "a path with a NUL",
+                      "the path of a scene or of a campaign"}});
   return {std::move(file), {}, {}};
 }
 

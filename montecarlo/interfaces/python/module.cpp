@@ -23,19 +23,24 @@ namespace wingspread::api {
 namespace {
 
 /// Heuristic: an optimiser may ask `evaluate` for a few rows again and again. If the last such call was quick, the next one
-/// starts no thread, and does not check for Ctrl-C.
+/// is made in the calling thread, and does not check for Ctrl-C.
 constexpr py::ssize_t few_rows = 8;
 constexpr std::chrono::milliseconds quick(50);
 
 std::atomic<int> calls = 0; ///< under way, in any thread of Python
 std::atomic<bool> is_python_ending = false;
+std::thread::id
+    ending_thread; ///< the one that ends Python, and may still call; set before is_python_ending
+
+/// Whether this thread has to end, because Python does.
+bool has_to_end() { return is_python_ending && std::this_thread::get_id() != ending_thread; }
 
 /// A call that releases the GIL. When Python ends, a thread that waits for the GIL ends inside C++, which aborts the process.
 /// So Python waits for all calls before it ends (`end_calls`); SystemExit ends their threads, and those of later calls.
 class Call {
 public:
-  Call() {
-    if (is_python_ending) PyErr_SetNone(PyExc_SystemExit), throw py::error_already_set();
+  Call() { // holds the GIL: end_calls counts it, or it sees that Python is ending
+    if (has_to_end()) PyErr_SetNone(PyExc_SystemExit), throw py::error_already_set();
     ++calls;
   }
   ~Call() { --calls; }
@@ -44,8 +49,9 @@ public:
 };
 
 void end_calls() {
-  const py::gil_scoped_release release;
+  ending_thread = std::this_thread::get_id();
   is_python_ending = true;
+  const py::gil_scoped_release release;
   while (calls > 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
@@ -66,7 +72,7 @@ template <class Work> auto run_interruptibly(Work work, OnStop on_stop = OnStop:
     return future.wait_for(most) == std::future_status::ready;
   };
   while (!is_done(std::chrono::milliseconds(50))) {
-    if (is_python_ending)
+    if (has_to_end())
       PyErr_SetNone(PyExc_SystemExit);
     else if (PyErr_CheckSignals() == 0)
       continue;
@@ -172,13 +178,12 @@ py::array evaluate_it(const PacedModel& model, const Numbers& x, int threads) {
     throw py::value_error("found x of shape " + std::string(py::str(x.attr("shape"))) +
                           ", expected (n, " + std::to_string(parameters) + ")");
   const py::ssize_t rows = x.shape(0), outputs = static_cast<py::ssize_t>(model.outputs().size());
-  const auto evaluate =
-      [model = Model(model), threads, from = std::vector(x.data(), x.data() + x.size()),
-       size = static_cast<std::size_t>(rows * outputs)](const std::atomic<bool>& stop) {
-        std::vector<double> to(size);
-        (void)model.evaluate(from, to, threads, &stop);
-        return to;
-      };
+  auto evaluate = [model = Model(model), threads, from = std::vector(x.data(), x.data() + x.size()),
+                   size = static_cast<std::size_t>(rows * outputs)](const std::atomic<bool>& stop) {
+    std::vector<double> to(size);
+    (void)model.evaluate(from, to, threads, &stop);
+    return to;
+  };
   if (rows > few_rows) return array_of(run_interruptibly(std::move(evaluate)), rows, outputs);
   const auto began = std::chrono::steady_clock::now();
   std::vector<double> made;

@@ -157,6 +157,7 @@ void print_files(const std::filesystem::path& folder, const Display& display) {
   if (!display.statistics_only)
     files.insert(files.begin(),
                  {campaign_file, is_streaming_folder(folder) ? broken_runs_file : runs_file});
+  if (is_streaming_folder(folder)) files.push_back(extremes_file);
   for (const char* file : files) fmt::print("{}\n", (folder / file).string());
 }
 

@@ -14,7 +14,7 @@ All numbers are in SI units and radians. The same seed gives the same bits as `w
 threads. A scene or a campaign is the path of a file, JSON text, or a dictionary as json.load returns it; files named in
 text or dictionaries are relative to the working directory. Wrong input raises SpecError with the text that the program
 prints; MachineError is raised when the machine refuses something (memory, disk space). Input that only looks wrong gives
-a warning (Notice). Ctrl-C ends a long call within about a second.
+a warning (Notice). Ctrl-C ends a long call within about a second; fit waits for the deployments under way.
 """
 
 from __future__ import annotations
@@ -164,10 +164,11 @@ def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", se
     earlier call, or `wingspread fit`, left in the folder out. If result["finished"] is False, the chains are too short, and
     the numbers are no result; a Notice says so.
     """
-    if _truth("resume", resume) and not os.fspath(out):
+    folder = _path("out", out, "a folder") if os.fspath(out) else ""
+    if _truth("resume", resume) and not folder:
         raise _wrong("resume", resume, "out, the folder of the fit to go on with")
     text, posterior, notices = _native.fit(
-        _input_of(campaign), _input_of(tests), os.fspath(out), _whole("seed", seed, 0, _MOST_SEED),
+        _input_of(campaign), _input_of(tests), folder, _whole("seed", seed, 0, _MOST_SEED),
         _required("runs", runs, 0, _MOST_RUNS), _required("threads", threads, 0, _MOST_THREADS), bool(resume))
     _warn(notices)
     result = json.loads(text)
@@ -179,7 +180,7 @@ def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", se
 
 def read(folder: str | os.PathLike[str], *, case: str = "") -> Table:
     """Reads the rows of a results folder. case: the case, required for a campaign with cases."""
-    table = _native.read(os.fspath(folder), _text("case", case))
+    table = _native.read(_path("folder", folder, "a results folder"), _text("case", case))
     _warn(table.notices)
     return Table(table)
 
@@ -266,14 +267,18 @@ def _input_of(source: Source) -> _native.Input:
         if problems:
             raise _spec_error(problems)
         return _native.Input.from_text(json.dumps(plain), "")
-    if isinstance(source, str) and (text := source.lstrip("\ufeff \t\r\n")).startswith("{"):
+    if isinstance(source, str) and (text := source.removeprefix("\ufeff")).lstrip().startswith("{"):
         return _native.Input.from_text(text, "")
     if isinstance(source, (str, os.PathLike)):
-        path = os.fspath(source)
-        if not path or "\0" in os.fsdecode(path):
-            raise _spec_error([("", "source", repr(path), "the path of a file, JSON text or a dictionary")])
-        return _native.Input.from_file(path)
+        return _native.Input.from_file(_path("source", source, "the path of a file, JSON text or a dictionary"))
     raise TypeError(f"found {type(source).__name__}, expected a path, JSON text or a dictionary")
+
+
+def _path(argument: str, path: str | os.PathLike[str], expected: str) -> str:
+    plain = os.fspath(path)
+    if not plain or "\0" in os.fsdecode(plain):
+        raise _spec_error([("", argument, repr(plain), expected)])
+    return plain
 
 
 def _settings(set: Changes | None, case: str, method: str | None, latch: str | None, step: float | None,

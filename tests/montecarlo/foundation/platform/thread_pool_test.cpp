@@ -10,6 +10,7 @@ using namespace wingspread;
 TEST_CASE("a team has the threads asked for", "[parallel]") {
   CHECK(thread_count(3) == 3);
   CHECK(thread_count(0) >= 1);
+  CHECK((threads_for(8, 3) == 3 && threads_for(2, 100) == 2 && threads_for(2, 0) == 1));
   for (const int threads : {1, 2, 5}) {
     std::atomic<int> calls = 0;
     int plain = 0; // written by one thread, read after the team: no race
