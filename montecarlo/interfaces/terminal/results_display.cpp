@@ -153,11 +153,12 @@ bool wants_table(const Display& display) {
 namespace {
 
 void print_files(const std::filesystem::path& folder, const Display& display) {
+  const bool rowless = is_streaming_folder(folder);
   std::vector<const char*> files{summary_file, histograms_json_file, histograms_csv_file};
+  if (rowless) files.push_back(extremes_file);
   if (!display.statistics_only)
-    files.insert(files.begin(),
-                 {campaign_file, is_streaming_folder(folder) ? broken_runs_file : runs_file});
-  if (is_streaming_folder(folder)) files.push_back(extremes_file);
+    files.insert(files.begin(), {campaign_file, rowless ? broken_runs_file : runs_file});
+  if (!display.statistics_only && rowless) files.push_back(statistics_file);
   for (const char* file : files) fmt::print("{}\n", (folder / file).string());
 }
 

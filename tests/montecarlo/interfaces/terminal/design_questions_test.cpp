@@ -41,7 +41,8 @@ TEST_CASE("an answer that cannot be read is asked again") {
 }
 
 TEST_CASE("no wing is made when the input ends before the last answer") {
-  const std::string answers = "sat\n2\n4\ny\n" + std::string(11, '\n'); // each ends with a line
+  // a yoke and several panels: all numbers are asked for, and the damper
+  const std::string answers = "sat\n2\n4\ny\n" + std::string(design_numbers().size() + 1, '\n');
   for (std::size_t length = 0; length <= answers.size(); ++length) {
     CAPTURE(length);
     std::istringstream in(answers.substr(0, length));
