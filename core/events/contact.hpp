@@ -120,10 +120,10 @@ template <class T>
 /// static limit holds them, and slide in the direction of the load otherwise. Sets dxdt with these contacts.
 ///
 /// First all hinges at rest stick. Then the hinge with the largest ratio of friction to limit slides, which may relieve the
-/// others, and so on until none exceeds its limit. Where τ_s > τ_c the contacts are not unique; of 1,500 random chains at
-/// rest all but 10 have those of loads that grow from zero (growing_loads_test.cpp; 128 differ where all that exceed their
-/// limits are released together, 18 where the largest excess goes first). Ties slide together: the result does not depend
-/// on the hinges' order. Hinges that have just come to rest are released first: one that turns back would load a stuck
+/// others, and so on until none exceeds its limit. Where τ_s > τ_c the contacts are not unique; of the 600 random chains of
+/// growing_loads_test.cpp all but 3 have those of loads that grow from zero (58 differ where all that exceed their limits
+/// are released together, 9 where the largest excess goes first). Ties slide together: the result does not depend on the
+/// hinges' order. Hinges that have just come to rest are released first: one that turns back would load a stuck
 /// hinge far more if it stuck too, but it does not. Released hinges that accelerate against their sense of sliding stick
 /// again, before another is released. Where τ_s = τ_c of all that exceed their limits, the contacts are unique: they slide
 /// together, and stick again after that, which takes fewer rounds.

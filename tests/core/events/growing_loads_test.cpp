@@ -105,8 +105,8 @@ TEST_CASE("loads that are there at once set the hinges sliding that loads growin
   }
   CHECK(slide > scenes);
   CHECK(stick > scenes);
-  CHECK(differ <=
-        scenes / 100); // the order of loads at their full size is not quite that of their growth
+  // Three differ: the order of loads at their full size is not quite that of their growth.
+  CHECK(differ <= scenes / 100);
 }
 
 // With all of them locked, root and tip bear 2.04 and 1.07 N·m, 1.02 and 1.78 of their limits. Once the tip slides, the
