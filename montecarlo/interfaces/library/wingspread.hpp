@@ -39,7 +39,7 @@ struct Input {
   std::string text;
   std::filesystem::path directory; ///< files named in the text are relative to it
 };
-/// @throws SpecError for an empty path
+/// @throws SpecError for an empty path and one with a NUL
 [[nodiscard]] Input from_file(std::filesystem::path file);
 [[nodiscard]] Input from_text(std::string json, std::filesystem::path directory = {});
 

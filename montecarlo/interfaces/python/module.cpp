@@ -29,8 +29,8 @@ constexpr std::chrono::milliseconds quick(50);
 
 std::atomic<int> calls = 0; ///< under way, in any thread of Python
 std::atomic<bool> is_python_ending = false;
-std::thread::id
-    ending_thread; ///< the one that ends Python, and may still call; set before is_python_ending
+/// The thread that ends Python, and may still call. Set before is_python_ending.
+std::thread::id ending_thread;
 
 /// Whether this thread has to end, because Python does.
 bool has_to_end() { return is_python_ending && std::this_thread::get_id() != ending_thread; }
