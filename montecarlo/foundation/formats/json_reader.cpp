@@ -233,6 +233,11 @@ std::optional<JsonCursor> JsonObject::require(std::string_view key, std::string_
   return found;
 }
 
+void JsonObject::pass_over_schema() {
+  std::string unused;
+  optional("$schema", unused, "a string, the address of a JSON Schema, for editors");
+}
+
 void JsonObject::refuse_others() const {
   if (!is_object()) return;
   const std::vector<std::string_view> words(known_.begin(), known_.end());

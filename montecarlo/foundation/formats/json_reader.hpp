@@ -198,6 +198,9 @@ public:
   /// Declares that the keys are names given by the user (of hinges, say), for the schema.
   void keys_are_names() const { at_.note(Question::What::names, ""); }
 
+  /// Passes over "$schema", by which editors find a document's JSON Schema.
+  void pass_over_schema();
+
   /// Notes a problem for each unknown key, with the nearest known key. Call it last.
   void refuse_others() const;
 

@@ -43,7 +43,9 @@ void add_schema_options(CLI::App& command, SchemaOptions& options) {
 `wingspread check` also checks values against each other.
 
 Example:
-  wingspread schema scene > scene.schema.json)");
+  wingspread schema scene > scene.schema.json
+
+A scene with "$schema": "scene.schema.json" names it to the editor; wingspread passes over this key.)");
 }
 
 struct NoOptions {};

@@ -100,6 +100,7 @@ public:
     read_guarantees();
     read_margins();
     (void)object_.find(stamp_key);
+    object_.pass_over_schema();
     if (!was_run_) add_recorded();
     object_.refuse_others();
     if (!problems_.empty()) throw SpecError(std::move(problems_));

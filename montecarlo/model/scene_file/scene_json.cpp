@@ -163,6 +163,7 @@ Scene read_scene(const JsonCursor& at) {
     read_environment(*environment, scene.environment);
   const auto mirror = object.find("mirror");
   const MirrorNames names = mirror ? read_mirror(*mirror) : MirrorNames{};
+  object.pass_over_schema();
   object.refuse_others();
   scene.bodies.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) read_body(bodies[i], scene.bodies[i]);

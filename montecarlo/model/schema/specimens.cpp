@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<std::string_view, 6> scenes{
     R"({
-  "name": "on a fixed base", "base": { "motion": "fixed" },
+  "$schema": "scene.schema.json", "name": "on a fixed base", "base": { "motion": "fixed" },
   "bodies": [
     { "name": "inner", "mass": "10 kg", "inertia": 0.5,
       "plate": { "from": [-0.5, 0], "to": [0.5, 0], "width": 2, "drag_coefficient": 1.9 } },
@@ -163,7 +163,7 @@ constexpr std::array<std::string_view, 4> campaigns{R"({
               "tolerance": 0.01, "cases": ["nominal", "one_spring_out"], "springs_per_hinge": 2,
               "motorization": { "points": 11 } } })",
                                                     R"({
-  "case": "cold", "wingspread": { "version": "0.1.0", "seed": 1, "hash": "0" },
+  "$schema": "campaign.schema.json", "case": "cold", "wingspread": { "version": "0.1.0", "seed": 1, "hash": "0" },
   "sampling": { "design": "random", "runs": 1000, "seed": 1, "extended_from": [100] },
   "integration": { "method": "runge_kutta4", "step": 1e-4, "rtol": 1e-7, "latch": { "smoothed": 1e-3 } },
   "statistics": { "bins": 20 },

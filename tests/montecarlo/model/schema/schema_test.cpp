@@ -347,3 +347,16 @@ TEST_CASE("bounds are read off what readers expect") {
   CHECK(bounds_of("a number, N·m, ≥ coulomb") == Json::object());
   CHECK(bounds_of("a number") == Json::object());
 }
+
+TEST_CASE("a scene or campaign may name its schema") {
+  const auto check = [](Json document, std::vector<Problem> (*problems_of)(const Json&)) {
+    document["$schema"] = "a.schema.json";
+    CHECK(problems_of(document).empty());
+    document["$schema"] = 3;
+    const std::vector<Problem> problems = problems_of(document);
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0].pointer == "/$schema");
+  };
+  check(shipped("scenes").front(), problems_of_scene);
+  check(shipped("campaigns").front(), problems_of_campaign);
+}
