@@ -2,6 +2,7 @@
 #include "montecarlo/analyses/rare/rare_report.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "tests/montecarlo/analyses/rare/lid_support.hpp"
+#include "tests/support/random_cases.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -46,8 +47,8 @@ double sum_of_probabilities(const Strata& strata) {
 
 } // namespace
 
-TEST_CASE("a release that fails once in 100,000: bounds of 12 seeds cover it", "[rare][long]") {
-  constexpr int seeds = 12;
+TEST_CASE("a release that fails once in 100,000: bounds of all seeds cover it", "[rare][long]") {
+  const int seeds = random_cases(12, 6);
   const RareOptions options{.samples = 200, .repeats = 3};
   CHECK(covered(failing_lid(1e-5), options, 1e-5, seeds) == seeds); // certain within the stratum
   CHECK(covered(failing_lid(5e-4), options, 5e-4, seeds) == seeds);
@@ -55,20 +56,20 @@ TEST_CASE("a release that fails once in 100,000: bounds of 12 seeds cover it", "
 
 TEST_CASE("a rare stiffness among common ones, and a rare failure beside late deployments",
           "[rare][long]") {
-  constexpr int seeds = 12;
+  const int seeds = random_cases(12, 6);
   Json island = lid();
   island["scene"]["hinges"][0].erase("release");
   island["dispersions"] = {
       discrete_law("k", {2000, 9000}, {0.9997, 0.0003}, "set", "hinges.h.latch.stiffness"),
       normal_law("s", 1, 0.05, "scale", "hinges.h.spring.scale")};
   CHECK(covered(island, {.event = {"h.peak_moment", 120, true}, .samples = 200, .repeats = 3}, 3e-4,
-                seeds) >= 10);
+                seeds) >= seeds - seeds / 6);
   // it latches later than 8 s: never, or after a delay of 8 s less the travel's time
   const double late = upper_tail((8 - std::sqrt(2 * 1.5 / 1.2) - 5) / 0.4);
   const double exact = 5e-4 + (1 - 5e-4) * late;
   CHECK(covered(failing_lid(5e-4),
                 {.event = {"h.latch_time", 8, true}, .samples = 500, .repeats = 5}, exact,
-                seeds) >= 10);
+                seeds) >= seeds - seeds / 6);
 }
 
 TEST_CASE("two rare values that only together stall the wing: one in a million", "[rare]") {
