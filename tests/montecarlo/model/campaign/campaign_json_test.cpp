@@ -135,10 +135,8 @@ TEST_CASE("Each fault of a campaign is told", "[campaign_json]") {
        {"/output", "[]",
         "/output: found the unknown key \"output\", expected \"scene\", \"dispersions\", "
         "\"cases\", \"case\", \"sampling\", \"integration\", \"outputs\", \"statistics\", "
-        "\"report\", \"correlations\", \"requirements\", \"until\", \"motorization\", \"margin\" "
-        "or "
-        "\"wingspread\" (did you mean "
-        "\"outputs\"?)"}}));
+        "\"report\", \"correlations\", \"requirements\", \"until\", \"motorization\", \"margin\", "
+        "\"wingspread\" or \"$schema\" (did you mean \"outputs\"?)"}}));
   CAPTURE(change.pointer, change.value);
   CHECK(test::facts_of(problems(change)) == test::facts_of(change.message));
 }

@@ -102,7 +102,8 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
         "/hinges/1/parent: found string \"inner\", expected \"base\" or a body's name"},
        {"/hinge", "1",
         "/hinge: found the unknown key \"hinge\", expected \"name\", \"base\", \"bodies\", "
-        "\"hinges\", \"synchronisations\", \"environment\" or \"mirror\" (did you mean "
+        "\"hinges\", \"synchronisations\", \"environment\", \"mirror\" or \"$schema\" (did you "
+        "mean "
         "\"hinges\"?)"},
        {"/base", "", "/base: found nothing, expected an object with the base's motion"},
        {"/base", "\"fixed\"",
