@@ -19,10 +19,8 @@ Scene for_small_swings(Scene scene) {
   scene.base.rate = scene.base.angular_acceleration = 0;
   scene.base.table = nullptr;
   scene.environment.air_density = 0;
-  for (Hinge& hinge : scene.hinges) {
+  for (Hinge& hinge : scene.hinges)
     if (hinge.damper && hinge.damper->law == DamperLaw::power) hinge.damper.reset();
-    if (hinge.latch) hinge.latch->backlash = 0;
-  }
   return scene;
 }
 

@@ -331,6 +331,9 @@ TEST_CASE(
   CHECK(open.code == 1);
   CHECK_THAT(open.error, HasFacts({"7 of 20 runs", "3", "\nnote: ", "--seed", "adds a risk",
                                    "--resume --runs"}));
+  const auto fixed = program({"run", close, "--out", program.out + "4", "--runs", "20", "--until",
+                              "deployed 0.9"}); // whose analyses are fixed: none can be added
+  CHECK_THAT(fixed.error, Catch::Contains("adds a risk") && !Catch::Contains("--resume --runs"));
   const auto longer =
       program({"run", close, "--out", program.out + "3", "--runs", "40", "--resume", "--table"});
   CHECK_THAT(longer.out,

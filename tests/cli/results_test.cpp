@@ -154,6 +154,7 @@ TEST_CASE("a campaign that stopped is complete, whatever it is judged by afterwa
   const DoneCampaign done(json);
   const Json before = parse_json_file(done.path / summary_file);
   REQUIRE(before["until"]["stopped"] == true);
+  CHECK(before.contains("accuracy")); // as of one that made all its runs
   const std::string late = done.folder.write(
       "late.json",
       R"([{ "name": "L-1", "output": "deployment_time", "max": 2, "probability": 0.8, "confidence": 0.9 }])");

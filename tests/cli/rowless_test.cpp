@@ -198,9 +198,15 @@ TEST_CASE("what takes every row refuses a folder without rows; the rest works on
   CHECK_THAT(replayed(other),
              HasFacts({"\nRun " + std::to_string(other) + " is not in broken_runs.csv"}));
   const HasFacts refusal{"error: " + made.none + ": found a campaign", "--no-rows", "runs.csv"};
-  const auto [code, out, error] = made.program({"sensitivity", made.none});
-  CHECK(code == 2);
-  CHECK_THAT(error, refusal);
+  const std::string late = made.folder.write(
+      "late.json",
+      R"([{ "output": "deployment_time", "max": 2, "probability": 0.8, "confidence": 0.9 }])");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"sensitivity", made.none},
+                                                {"analyze", made.none, "--requirements", late}}) {
+    const auto [code, out, error] = made.program(words);
+    CHECK(code == 2);
+    CHECK_THAT(error, refusal);
+  }
 }
 
 TEST_CASE(

@@ -233,6 +233,7 @@ TEST_CASE("rare refuses half an event, and an odd number of samples") {
   for (const std::vector<std::string>& extra :
        {std::vector<std::string>{"--output", "root.latch_time"},
         {"--above", "3"},
+        {"--abs"},
         {"--output", "root.latch_time", "--above", "3", "--below", "2"},
         {"--samples", "105"},
         {"--samples", "50"},

@@ -7,6 +7,7 @@
 #include "montecarlo/foundation/platform/progress.hpp"
 #include "montecarlo/foundation/platform/standard_error.hpp"
 #include "montecarlo/interfaces/terminal/exit_code.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 #include "montecarlo/results/summary/compact_table.hpp"
 #include "montecarlo/results/summary/table.hpp"
 

@@ -4,6 +4,7 @@
 #include "montecarlo/analyses/sensitivity/rank_report.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/printable.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/report/data/output_json.hpp"

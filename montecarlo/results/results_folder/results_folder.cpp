@@ -7,6 +7,7 @@
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/input_file.hpp"
 #include "montecarlo/foundation/formats/json_reader.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/guarantees.hpp"
 #include "montecarlo/results/results_folder/row_check.hpp"

@@ -294,6 +294,7 @@ TEST_CASE("parameters that limit each other") {
   for (const double fails : {0., 1.}) accepted([&](Scene& s) { root(s).release->fails = fails; });
   refused("hinges.root.release.fails", [](Scene& s) { root(s).release->fails = 0.5; });
   refused("bodies.panel.plate.to", [](Scene& s) { s.bodies[0].plate->to = {-0.5, 0}; });
+  accepted([](Scene& s) { s.bodies[0].plate->to = {-0.5, 1}; }); // of the same length, along y
   refused("bodies.panel.plate", [](Scene& s) { s.bodies[0].plate.reset(); });
   refused("synchronisations.loop.ratio", [](Scene& s) { s.synchronisations[0].ratio = 0; });
   accepted([](Scene& s) { s.synchronisations[0].ratio = -least; });

@@ -61,6 +61,8 @@ TEST_CASE("friction's levels, with what a torque test both ways adds", "[torque]
   CHECK(static_level_at(hinge, 0.5) == 2);
   hinge.friction.model = FrictionModel::exact;
   CHECK(static_level_at(hinge, 0.5) == 2.5);
+  hinge.friction.static_level.reset(); // sticks by its Coulomb level
+  CHECK(static_level_at(hinge, 0.5) == 2);
 }
 
 // Noise may make the torque of a test both ways larger deploying than stowing; friction does not drive for that.

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <functional>
 
@@ -272,7 +273,8 @@ TEST_CASE("numbers that no run has, or that cannot be compared, are refused with
                              Catch::Contains("opposite sense"));
   for (const double factor : {180 / M_PI, -180 / M_PI, 1e3})
     CHECK_THAT(rate(-1.28 * factor),
-               Catch::Contains("/tests/0/values/0/value: ") && Catch::Contains("with its unit"));
+               Catch::Contains("/tests/0/values/0/value: ") && Catch::Contains("with its unit") &&
+                   Catch::Contains(fmt::format(", {:.4g} times too large", factor)));
   Json slow = panel_campaign();
   slow["integration"]["t_end"] = 0.5;
   const Campaign never_latches = campaign_of(slow);

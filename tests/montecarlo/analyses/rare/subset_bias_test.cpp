@@ -96,4 +96,8 @@ TEST_CASE("of plain sampling there is no bias, and of others it does not go away
   chains.probability = 1e-3, chains.variation = 0.2, chains.reached = true;
   chains.levels.resize(3);
   CHECK(combined(std::vector(4, chains), 0.95).bias == Approx(0.5 * 0.04).epsilon(1e-12));
+  SubsetEstimate stuck; // by plain sampling at its only level, beside one that went on
+  stuck.stuck = true, stuck.variation = 0.3;
+  stuck.levels.resize(1);
+  CHECK(combined(std::vector{chains, stuck}, 0.95).bias == Approx(0.5 * 0.04 / 2).epsilon(1e-12));
 }

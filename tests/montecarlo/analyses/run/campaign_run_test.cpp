@@ -169,6 +169,18 @@ TEST_CASE("cases are run one after the other, and their progress adds up", "[cas
                             [](const RunCounts& counts) { return counts.total == 80; }));
 }
 
+TEST_CASE("runs that a case leaves out, as it has reached its goal, are no longer in the total",
+          "[cases]") {
+  Json json = two_cases(1010);
+  json["outputs"] = {"latch_time"};
+  json["until"] = parse_json(R"([{ "output": "deployed", "width": 0.5 }])"); // reached after 1000
+  const Folder folder;
+  Caller caller;
+  (void)caller.run({.campaign = campaign_of(json), .out = folder.path() / "r"});
+  CHECK(caller.tallies.front().total == 2020);
+  CHECK((caller.tallies.back().done == 2000 && caller.tallies.back().total == 2010));
+}
+
 TEST_CASE("cases that are stopped have no comparison, and one case alone can be run", "[cases]") {
   const Folder folder;
   const RunRequest request{.campaign = campaign_of(two_cases(400)), .out = folder.path() / "r"};

@@ -114,6 +114,26 @@ TEST_CASE("physical draws are not warned of", "[warnings]") {
   CHECK(check_campaign(campaign_of(quick_campaign(runs)), "").empty());
 }
 
+// A rare value is tried with the other laws at their medians: either is physical, both together would not be.
+TEST_CASE("rare values of two laws are not tried together", "[warnings]") {
+  Json json =
+      with_dispersion(R"({ "name": "x", "apply": "add", "to": ["hinges.mid.friction.coulomb"],
+       "distribution": { "type": "discrete", "values": [0, 0.006], "weights": [1e9, 1] } })");
+  json["dispersions"].push_back(
+      parse_json(R"({ "name": "y", "apply": "add", "to": ["hinges.mid.friction.static"],
+       "distribution": { "type": "discrete", "values": [0, -0.006], "weights": [1e9, 1] } })"));
+  json["scene"]["hinges"][1]["friction"] = {
+      {"model", "exact"}, {"coulomb", 0.02}, {"static", 0.03}};
+  const auto told = [&] {
+    for (const InputWarning& each : check_campaign(campaign_of(json), ""))
+      if (each.found.starts_with("unphysical draws")) return each.pointer;
+    return std::string();
+  };
+  CHECK(told() == "");
+  json["dispersions"][3]["distribution"]["values"][1] = -0.012; // below 0.02 by itself
+  CHECK(told() == "/dispersions/3");
+}
+
 TEST_CASE("a hold that half fails is warned of, however rare", "[warnings]") {
   const auto told = [](const char* law) {
     Json json = with_dispersion(

@@ -72,3 +72,10 @@ TEST_CASE("the nested R-hat has its definition's value") {
   const double between = (1.0 + 1.0 + 2.25 + 2.25) / 3; // about 3.5
   CHECK(diagnose(chains, 2).r_hat == Approx(std::sqrt(1 + between / within)).epsilon(1e-12));
 }
+
+// Python 3.11: of the four halves ρ_0 + ρ_1 = 1.215, ρ_2 + ρ_3 = 0.118, and ρ_4 + ρ_5 = 0.651 counts as the 0.118 before it.
+TEST_CASE("a pair of autocorrelations counts no more than the one before it") {
+  const std::vector<std::vector<double>> chains{{1, 4, 3, 4, 2, 3, 3, 3, 0, 0, 2, 3},
+                                                {2, 2, 0, 1, 0, 3, 4, 4, 3, 1, 4, 4}};
+  CHECK(diagnose(chains, 1).ess == Approx(12.616071428571425).epsilon(1e-12));
+}

@@ -142,6 +142,8 @@ TEST_CASE("Each fault of the CSV file is told with its line", "[distribution_jso
        {"x\n1\n1 m\n", "data.csv: line 3, column 'x': found '1 m', expected a finite number"},
        {"x\ninf\n", "data.csv: line 2, column 'x': found 'inf', expected a finite number"},
        {"x,y\n,2\n", "data.csv: line 2, column 'x': found '', expected a finite number"},
+       // of a single column an empty line is a number that is missing
+       {"x\n1\n\n2\n", "data.csv: line 3, column 'x': found '', expected a finite number"},
        {"x\n", "/values: found none, expected at least one"}}));
   CAPTURE(csv);
   CHECK(test::facts_of(read_law(from_file, csv).problems) == test::facts_of(message));

@@ -63,6 +63,19 @@ TEST_CASE("A margin is read with its defaults, and written in full", "[margin]")
                              "scaled by 0.5 to 2, all together, no spring lost\n"));
 }
 
+// NASA-STD-5017B: the factors fall with what is known of the torques.
+TEST_CASE("NASA's factors are those of their basis", "[margin]") {
+  for (const auto& [basis, fixed, variable] : {std::tuple{"analysis", 1.5, 3.0},
+                                               {"development_test", 1.35, 2.5},
+                                               {"acceptance", 1.25, 2.0}}) {
+    CAPTURE(basis);
+    Json margin = small_margin();
+    margin["motorization"]["nasa"]["basis"] = basis;
+    const NasaFactors nasa = read_margin(margin).motorization.nasa;
+    CHECK((nasa.fixed == fixed && nasa.variable == variable));
+  }
+}
+
 TEST_CASE("A campaign without a margin is the one that it was", "[margin]") {
   CHECK_FALSE(read_campaign(test::small_campaign().dump(), "").resolved.contains("margin"));
 }
@@ -242,7 +255,7 @@ TEST_CASE("where --scale names no spring, the campaign's case of a lost spring i
   Json json = test::one_panel_margin(10);
   json["margin"]["cases"] = {"nominal", "one_spring_out"};
   const auto with = [&](const std::vector<std::string>& scale) {
-    Campaign campaign = campaign_of(json);
+    Campaign campaign = test::campaign_of(json);
     override_margin(campaign, scale, {0.9, 1.1});
     return std::pair(campaign.margin->nominal, campaign.margin->one_spring_out);
   };

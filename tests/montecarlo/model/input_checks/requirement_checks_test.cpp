@@ -1,6 +1,7 @@
 // Where check says that no peak can be proven final, no run of any length has a proof; elsewhere runs have one.
 #include "core/deployment.hpp"
 #include "montecarlo/model/input_checks/requirement_checks.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -61,4 +62,25 @@ TEST_CASE("where no peak can be proven final, none is, and elsewhere they are", 
   Scene quickening = one_panel();
   quickening.base.motion = BaseMotion::prescribed, quickening.base.angular_acceleration = 1e-4;
   CHECK_FALSE(why_never_final(quickening).empty());
+}
+
+TEST_CASE("a limit far from the nominal value: met by every run or by none, by its side",
+          "[warnings]") {
+  Campaign campaign = test::campaign_of(test::quick_campaign(10));
+  const Outcome nominal = Deployment().run(campaign.scene, campaign.integration, {});
+  REQUIRE(nominal.status == Status::deployed);
+  const double time = nominal.latches.back().time;
+  for (const bool is_max : {true, false})
+    for (const bool is_far_above : {true, false}) {
+      CAPTURE(is_max, is_far_above);
+      Requirement requirement;
+      requirement.output = "deployment_time";
+      (is_max ? requirement.max : requirement.min) = time * (is_far_above ? 1e3 : 1e-3);
+      campaign.requirements = {requirement};
+      InputWarnings warnings({});
+      check_requirements(campaign, nominal, warnings);
+      REQUIRE(warnings.list().size() == 1);
+      CHECK_THAT(warnings.list()[0].usual,
+                 Catch::Contains(is_max == is_far_above ? "every run meets" : "no run meets"));
+    }
 }

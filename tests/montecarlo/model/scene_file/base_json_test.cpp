@@ -42,6 +42,11 @@ TEST_CASE("A base's table of time is read, and written as it was given", "[base_
         R"("acceleration":[[0.0,1.0],[2.0,3.0],[0.0,0.5]],"rate":[0.0,0.25,0.125],"scale":1.5},)"
         R"("interpolation":"linear","angle":0.5})");
   CHECK(write_scene(read_scene(written)) == written);
+  for (const double scale : {-0.5, 0.0, 0.5, 1.0}) {
+    Scene scaled = scene;
+    scaled.base.table_scale = scale;
+    CHECK(read_scene(write_scene(scaled)).base.table_scale == scale);
+  }
 }
 
 TEST_CASE("What a base's table does not give stands beside it", "[base_json]") {

@@ -189,9 +189,9 @@ TEST_CASE("coefficients have three or four digits on the page, points six and bo
 
 namespace {
 
-/// A set of invented runs whose deployment time is 13 − 4 × the root spring's factor, limited.
+/// A set of invented runs whose deployment time is 9 + slope × (the root spring's factor − 1), limited.
 std::unique_ptr<PageSource> slow_set(double limit, int runs = 1000, const char* design = "random",
-                                     double spread = 0.05) {
+                                     double spread = 0.05, double slope = -4) {
   Json json = quick_campaign(runs);
   json["sampling"]["design"] = design;
   if (runs > 10'000) json["statistics"]["accuracy_runs"] = 0;
@@ -209,7 +209,7 @@ std::unique_ptr<PageSource> slow_set(double limit, int runs = 1000, const char* 
     std::vector<double> draws{1 + spread * normal(random)};
     for (int panel = 0; panel < 3; ++panel) draws.push_back(9 + 2 * uniform(random));
     std::vector<double> outputs(names.outputs.size(), 1.0);
-    outputs[static_cast<std::size_t>(column)] = 13 - 4 * draws[0];
+    outputs[static_cast<std::size_t>(column)] = 9 + slope * (draws[0] - 1);
     results.append({run, Status::deployed, draws, outputs, "root>mid>tip", ""});
   }
   return source_of(campaign, std::move(results));
@@ -265,6 +265,15 @@ TEST_CASE(
   CHECK(unknown["levers"][0]["upper"].is_null());
   CHECK(unknown["levers"][0]["lower"].get<double>() > 1);
   CHECK(unknown["needs"][0]["change"].is_null());
+}
+
+TEST_CASE("a value that has to fall is looked for below the present one", "[page][needed]") {
+  const auto source = slow_set(9.37, 1000, "random", 0.05, 4);
+  const Json lever = changes_json(*source, source->summary.requirements.front())[0]["levers"][0];
+  const double t = lever["change"].get<double>() - 1; // 5 + 4 f x ≤ 9.37
+  CHECK((t < -0.02 && t > -0.2));
+  CHECK_THAT(lever["command"].get<std::string>(),
+             Catch::Contains(fmt::format(" --range {:.3g} {:.3g} ", 1 + 2 * t, 1 - t / 2)));
 }
 
 TEST_CASE("effects of independent draws are those of the first 10000 runs, of a design of all",

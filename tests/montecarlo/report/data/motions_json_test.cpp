@@ -78,11 +78,15 @@ TEST_CASE("where nothing breaks a requirement its worst run is the nearest to th
   json["requirements"] = parse_json(R"([
     { "output": "root.peak_moment", "max": 100, "probability": 0.2, "confidence": 0.5 },
     { "output": "deployment_time", "min": 1, "probability": 0.2, "confidence": 0.5 } ])");
-  const auto chosen = chosen_runs(*invented(
-      json, {{Status::deployed, 5, 10}, {Status::deployed, 6, 30}, {Status::deployed, 4, 20}}));
+  const std::vector<Invented> runs{
+      {Status::deployed, 5, 10}, {Status::deployed, 6, 30}, {Status::deployed, 4, 20}};
+  const auto chosen = chosen_runs(*invented(json, runs));
   CHECK(names_of(chosen) ==
         std::vector<std::pair<std::string, long>>{
             {"median run", 0}, {"worst: root.peak_moment", 1}, {"worst: deployment_time", 2}});
+  CHECK(chosen[1].why == "nearest to the limit");
+  json["requirements"][0]["max"] = 25;
+  CHECK(chosen_runs(*invented(json, runs))[1].why == "farthest beyond the limit");
 }
 
 TEST_CASE("without requirements the largest peaks stand for the worst", "[page]") {

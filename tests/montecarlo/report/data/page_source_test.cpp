@@ -77,6 +77,9 @@ TEST_CASE("the page's bounds hold together over all interim analyses, with rows 
   const auto streaming = read_page_source(read_stored_campaign(path), "streaming", nullptr, 1);
   CHECK(streaming->confidence == 0.95);
   CHECK((rows->has_rows() && !streaming->has_rows()));
+  CHECK_THAT(set_json(*streaming, {}, 1)["made_by"].get<std::string>(),
+             Catch::EndsWith(" --no-rows --out again"));
+  CHECK_THAT(set_json(*rows, {}, 1)["made_by"].get<std::string>(), !Catch::Contains("--no-rows"));
   CHECK(streaming->made_from == path);
   CHECK(streaming->summary.runs == 5000);
   CHECK(set_json(*streaming, {}, 1)["orders"][0]["count"] ==

@@ -219,10 +219,11 @@ TEST_CASE("the folder of a study: new, gone on with, finished") {
                                             "empty folder (--resume continues this one)");
   CHECK_FALSE(open(true, about));
   CHECK_THROWS_WITH(open(true, {{"samples", 200}}), Catch::Contains("/samples: found 100"));
+  write_file(path / "last.json", about.dump());
+  CHECK_FALSE(open(true, about)); // killed between its last file and the end of its checkpoint
   {
     StudyFolder own(path, about, "last.json", true);
     CHECK_THROWS_AS(open(true, about), MachineError); // one writer
-    write_file(path / "last.json", about.dump());
     own.finish();
   }
   CHECK_FALSE(std::filesystem::exists(path / checkpoint_file));

@@ -108,10 +108,10 @@ TEST_CASE("a campaign is not continued with fewer runs, nor where draws or looks
   CHECK_THAT(refused(sized("random", 3)), Catch::Contains("found 4, expected 3: ") &&
                                               Catch::Contains("none taken away") &&
                                               Catch::Contains("--runs 4 "));
-  CHECK_THAT(
-      refused(sized("random", 6, "deployed 0.1")),
+  const auto of_looks =
       Catch::Contains("found 4, expected 6: the interim analyses of a campaign that may stop early "
-                      "depend on the number of runs; run it into a new folder\n"));
+                      "depend on the number of runs; run it into a new folder\n");
+  CHECK_THAT(refused(sized("random", 6, "deployed 0.1")), of_looks);
   CHECK_THAT(
       refused(sized("random", 6), {.shard = Shard{1, 2}, .resume = true}),
       Catch::Contains("found 4, expected 6: a shard's runs depend on the number of all; run it "
@@ -122,6 +122,9 @@ TEST_CASE("a campaign is not continued with fewer runs, nor where draws or looks
   other = quick_campaign(6);
   other["sampling"]["seed"] = 8;
   CHECK_THAT(refused(campaign_of(other)), Catch::Contains("/sampling/seed: found 7"));
+  std::filesystem::remove_all(path);
+  (void)run_into(path, sized("random", 4, "deployed 0.1"));
+  CHECK_THAT(refused(sized("random", 6)), of_looks);
 }
 
 TEST_CASE("more runs are added to a campaign as one more look, and give what one go would have") {

@@ -95,6 +95,7 @@ TEST_CASE("a merge removes all that an earlier preview of cases wrote, before it
   make(a, campaign, {1, 2}, {});
   make(b, campaign, {2, 2}, {});
   (void)merge_cases({a}, out, MergeKind::preview);
+  CHECK(read_stored_campaign(out).stamp.preview == Preview{6, 12}); // of both cases
   for (const auto& page : {out / "report.html", out / "hot" / "report.html"})
     write_file(page, "of the preview");
   SECTION("an interruption leaves nothing of it beside the new campaign.json") {

@@ -288,6 +288,7 @@ TEST_CASE("summary.json: requirements with their evidence, and the runs to be se
   CHECK(json[2]["verdict"] == "fail"); // too few to show it, and enough to disprove it
   CHECK(json[2]["failures"]["allowed"].is_null());
   CHECK(json[2]["least_runs"] == 23025);
+  CHECK_FALSE(json[0].contains("least_runs")); // there are enough
   check_strict(json);
 }
 
