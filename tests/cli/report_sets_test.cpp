@@ -24,7 +24,8 @@ TEST_CASE("a folder beside one of its cases is refused, and each set has its cam
   const auto folders_of = [&](const std::string& first, const std::string& second) {
     CHECK(run_program(folder, {"report", first, second, "--out", page}).code == 0);
     std::vector<int> numbers;
-    for (const Json& set : page_data(page)["sets"]) numbers.push_back(set["campaign_folder"]);
+    const Json data = page_data(page);
+    for (const Json& set : data["sets"]) numbers.push_back(set["campaign_folder"]);
     return numbers;
   };
   CHECK(folders_of(hot, path + "/hot/../cold") == std::vector{0, 0});

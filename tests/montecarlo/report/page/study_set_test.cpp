@@ -220,7 +220,7 @@ TEST_CASE("a page of studies has the words of the first campaign that has them",
   const auto written = [&](const char* name, const Json& words) {
     std::filesystem::create_directories(folder.path() / name);
     study["report"] = words;
-    folder.write(std::string(name) + "/rare.json", study.dump());
+    folder.write((std::string(name) + "/rare.json").c_str(), study.dump());
     return folder.path() / name;
   };
   const std::vector<std::filesystem::path> folders{
