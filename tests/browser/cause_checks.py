@@ -46,14 +46,20 @@ class CauseChecks:
             self.assertAlmostEqual(float(share), 100 * between / (between + inside), delta=0.06, msg=text)
             self.assertAlmostEqual(float(pooled), math.sqrt(inside), delta=0.006 * math.sqrt(inside), msg=text)
 
-    def test_folders_are_said_to_have_cases_only_if_each_has_all_of_them(self):
+    def test_folders_and_their_cases_are_counted(self):
+        """Of sets written "label case folder", with "-" for none; behind "without" those of cases without runs."""
         self.open(pages.made_up("cases"))
-        for labels in ("A cold|B hot", "A cold|A hot|B cold", "A cold|A hot|B cold|B hot", "A cold|A hot|B cold|C hot"):
-            folders, cases = (sorted({label.split()[k] for label in labels.split("|")}) for k in (0, 1))
-            extent = self.run_script("""const first = W.sets[0]; W.sets.length = 0;
-                arguments[0].forEach(([folder, one]) => W.sets.push({ ...first, case: one, label: `${folder} · ${one}` }));
-                W.subtitle(); return document.querySelector('#subtitle .facts').textContent""", [label.split() for label in labels.split("|")])
-            whole = labels.count("|") + 1 == len(folders) * len(cases)
-            self.assertEqual(f"{len(folders)} folders ({', '.join(folders)}) of {len(cases)} cases" in extent, whole, extent)
-            if not whole:
-                self.assertIn(f"{labels.count('|') + 1} cases: {labels.replace(' ', ' · ').replace('|', ', ')}", extent)
+        for given, text, kind in (
+                ("cold cold 0|hot hot 0", "2 cases: cold, hot", "case"), ("A - 0|B - 1", "2 folders: A, B", "folder"),
+                ("A·cold cold 0|B·hot hot 1", "2 folders: A · cold, B · hot", "case"), ("A·cold cold 0|A·hot hot 0|B·cold cold 1", "2 folders: A (2 cases: cold, hot), B · cold", "case"),
+                ("A·cold cold 0|A·hot hot 0|B·cold cold 1|B·hot hot 1", "2 folders (A, B) of 2 cases (cold, hot)", "case"), ("a/A/cold cold 0|a/A/hot hot 0|b/A/cold cold 1|b/A/hot hot 1", "2 folders (a/A, b/A) of 2 cases (cold, hot)", "case"),
+                ("A·cold cold 0|A·hot hot 0|B - 1", "2 folders: A (2 cases: cold, hot), B", "set"), ("A/x/cold cold 0|B/x/cold cold 1", "2 folders (A/x, B/x) of 1 case (cold)", "folder"),
+                ("cold cold 0 without late late 0", "1 of 2 cases: cold", "case"), ("A·cold cold 0|B - 1 without A·late late 0|A·dark dark 0", "2 folders: A (1 of 3 cases: cold), B", "set"),
+                ("A·cold cold 0|B·cold cold 1 without B·late late 1", "2 folders: A · cold, B (1 of 2 cases: cold)", "folder"), ("B - 1 without A·late late 0|A·dark dark 0", "2 folders: B, A (0 of 2 cases)", "folder")):
+            made, _, unmade = given.partition(" without ")
+            listed = lambda texts: [text.replace("·", " · ").rsplit(" ", 2) for text in texts.split("|") if text]
+            facts, found, head = self.run_script("""const first = W.sets[0], set = ([label, one, folder]) => ({ label, case: one === '-' ? null : one, campaign_folder: Number(folder) }); W.sets.length = 0;
+                arguments[0].forEach(one => W.sets.push({ ...first, ...set(one) })); W.data.unmade = arguments[1].map(one => ({ ...set(one), planned: 5 }));
+                W.subtitle(); return [[...document.querySelectorAll('#subtitle .facts span')].map(one => one.textContent), W.kindOfSets(), W.headOfSets()]""", listed(made), listed(unmade))
+            self.assertIn(text, facts, given)
+            self.assertEqual((found, head), (kind, kind.capitalize()), given)

@@ -88,14 +88,36 @@ class JudgementChecks:
         facts, head, badges, *_ = seen("")
         self.assertNotIn("incomplete", facts + head)
         self.assertNotIn("so far", badges)
-        for change, lacks, late in (("Object.assign(W.sets[0], { runs: 62, planned: 4500 })", "62 of 4,500 runs of case cold", False), ("W.data.unmade = [{ label: 'late', planned: 4500 }]", "62 of 4,500 runs of case cold, none of late", True),
+        for change, lacks, late in (("Object.assign(W.sets[0], { runs: 62, planned: 4500 })", "62 of 4,500 runs of case cold", False), ("W.data.unmade = [{ label: 'late', case: 'late', campaign_folder: 0, planned: 4500 }]", "62 of 4,500 runs of case cold, none of late", True),
                                     ("Object.assign(W.sets[1], { runs: 0, planned: 4500 })", "62 of 4,500 runs of case cold, none of ambient and late", True), ("W.sets.forEach(set => Object.assign(set, { runs: 4500, planned: 4500 }))", "no run of case late", True)):
             facts, head, badges, columns, warnings = seen(f"W.data.incomplete = '{lacks}'; {change}")  # the program writes the sentence
             self.assertIn(f"incomplete: {lacks}", facts)
             self.assertTrue(head.startswith(f"? incomplete {lacks}"), head)
-            self.assertEqual(set(badges.split(" | ")), {"✓ pass so far"})
+            partial = self.run_script("return W.sets.map(W.isPartial)")
+            self.assertEqual(set(badges.split(" | ")), {"✓ pass so far" if one else "✓ pass" for one in partial})
+            self.assertEqual(self.run_script("return [...document.querySelector('#verdicts .matrix tbody').rows[0].querySelectorAll('.badge')].map(one => one.textContent.includes('so far'))"), partial)
             self.assertEqual(("late" in columns, "late holds none of 4,500 planned runs" in warnings, "3 of 4 cases" in facts), (late,) * 3)
-        self.assertEqual(self.run_script("return document.querySelectorAll('#verdicts .badge.passed').length"), 0)
+            self.assertTrue(head.endswith("late: not judged" if late and not any(partial) else "not judged" if all(partial) else head[-10:]), head)
+
+    def test_a_finished_folder_keeps_its_verdicts_beside_one_that_lacks_runs(self):
+        self.open(pages.made_up("cases"))
+        self.run_script("W.sets.forEach((set, at) => Object.assign(set, { case: null, label: ['preview', 'whole', 'shard'][at] })); W.data.incomplete = '2,000 of 3,000 runs of preview'; Object.assign(W.sets[0], { planned: 3000, partial: true }); W.sets[2].shard = '2/3'")
+        unjudged = [stated(name, "open", guaranteed_value=None, margin=None, allowed=None, observed_value=None) for name in "AB"]
+        badges = "return [...document.querySelector('#verdicts .matrix tbody').rows].map(row => [...row.cells].slice(1).map(one => one.textContent))"
+        for verdicts, text in ((["passed", "failed"], "✕ fail 1 of 2 requirements fails in whole: B preview and shard: not judged; whole: 1 fails, 1 passes"),
+                               (["failed", "failed"], "✕ fail Each of 2 requirements fails in whole preview and shard: not judged; whole: 2 fail"),
+                               (["passed", "passed"], "? incomplete 2,000 of 3,000 runs of preview There is no final verdict. preview and shard: not judged; whole: 2 pass"),
+                               ([], "? incomplete 2,000 of 3,000 runs of preview There is no final verdict. preview and shard: not judged; whole: no requirements")):
+            (head,) = self.told("#verdicts .headline", unjudged, [stated(name, verdict) for name, verdict in zip("AB", verdicts)], unjudged)
+            self.assertEqual(head, text)
+            words = {"passed": "✓ pass", "failed": "✕ fail"}
+            for at, row in enumerate(self.run_script(badges)):
+                self.assertTrue(row[1].startswith(f"{words[sorted(verdicts)[at]]} +40") if verdicts else row[1] == "–", row)
+                self.assertEqual({row[0], row[2]}, {"? undecided so far not judged"})
+        self.assertIn("? undecided so far", [row[1] for row in self.table("Requirements, the worst first")])
+        self.run_script("W.data.incomplete = null; W.sets[0].planned = 2000; W.sets[0].partial = false")
+        (head,) = self.told("#verdicts .headline", [stated("A")], [stated("A")], unjudged[:1])  # a shard has no verdict either
+        self.assertEqual(head, "? not judged shard is shard 2/3 There is no final verdict. preview and whole: 1 passes; shard: not judged")
 
     def test_a_requirement_and_what_breaks_it_in_words(self):
         self.open(pages.made_up("plain"))

@@ -155,7 +155,7 @@ def make_set(label, seed, hinge_count=3, count=2000, shift=0.0, stalls=0.0, all_
     folder = f"results/mock/{case}" if case else "results/mock"
     tally = [sum(row["status"] == status for row in rows) for status in STATUSES]
     return {
-        "label": label, "folder": folder, "case": case, "campaign": "mock_wing", "seed": str(seed), "foreign": False, "stopped": False, "looks": 1, "hash": "5f1c0a93d2e84b77",
+        "label": label, "folder": folder, "case": case, "campaign_folder": 0, "campaign": "mock_wing", "seed": str(seed), "foreign": False, "stopped": False, "looks": 1, "hash": "5f1c0a93d2e84b77",
         "description": "Made-up numbers for the tests of the page.", "version": "0.2.0+mock", "runs": count, "planned": count,
         "partial": False, "shard": None, "design": "random", "confidence": 0.95, "replicates": 0,
         "made_by": f"wingspread run studies/campaigns/mock.json --seed {seed} --runs {count} --out results/mock",

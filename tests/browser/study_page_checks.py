@@ -124,6 +124,8 @@ class StudyPageChecks:
         self.open(pages.made_up("beside"))
         titles = self.run_script("return [...document.querySelectorAll('#why .grid.pairs > div > h3')].map(one => one.textContent)")
         self.assertEqual(titles, ["Permissible spring strength · margin", "Static margins · margin", "Sensitivity · sobol", "Rare events · rare"])
+        told = self.run_script("W.studySets.forEach(set => { set.case = 'hot'; if (set.rare) set.rare.case = 'hot'; }); W.why(); return [...document.querySelectorAll('#why .grid.pairs > div')].map(one => (one.querySelector('h3').textContent + ' ' + (one.querySelector('p b')?.textContent ?? '')).match(/case hot/g)?.length ?? 0)")
+        self.assertEqual(told, [1] * len(titles))  # each names its case, once
         chooser = self.run_script("const one = [...document.querySelectorAll('#why .grid.pairs select')].pop(); return [[...one.options].map(each => each.textContent), one.selectedOptions[0].textContent]")
         self.assertEqual(chooser, [["root peak moment", "tip latch time"], self.run_script("return W.format.nameOf(['root.peak_moment', 'tip.latch_time'].includes(W.chosen.output) ? W.chosen.output : 'root.peak_moment')")])
         self.run_script("const one = [...document.querySelectorAll('#why .grid.pairs select')].pop(); one.value = 'tip.latch_time'; one.dispatchEvent(new Event('change'))")

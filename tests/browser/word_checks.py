@@ -145,7 +145,7 @@ class WordChecks:
         self.assertRegex(title("W.sets.forEach(set => set.requirements.forEach(one => one.confidence = 0.95))")[5], "[a-z]bounds at 95 %$")
         self.assertIn("stopped early: its goals were met (5,000 runs planned)", title("Object.assign(W.set(), { stopped: true, planned: 5000 })")[5])
         self.assertNotIn("interim", title("W.set().looks = 1")[5])
-        self.assertIn("2 folders (A · x, B) of 2 cases (cold, hot)", title("W.sets.push({ ...W.sets[0] }); W.sets.forEach((set, at) => Object.assign(set, { case: at % 2 ? 'hot' : 'cold', label: `${at < 2 ? 'A · x' : 'B'} · ${at % 2 ? 'hot' : 'cold'}` }))")[5])
+        self.assertIn("2 folders (A · x, B) of 2 cases (cold, hot)", title("W.sets.push({ ...W.sets[0] }); W.sets.forEach((set, at) => Object.assign(set, { case: at % 2 ? 'hot' : 'cold', campaign_folder: Math.floor(at / 2), label: `${at < 2 ? 'A · x' : 'B'} · ${at % 2 ? 'hot' : 'cold'}` }))")[5])
         self.assertIn("2 folders: B, C", title("W.sets.length = 2; W.sets.forEach((set, at) => Object.assign(set, { case: null, label: 'BC'[at] }))")[5])
         self.assertRegex(title("W.sets.length = 1; W.chosen.set = 0; W.sets[0].requirements = []")[5], r"^1,500 runsbounds at 95 %")
         self.assertIn("wingspread report results/mock (wingspread 0.2.0+mock)", self.run_script("return document.getElementById('colophon').textContent"))

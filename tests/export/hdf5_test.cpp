@@ -83,6 +83,9 @@ void check_rows(const H5::Group& group, const std::filesystem::path& folder) {
   const auto status = texts(group, "status"), order = texts(group, "latch_order"),
              reason = texts(group, "reason");
   REQUIRE(runs.size() == rows.size());
+  for (const char* name : {"status", "latch_order", "reason"})
+    CHECK(group.openDataSet(name).getStrType().getCset() ==
+          H5T_CSET_ASCII); // Octave reads no other
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ResultRow row = rows.row(i);
     CHECK(runs[i] == row.run);
@@ -165,6 +168,12 @@ TEST_CASE("an exported shard has its own number of runs, and says which shard it
     all += runs;
   }
   CHECK(all == 20);
+  const std::string part = folder.path() / "part", file = folder.path() / "part.h5";
+  (void)run_program(
+      folder, {"merge", folder.path() / "r1", folder.path() / "r3", "--preview", "--out", part});
+  export_hdf5(part, file);
+  const H5::H5File in(file, H5F_ACC_RDONLY);
+  CHECK(attribute(in, "preview") == "a preview of 13 of 20 runs");
 }
 
 TEST_CASE("the same folder is exported to the same bytes, in place of what was there") {

@@ -162,6 +162,8 @@ Json fit_json(const FitResult& result, const FitSpec& spec, const Json& about) {
                {"prior_decides", names_by_prior(result)},
                {"other_modes", std::move(modes)},
                {"tests", tests_json(result, spec)}});
+  const ReportHeader& words = spec.tests.front().campaign.report;
+  if (words != ReportHeader{}) json["report"] = write_report_header(words);
   if (result.values.count > 0)
     json["values"] = {{"n", result.values.count},
                       {"chi_squared", json_number(result.values.chi_squared)},

@@ -123,8 +123,8 @@ private:
     std::set<std::string> names;
     for (const JsonCursor& element : at.elements()) {
       tests.push_back(read_test(element, candidate));
-      if (!names.insert(tests.back().name).second)
-        element.refuse_repeated(fmt::format("\"{}\"", tests.back().name), "a name of its own");
+      if (const std::string& name = tests.back().name; !name.empty() && !names.insert(name).second)
+        element.refuse_repeated(fmt::format("\"{}\"", name), "a name of its own");
     }
   }
 

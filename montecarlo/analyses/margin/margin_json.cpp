@@ -238,22 +238,26 @@ Json margin_json(const MarginReport& report, const Json& about) {
   for (const MarginCase& each : report.result.cases) cases.push_back(each.name);
   for (const MarginSearch& search : report.result.searches)
     searches.push_back(SearchJson(report, search).json());
-  return {{stamp_key, about},
-          {"scene", report.campaign.scene.name},
-          {"met", is_met(report.result)},
-          {"warnings", margin_warnings(report.result)},
-          {"runs_per_scale", report.campaign.sampling.runs},
-          {"runs", report.result.runs},
-          {"runs_failed", report.result.failed},
-          {"range", {spec.lower, spec.upper}},
-          {"widest", {spec.lowest, spec.highest}},
-          {"tolerance", spec.edge_tolerance},
-          {"confidence", report.campaign.statistics.confidence},
-          {"mode", margin_mode_names[static_cast<std::size_t>(spec.mode)]},
-          {"cases", cases},
-          {"searches", searches},
-          {"motorization", static_margins_json(report.static_margins)},
-          {"definitions", definitions()}};
+  Json json{{stamp_key, about},
+            {"scene", report.campaign.scene.name},
+            {"met", is_met(report.result)},
+            {"warnings", margin_warnings(report.result)},
+            {"runs_per_scale", report.campaign.sampling.runs},
+            {"runs", report.result.runs},
+            {"runs_failed", report.result.failed},
+            {"range", {spec.lower, spec.upper}},
+            {"widest", {spec.lowest, spec.highest}},
+            {"tolerance", spec.edge_tolerance},
+            {"confidence", report.campaign.statistics.confidence},
+            {"mode", margin_mode_names[static_cast<std::size_t>(spec.mode)]},
+            {"cases", cases},
+            {"searches", searches},
+            {"motorization", static_margins_json(report.static_margins)},
+            {"definitions", definitions()}};
+  if (!report.campaign.of_case.empty()) json["case"] = report.campaign.of_case;
+  if (report.campaign.report != ReportHeader{})
+    json["report"] = write_report_header(report.campaign.report);
+  return json;
 }
 
 } // namespace wingspread

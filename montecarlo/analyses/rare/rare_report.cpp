@@ -310,7 +310,7 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
   Json by_status = Json::object();
   for (const Status status : statuses)
     by_status[to_string(status)] = result.statuses[static_cast<std::size_t>(status)];
-  return {
+  Json json{
       {stamp_key, about},
       {"scene", campaign.scene.name},
       {"event", describe(options.event)},
@@ -371,6 +371,8 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
       {"without_value", result.absent},
       {"likeliest",
        result.likeliest ? likeliest_json(*result.likeliest, campaign) : Json(nullptr)}};
+  if (campaign.report != ReportHeader{}) json["report"] = write_report_header(campaign.report);
+  return json;
 }
 
 std::string rare_text(const RareResult& result, const RareOptions& options,

@@ -57,8 +57,10 @@ int report(const ReportOptions& options) {
   const std::filesystem::path out =
       options.out.empty() ? options.folders.front() / report_file : options.out;
   const PageSources sources = read_page_sources(options.folders, options.threads);
-  if (const std::string text = incomplete_text(sources); !text.empty())
-    print_message("warning: incomplete: {}; requirements are not judged\n", text);
+  if (const std::string text = incomplete_text(sources); !text.empty()) {
+    const std::string unjudged = unjudged_text(sources);
+    print_message("warning: incomplete: {}{}{}\n", text, unjudged.empty() ? "" : "; ", unjudged);
+  }
   write_file(out,
              html_page(page_json(sources, options.header, command_of(options), options.threads)));
   fmt::print("{}\n", out.string());

@@ -127,7 +127,7 @@ std::vector<CaseSpec> read_cases(const JsonCursor& at, const Scene* scene,
   std::vector<CaseSpec> cases;
   for (const JsonCursor& element : at.elements()) {
     CaseSpec spec = reader.read(element);
-    if (std::ranges::find(cases, spec.name, &CaseSpec::name) != cases.end())
+    if (!spec.name.empty() && std::ranges::find(cases, spec.name, &CaseSpec::name) != cases.end())
       element.refuse(fmt::format("\"{}\", the name of another case too", spec.name),
                      "a name of its own", "/name");
     cases.push_back(std::move(spec));

@@ -16,8 +16,8 @@
       h("span", { class: small && !suffix ? "unseen" : null }, word + suffix),
     );
   };
-  // The badge of a requirement: "pass so far" while planned runs are missing.
-  W.verdictBadge = (verdict, small) => W.badge(verdict, small, W.incomplete() ? " so far" : "");
+  // The badge of a set's requirement: "pass so far" while runs of the set's campaign are missing.
+  W.verdictBadge = (verdict, set, small) => W.badge(verdict, small, W.isPart(set) ? " so far" : "");
 
   // The guaranteed value's distance to the limit, positive where the limit is kept; of too few runs the observed value's.
   function marginOf(one) {
@@ -63,29 +63,35 @@
     ]
       .filter(Boolean)
       .join(", ");
-  // "cold: 6 fail · ambient and hot: 2 fail, 4 pass": sets with equal counts share an entry.
+  const unmade = () => W.data.unmade || [];
+  // "cold: 6 fail; ambient and hot: 2 fail, 4 pass; late: not judged": sets with equal counts share an entry.
   function bySet(rows) {
     const groups = new Map();
+    const add = (label, text) => groups.set(text, [...(groups.get(text) || []), label]);
     W.sets.forEach(function (set, at) {
       const own = rows.filter((row) => row.at === at).map((row) => verdictOf(row.requirement.verdict));
-      const text = tallyText(tally(own)) || "no requirements";
-      groups.set(text, [...(groups.get(text) || []), set.label]);
+      add(set.label, !own.length ? "no requirements" : W.isPart(set) ? "not judged" : tallyText(tally(own)));
     });
+    unmade().forEach((one) => add(one.label, "not judged"));
     return [...groups].map(([text, labels]) => `${listed(labels)}: ${text}`).join("; ");
   }
-  // The headline of a campaign that lacks runs.
+  // The headline where sets lack runs of their campaign, and no other set fails.
   function unfinished(rows) {
+    const several = W.sets.length + unmade().length > 1,
+      shards = W.sets.filter((set) => set.shard).map((set) => `${several ? `${set.label} is ` : ""}shard ${set.shard}`);
     return h(
       "p.headline.open.incomplete",
-      h("span.badge.open", "? incomplete"),
-      ` ${W.incomplete()}`,
+      h("span.badge.open", W.incomplete() ? "? incomplete" : "? not judged"),
+      ` ${W.incomplete() || listed(shards)}`,
       rows.length
-        ? [h("small", " The campaign has no final verdict. Of the runs so far:"), h("small", ` ${bySet(rows)}`)]
+        ? [h("small", " There is no final verdict."), several ? h("small", ` ${bySet(rows)}`) : null]
         : h("small", " This campaign states no requirements. The statistics are of the runs so far."),
     );
   }
-  function headline(rows) {
-    if (W.incomplete()) return unfinished(rows);
+  function headline(all) {
+    const rows = all.filter((row) => !W.isPart(row.set)), // the others are not judged
+      failed = rows.some((row) => verdictOf(row.requirement.verdict) === "failed");
+    if (!failed && (W.incomplete() || W.sets.some(W.isPart))) return unfinished(all);
     if (!rows.length)
       return h(
         "p.headline",
@@ -99,32 +105,32 @@
     const total = worstOf.size,
       counts = tally([...worstOf.values()]),
       worst = counts.failed ? "failed" : counts.open ? "open" : "passed",
-      several = W.sets.length > 1;
+      several = W.sets.length + unmade().length > 1;
     const failing = W.sets.filter((_, at) =>
       rows.some((row) => row.at === at && verdictOf(row.requirement.verdict) === "failed"),
     );
     const where = !several ? "" : failing.length === 1 ? ` in ${failing[0].label}` : ` in at least one ${W.kindOfSets()}`;
-    const all = total === 1 ? "The requirement" : worst === "passed" ? `All ${total} requirements` : `Each of ${total} requirements`;
+    const each = total === 1 ? "The requirement" : worst === "passed" ? `All ${total} requirements` : `Each of ${total} requirements`;
     const one = (count, many, single) => (count === 1 ? single : many);
     // Few requirements that decide the verdict are named.
     const deciding = [...new Map(rows.map((row) => [keyOf(row.requirement), row.requirement])).values()].filter(
-      (each) => worstOf.get(keyOf(each)) === worst,
+      (requirement) => worstOf.get(keyOf(requirement)) === worst,
     );
     const named = worst !== "passed" && deciding.length < total && deciding.length <= 3 ? `: ${listed(deciding.map(shortOf))}` : "";
     // Enough runs, and a pass but for peaks that t_end cut: more runs decide nothing.
-    const cut = deciding.filter((each) => each.allowed !== null && each.cut > 0).length;
+    const cut = deciding.filter((requirement) => requirement.allowed !== null && requirement.cut > 0).length;
     const why = [cut < deciding.length ? "too few runs" : null, cut ? "peaks that t_end cut" : null].filter(Boolean).join(" or ");
     const everywhere = W.sets.every((set) => new Set((set.requirements || []).map(keyOf)).size === total);
     const text = {
       failed:
         counts.failed === total
-          ? `${all} fails${where}`
+          ? `${each} fails${where}`
           : `${counts.failed} of ${total} requirements ${one(counts.failed, "fail", "fails")}${where}${named}`,
       open:
         counts.open === total
-          ? `${all} is undecided: ${why}`
+          ? `${each} is undecided: ${why}`
           : `${counts.open} of ${total} requirements ${one(counts.open, "are", "is")} undecided, for ${why}${named}`,
-      passed: `${all} ${one(total, "pass", "passes")}${several ? (everywhere ? ` in every ${W.kindOfSets()}` : ` in every ${W.kindOfSets()} that states ${one(total, "them", "it")}`) : ""}`,
+      passed: `${each} ${one(total, "pass", "passes")}${several ? (everywhere ? ` in every ${W.kindOfSets()}` : ` in every ${W.kindOfSets()} that states ${one(total, "them", "it")}`) : ""}`,
     }[worst];
     return h(
       "p",
@@ -133,7 +139,7 @@
       " ",
       text,
       several && (worst !== "passed" || !everywhere)
-        ? h("small", ` ${bySet(rows)}`)
+        ? h("small", ` ${bySet(all)}`)
         : counts[worst] < total
           ? h("small", ` ${tallyText({ ...counts, [worst]: 0 })}`)
           : null,
@@ -186,12 +192,14 @@
     if (W.isNumber(one.limit))
       return W.isNumber(one.guaranteed_value)
         ? valueText(one.guaranteed_value, one, set)
-        : cutDecides(one)
-          ? "none: t_end cut peaks"
-          : one.not_deployed || one.without_value
-            ? "too few runs with a value"
-            : "too few runs";
-    return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : "too few runs";
+        : W.isPart(set)
+          ? "not judged"
+          : cutDecides(one)
+            ? "none: t_end cut peaks"
+            : one.not_deployed || one.without_value
+              ? "too few runs with a value"
+              : "too few runs";
+    return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : W.isPart(set) ? "not judged" : "too few runs";
   }
   function marginText(one, set) {
     const { factor, unit } = F.shown(unitOf(one, set)),
@@ -275,7 +283,7 @@
           h("span.evidence", one.evidence, one.disproved && !/disproved/.test(one.evidence) ? " · disproved" : null),
           isAtMost(one) ? h("span.evidence", `${F.runs(set.runs)} can show no more`) : null,
         ),
-        W.verdictBadge(one.verdict),
+        W.verdictBadge(one.verdict, set),
         several && h(set.label.length > 24 ? "span.nowrap.long-name" : "span.nowrap", set.label),
         observed(one, set),
         guaranteed(one, set),
@@ -297,15 +305,15 @@
   }
   // Why a requirement has no margin to show: peaks that t_end cut where they decide, then wings that did not deploy; else
   // there are too few runs.
-  function whyNone(one) {
+  function whyNone(one, set) {
+    if (W.isPart(set)) return "not judged";
     if (cutDecides(one)) return `${F.count(one.cut)} ${one.cut === 1 ? "peak" : "peaks"} cut by t_end`;
     if (one.not_deployed) return `${F.count(one.not_deployed)} not deployed`;
     return verdictOf(one.verdict) === "open" && !one.one_run ? "too few runs" : F.none;
   }
   // One cell per requirement and case.
   function matrix(rows) {
-    const texts = [...new Set(rows.map((row) => keyOf(row.requirement)))],
-      unmade = W.data.unmade || [];
+    const texts = [...new Set(rows.map((row) => keyOf(row.requirement)))];
     const words = (text) => {
       const row = rows.find((one) => keyOf(one.requirement) === text);
       return wordsOf(row.requirement, row.set);
@@ -316,12 +324,12 @@
       const one = row.requirement,
         margin = marginText(one, row.set),
         known = margin !== F.none && (W.isNumber(one.margin) || !W.isNumber(one.limit) || !one.not_deployed);
-      return h("span.cell", W.verdictBadge(one.verdict, true), " ", known ? margin : whyNone(one));
+      return h("span.cell", W.verdictBadge(one.verdict, row.set, true), " ", known ? margin : whyNone(one, row.set));
     };
     return W.table(
       `Verdict and distance to the limit by ${W.kindOfSets()}`,
-      ["Requirement", ...[...W.sets, ...unmade].map((set) => number(set.label))],
-      texts.map((text) => [words(text), ...W.sets.map((set, at) => cell(text, at)), ...unmade.map(() => "no runs")]),
+      ["Requirement", ...[...W.sets, ...unmade()].map((set) => number(set.label))],
+      texts.map((text) => [words(text), ...W.sets.map((set, at) => cell(text, at)), ...unmade().map(() => "no runs")]),
       { class: "matrix", showCaption: true, stacks: true },
     );
   }
@@ -333,7 +341,10 @@
       const { groups = [], confidence = null } = set.together || {},
         all = set.requirements || [],
         passing = all.filter((one) => verdictOf(one.verdict) === "passed").length;
-      const add = (verdict, text) => found.set(verdict + text, { verdict, text, labels: [...((found.get(verdict + text) || {}).labels || []), set.label] });
+      const add = function (verdict, text) {
+        const key = `${verdict} ${W.isPart(set)} ${text}`;
+        found.set(key, { verdict, text, set, labels: [...((found.get(key) || {}).labels || []), set.label] });
+      };
       for (const one of groups)
         add(one.verdict, `group ${one.group}: ${one.passed} of ${one.requirements} pass, joint confidence ${F.given(100 * one.confidence)} %`);
       if (passing > 1)
@@ -342,8 +353,8 @@
     return found.size
       ? h(
           "ul.together",
-          [...found.values()].map(({ verdict, text, labels }) =>
-            h("li", W.sets.length > 1 ? `${listed(labels)}${labels.length > 1 ? ", each" : ""}: ` : null, verdict ? [W.verdictBadge(verdict, true), " "] : null, text),
+          [...found.values()].map(({ verdict, text, set, labels }) =>
+            h("li", W.sets.length > 1 ? `${listed(labels)}${labels.length > 1 ? ", each" : ""}: ` : null, verdict ? [W.verdictBadge(verdict, set, true), " "] : null, text),
           ),
         )
       : null;
@@ -366,7 +377,7 @@
         : null;
     return [
       headline(rows),
-      several || (W.data.unmade || []).length ? [matrix(rows), thinBecauseOfRuns(rows)] : null,
+      several || unmade().length ? [matrix(rows), thinBecauseOfRuns(rows)] : null,
       W.unjudged(),
       W.staticShortfall(),
       W.findings(rows),

@@ -17,23 +17,38 @@
       ? h("dl.identity", kinds.map(([key, name]) => h("div", h("dt", name), h("dd", words[key]))))
       : null;
   }
-  // "2 folders (A, B) of 3 cases (cold, ambient, hot)", "3 cases: cold, ambient, hot".
+  // The name of a case's whole folder: its label without the case.
+  function wholeName(set) {
+    const end = [" · ", "/"].map((mark) => mark + set.case).find((text) => set.label.endsWith(text));
+    return end ? set.label.slice(0, -end.length) : set.label;
+  }
+  // "3 cases: cold, ambient, hot", "2 folders (A, B) of 3 cases (cold, ambient, hot)", "2 folders: A (1 of 2 cases: cold), B".
   function extent() {
-    const distinct = (read) => [...new Set(W.sets.map(read))],
-      cases = distinct((set) => set.case).filter(Boolean),
-      folders = distinct((set) => (set.case ? set.label.split(" · ").slice(0, -1).join(" · ") : set.label)).filter(Boolean);
-    if (cases.length && folders.length > 1 && W.sets.length === cases.length * folders.length)
-      return `${folders.length} folders (${folders.join(", ")}) of ${cases.length} cases (${cases.join(", ")})`;
-    const unmade = (W.data.unmade || []).length;
-    if (unmade) return `${W.sets.length} of ${W.sets.length + unmade} cases: ${W.sets.map((set) => set.label).join(", ")}`;
-    return `${W.sets.length} ${cases.length ? "cases" : "folders"}: ${W.sets.map((set) => set.label).join(", ")}`;
+    const folders = new Map(); // the sets and unmade cases of each
+    for (const set of [...W.sets, ...(W.data.unmade || [])]) {
+      const folder = set.case ? set.campaign_folder : set;
+      folders.set(folder, [...(folders.get(folder) || []), set]);
+    }
+    const all = [...folders.values()],
+      made = (sets) => sets.filter((set) => W.sets.includes(set)).map((set) => set.case),
+      cases = (sets) =>
+        `${made(sets).length < sets.length ? `${made(sets).length} of ` : ""}${F.counted(sets.length, "case")}${made(sets).length ? `: ${made(sets).join(", ")}` : ""}`,
+      first = made(all[0]);
+    if (all.length === 1) return cases(all[0]);
+    if (first[0] && all.every((sets) => sets.length === first.length && made(sets).join() === first.join()))
+      return `${all.length} folders (${all.map(([set]) => wholeName(set)).join(", ")}) of ${F.counted(first.length, "case")} (${first.join(", ")})`;
+    return `${all.length} folders: ${all.map((sets) => (sets.length > 1 ? `${wholeName(sets[0])} (${cases(sets)})` : sets[0].label)).join(", ")}`;
   }
   // The confidence of a set's bounds, "95 %", and those of all sets: folders may have been analysed at different ones.
   W.confidenceOf = (set) => `${F.given(100 * set.confidence)} %`;
   W.confidences = () => [...new Set(W.sets.map(W.confidenceOf))];
-  // What the sets are: cases of a campaign, or folders.
-  W.kindOfSets = () => (W.sets.some((set) => set.case) ? "case" : "folder");
-  W.headOfSets = () => (W.kindOfSets() === "case" ? "Case" : "Folder");
+  // What tells the sets apart: the case, the folder, or either.
+  W.kindOfSets = function () {
+    const cases = new Set(W.sets.map((set) => set.case || ""));
+    if (cases.has("")) return cases.size > 1 ? "set" : "folder";
+    return cases.size > 1 || W.sets.length === 1 ? "case" : "folder";
+  };
+  W.headOfSets = () => ({ case: "Case", folder: "Folder", set: "Set" })[W.kindOfSets()];
   // "requirements at 90 % confidence, two-sided bounds at 95 %": both, where they differ.
   function confidences() {
     const levels = W.confidences(),
@@ -47,6 +62,8 @@
   // runs of case cold, none of hot"; null where every planned run is there.
   W.isPartial = (set) => Boolean(set.partial) || (set.runs < set.planned && !set.stopped);
   W.incomplete = () => W.data.incomplete || null;
+  // Whether a set has a part of its campaign's runs only, which is not judged.
+  W.isPart = (set) => W.isPartial(set) || Boolean(set.shard);
   // After a count of runs: more may come.
   W.soFar = (set) => (W.isPartial(set) ? " so far" : "");
   W.subtitle = function () {

@@ -85,7 +85,7 @@
       return {
         mark: output.count ? null : "zero",
         cells: [
-          h("span", button, verdict ? [" ", W.verdictBadge(verdict, true)] : null),
+          h("span", button, verdict ? [" ", W.verdictBadge(verdict, set, true)] : null),
           F.shown(output.unit).unit,
           F.count(output.count),
           output.count ? spark(output) : "in no run",
@@ -254,7 +254,7 @@
       );
     const text = glossaryText(output);
     const title = h("h3.chosen", F.name(output), " ", h("code", output.name));
-    const limits = requirementsOn(set, output).map((one) => h("li", W.verdictBadge(one.verdict), " ", W.verdicts.wordsOf(one, set)));
+    const limits = requirementsOn(set, output).map((one) => h("li", W.verdictBadge(one.verdict, set), " ", W.verdicts.wordsOf(one, set)));
     const head = [title, text ? h("p.note", text) : null, limits.length ? h("ul.plain", limits) : null];
     if (!output.count || !output.histogram)
       return W.fill(host, head, h("p.nothing", `No run of ${set.label} has a value.`), byCase(F.name(output)));

@@ -6,11 +6,10 @@
 
   // The cases of the set's campaign that have values of an output: { set, output }.
   function casesOf(set, name) {
-    const whole = (one) => one.folder.slice(0, -one.case.length);
     return !set.case
       ? []
       : W.sets
-          .filter((one) => one.case && whole(one) === whole(set))
+          .filter((one) => one.case && one.campaign_folder === set.campaign_folder)
           .map((one) => ({ set: one, output: W.outputsOf(one).find((each) => each.name === name) }))
           .filter(({ output }) => output && output.count > 1 && W.isNumber(output.std));
   }

@@ -291,8 +291,10 @@
       found = new Set(),
       several = sets.length > 1;
     const add = (kind, title, set, ...content) => {
+      const own = W.studySets.includes(set),
+        heading = `${title}${several && own ? ` · ${set.label}` : ""}${own && set.case && !set.rare ? `, case ${set.case}` : ""}`;
       found.add(kind);
-      parts.push(h("div", { id: kind === "static" ? "static-margins" : null }, h("h3", several && W.studySets.includes(set) ? `${title} · ${set.label}` : title), content));
+      parts.push(h("div", { id: kind === "static" ? "static-margins" : null }, h("h3", heading), content));
     };
     for (const set of sets) {
       if (W.studySets.includes(set) && W.effectOutputs(set).length) add("sobol", "Sensitivity", set, indices(set));

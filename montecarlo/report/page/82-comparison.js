@@ -158,7 +158,7 @@
       ].filter(Boolean);
       return h(
         "span.double",
-        W.verdictBadge(one.verdict),
+        W.verdictBadge(one.verdict, set),
         ` ${V.marginText(one, set)}`,
         h("small", causes.length ? causes.join(", ") : `${F.count(one.broken)} of ${F.runs(one.runs)} break it`),
       );

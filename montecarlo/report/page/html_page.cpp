@@ -108,6 +108,39 @@ std::string listed(const std::vector<std::string>& names) {
                            : fmt::format("{} and {}", fmt::join(names.begin(), last, ", "), *last);
 }
 
+/// The path without links and "..", as far as the system tells.
+std::filesystem::path resolved_folder(const std::filesystem::path& path) {
+  std::error_code unknown;
+  const auto whole = std::filesystem::weakly_canonical(path, unknown);
+  return unknown ? path : whole.has_filename() ? whole : whole.parent_path();
+}
+
+/// The folder of a set's whole campaign: of a case that around its own.
+std::filesystem::path campaign_folder(const StoredCampaign& stored) {
+  const std::filesystem::path own = resolved_folder(stored.folder);
+  const std::string& of_case = stored.campaign.of_case;
+  return !of_case.empty() && own.filename() == of_case && is_cases_folder(own.parent_path())
+             ? own.parent_path()
+             : own;
+}
+
+/// Refuses a set that two folders of the command have: a folder, and a case of it.
+void refuse_repeated_sets(const PageSources& sources,
+                          std::span<const std::filesystem::path> arguments) {
+  std::map<std::filesystem::path, std::size_t> argument_of;
+  std::vector<Problem> problems;
+  for (const auto& source : sources.runs) {
+    const auto [first, is_new] =
+        argument_of.emplace(resolved_folder(source->stored.folder), source->argument);
+    if (!is_new)
+      problems.push_back({arguments[source->argument].string(), "",
+                          fmt::format("{}, which {} has too", source->stored.folder.string(),
+                                      arguments[first->second].string()),
+                          "each set of runs once"});
+  }
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
 /// The scene's name; of studies that an older version wrote without it, the first one's label.
 std::string title_of(const PageSources& sources) {
   if (!sources.runs.empty()) return sources.runs.front()->stored.campaign.scene.name;
@@ -151,6 +184,7 @@ PageSources read_page_sources(std::span<const std::filesystem::path> folders, in
   if (sets == 0 || sets > most_sets)
     throw SpecError({{folders.front().string(), "", fmt::format("{} sets of runs", sets),
                       fmt::format("from 1 to {}: each folder or case is a set", most_sets)}});
+  refuse_repeated_sets(sources, folders);
   label_by_path(sources);
   return sources;
 }
@@ -158,22 +192,23 @@ PageSources read_page_sources(std::span<const std::filesystem::path> folders, in
 std::string incomplete_text(const PageSources& sources) {
   std::vector<std::string> parts, none;
   const bool several = sources.runs.size() + sources.unmade.size() > 1;
-  const bool has_cases =
-      !sources.unmade.empty() || std::ranges::any_of(sources.runs, [](const auto& source) {
-        return !source->stored.campaign.of_case.empty();
-      });
-  const char* kind = has_cases ? "case " : "";
+  const auto kind_of = [](const PageSource& source) {
+    return source.stored.campaign.of_case.empty() ? "" : "case ";
+  };
+  const char* kind = "case "; // of the first without runs
   for (const auto& source : sources.runs) {
     const long planned = source->stored.runs().size(), made = source->summary.runs;
     if (source->summary.stopped || made >= planned) continue;
     const bool first = parts.empty();
-    if (made == 0 && several)
+    if (made == 0 && several) {
+      if (none.empty()) kind = kind_of(*source);
       none.push_back(source->label);
-    else
-      parts.push_back(
-          fmt::format("{} of {}{}{}", made == 0 ? "none" : grouped(made), grouped(planned),
-                      first ? " runs" : "",
-                      several ? fmt::format(" of {}{}", first ? kind : "", source->label) : ""));
+    } else {
+      parts.push_back(fmt::format(
+          "{} of {}{}{}", made == 0 ? "none" : grouped(made), grouped(planned),
+          first ? " runs" : "",
+          several ? fmt::format(" of {}{}", first ? kind_of(*source) : "", source->label) : ""));
+    }
   }
   for (const UnmadeCase& each : sources.unmade) none.push_back(each.label);
   if (!none.empty())
@@ -182,11 +217,28 @@ std::string incomplete_text(const PageSources& sources) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+std::string unjudged_text(const PageSources& sources) {
+  std::vector<std::string> unjudged;
+  bool any_judged = false;
+  for (const auto& source : sources.runs) {
+    const std::vector<Verdict>& verdicts = source->summary.requirements;
+    if (verdicts.empty()) continue;
+    const bool of_part = std::ranges::any_of(verdicts, &Verdict::of_part);
+    if (of_part) unjudged.push_back(source->label);
+    any_judged |= !of_part;
+  }
+  for (const UnmadeCase& each : sources.unmade) unjudged.push_back(each.label);
+  if (!any_judged) return "requirements are not judged";
+  return unjudged.empty() ? "" : fmt::format("requirements of {} are not judged", listed(unjudged));
+}
+
 namespace {
 
-/// The words on the first page: those given, then those of the first campaign that has them.
+/// The words on the first page: those given, then those of the first campaign that has them, then those of studies.
 Json header_json(const PageSources& sources, const ReportHeader& given) {
   Json json = Json::object();
+  for (auto study = sources.studies.rbegin(); study != sources.studies.rend(); ++study)
+    json.update(study->at("document"));
   for (auto source = sources.runs.rbegin(); source != sources.runs.rend(); ++source)
     json.update(write_report_header((*source)->stored.campaign.report));
   json.update(write_report_header(given));
@@ -211,8 +263,10 @@ Json page_json(const PageSources& sources, const ReportHeader& header, const std
             {"incomplete", incomplete.empty() ? Json(nullptr) : Json(incomplete)},
             {"unmade", Json::array()},
             {"unpaired", pairs.missing}};
-  for (const UnmadeCase& each : sources.unmade)
-    json["unmade"].push_back({{"label", each.label}, {"planned", each.planned}});
+  std::map<std::filesystem::path, std::size_t> number_of; // of the campaigns' folders
+  const auto number = [&](const std::filesystem::path& folder) {
+    return number_of.emplace(folder, number_of.size()).first->second;
+  };
   std::vector<Json> margins(sources.runs.size());
   for_each_task(threads, margins.size(), [&](std::size_t i) {
     margins[i] = static_margins_json(sources.runs[i]->stored.campaign);
@@ -220,11 +274,18 @@ Json page_json(const PageSources& sources, const ReportHeader& header, const std
   for (std::size_t i = 0; i < sources.runs.size(); ++i) {
     const auto& source = sources.runs[i];
     json["sets"].push_back(set_json(*source, detail, threads));
+    json["sets"].back()["campaign_folder"] = number(campaign_folder(source->stored));
     json["sets"].back()["static_margins"] = std::move(margins[i]);
     json["sets"].back()["modes"] = modes_json(nominal_scene(source->stored.campaign));
     json["sets"].back()["kernel"] =
         source->replayable() ? kernel_json(source->stored.campaign) : Json(nullptr);
   }
+  for (const UnmadeCase& each : sources.unmade)
+    json["unmade"].push_back(
+        {{"label", each.label},
+         {"case", each.folder.filename().string()},
+         {"planned", each.planned},
+         {"campaign_folder", number(resolved_folder(each.folder.parent_path()))}});
   for (const Json& set : sources.studies) json["sets"].push_back(set);
   return json;
 }

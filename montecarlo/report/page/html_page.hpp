@@ -26,7 +26,8 @@ struct PageSources {
 
 /// Reads results folders (one set each, or one per case) and folders of `margin`, `sensitivity CAMPAIGN` and `rare`.
 /// @param threads as of thread_count (thread_pool.hpp)
-/// @throws SpecError for any other folder, for a broken one, and for more than 12 sets
+/// @throws SpecError for any other folder, for a broken one, for a set that two folders have, e.g. a folder and one of
+///   its cases, and for more than 12 sets
 [[nodiscard]] PageSources read_page_sources(std::span<const std::filesystem::path> folders,
                                             int threads);
 
@@ -35,6 +36,10 @@ void label_by_path(PageSources& sources);
 
 /// The sets and cases that lack runs: "62 of 500 runs of case cold, none of hot"; empty if every planned run is there.
 [[nodiscard]] std::string incomplete_text(const PageSources& sources);
+
+/// Which requirements are not judged because runs of their campaign are missing: "requirements of A and B are not judged";
+/// "requirements are not judged" if no set's are; empty if every set's are.
+[[nodiscard]] std::string unjudged_text(const PageSources& sources);
 
 /// The data of the page (DATA.md).
 /// @param header  the words on the first page; they replace those of the campaigns

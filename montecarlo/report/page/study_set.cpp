@@ -12,6 +12,8 @@
 #include "montecarlo/report/page/static_margins_json.hpp"
 #include "montecarlo/results/results_folder/results_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -24,6 +26,7 @@ Json empty_set(const std::filesystem::path& folder, const std::string& label, co
             {"folder", folder.string()},
             {"case", nullptr},
             {"campaign", ""},
+            {"document", Json::object()},
             {"description", ""},
             {"foreign", false},
             {"seed", about.contains("seed") ? about["seed"].dump() : ""},
@@ -65,8 +68,20 @@ Json confidence_of(const Json& study, const std::filesystem::path& file, Json ot
   return confidence;
 }
 
+/// Adds the scene's name, the case and the words of the first page, which studies write without their campaign; older
+/// versions wrote none.
+void add_origin(const Json& study, Json& set) {
+  set["campaign"] = study.value("scene", "");
+  set["case"] = study.value("case", Json(nullptr));
+  const Json words = study.value("report", Json::object());
+  for (const HeaderWord& word : header_words)
+    if (words.contains(word.key)) set["document"][word.key] = words[word.key].get<std::string>();
+}
+
 void add_campaign(const Campaign& campaign, Json& set) {
   set["campaign"] = campaign.scene.name;
+  if (!campaign.of_case.empty()) set["case"] = campaign.of_case;
+  set["document"] = write_report_header(campaign.report);
   set["wing"] = wing_json(nominal_scene(campaign));
   set["static_margins"] = static_margins_json(campaign);
 }
@@ -82,7 +97,7 @@ std::vector<Json> margin_sets(const std::filesystem::path& folder, const std::st
     const std::string name = search.at("name");
     Json set = empty_set(folder, study["searches"].size() > 1 ? label + " · " + name : label,
                          study.value(stamp_key, Json::object()));
-    set["campaign"] = study.value("scene", "");
+    add_origin(study, set);
     if (std::filesystem::exists(recommended)) {
       const Campaign campaign = read_campaign_file(recommended);
       add_campaign(campaign, set);
@@ -123,6 +138,14 @@ Json sobol_effects(const Json& sensitivity, std::size_t most) {
 Json sobol_set(const std::filesystem::path& folder, const std::string& label) {
   constexpr std::size_t most_effects = 12;
   const SaltelliDesign design = read_design(folder);
+  if (!std::filesystem::exists(folder / sensitivity_json_file))
+    throw SpecError({{folder.string(), "",
+                      fmt::format("no {}: {}", sensitivity_json_file,
+                                  design.shard ? describe(design.shard) + " of a design"
+                                               : "an unfinished design"),
+                      design.shard ? "the folder into which `wingspread merge` merges all shards"
+                                   : "a finished one: the command that made it, with --resume, "
+                                     "goes on"}});
   const Json sensitivity = parse_json_file(folder / sensitivity_json_file);
   Json set = empty_set(folder, label, stamp_json(stamp_of(design)));
   add_campaign(design.campaign, set);
@@ -184,7 +207,7 @@ bool has_estimated_bound(const Json& study) {
 Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   const Json study = parse_json_file(folder / rare_json_file);
   Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
-  set["campaign"] = study.value("scene", "");
+  add_origin(study, set);
   set["confidence"] = confidence_of(study, folder / rare_json_file);
   Json likeliest = nullptr;
   if (const Json& run = study.at("likeliest"); !run.is_null()) {
@@ -219,7 +242,7 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
 Json fit_study_set(const std::filesystem::path& folder, const std::string& label) {
   const Json study = parse_json_file(folder / fit_json_file);
   Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
-  set["campaign"] = study.value("scene", "");
+  add_origin(study, set);
   set["confidence"] = confidence_of(study, folder / fit_json_file, fit_confidence);
   std::optional<Campaign> campaign;
   if (const auto path = folder / campaign_file; std::filesystem::exists(path))

@@ -87,6 +87,7 @@ void divert(const H5::H5File& file) {
   close(memory);
 }
 
+/// UTF-8, though the file calls it ASCII: Octave stops reading a file at the first text that is marked as UTF-8.
 H5::StrType fixed_text(std::size_t bytes) {
   H5::StrType type(H5::PredType::C_S1, bytes);
   type.setStrpad(H5T_STR_NULLPAD);
@@ -238,6 +239,7 @@ void add_stamp(H5::H5Object& object, const StoredCampaign& stored) {
   add_attribute(object, "campaign", json_text(stored.campaign.resolved));
   add_attribute(object, "runs", H5::PredType::STD_I64LE, std::int64_t{stored.runs().size()});
   if (stored.stamp.shard) add_attribute(object, "shard", describe(stored.stamp.shard));
+  if (stored.stamp.preview) add_attribute(object, "preview", describe(*stored.stamp.preview));
 }
 
 void write_table(H5::Group& group, const StoredCampaign& stored) {

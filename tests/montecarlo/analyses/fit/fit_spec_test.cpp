@@ -117,6 +117,10 @@ TEST_CASE("each fault of the tests has its place") {
   CHECK(change("/tests/0/set", R"({ "bodies.panel.inertia": -1 })")
             .find("bodies.panel.inertia of -1") != std::string::npos);
   Json twice = tests_json();
+  Json nameless = twice;
+  nameless["tests"][0]["name"] = "", nameless["tests"].push_back(nameless["tests"][0]);
+  CHECK_THAT(files.problems(nameless),
+             Catch::Contains("/tests/1/name") && !Catch::Contains("a name of its own"));
   twice["tests"][0]["values"].push_back(twice["tests"][0]["values"][0]);
   CHECK(
       files.problems(twice).starts_with("tests.json: /tests/0/values/2: found a second value of"));

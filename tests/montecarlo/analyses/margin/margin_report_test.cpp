@@ -95,6 +95,7 @@ TEST_CASE("margin.json has the campaign's confidence, and what the recommended s
           "[margin]") {
   Json json = one_panel_margin(76);
   json["statistics"] = {{"confidence", 0.8}};
+  json["report"] = {{"title", "T"}, {"author", "A"}};
   const Campaign campaign = campaign_of(json);
   MarginResult result = margin_of(campaign);
   MarginSearch& search = result.searches.front();
@@ -110,6 +111,10 @@ TEST_CASE("margin.json has the campaign's confidence, and what the recommended s
   search.recommended = scale, search.confirmation = weaker->second;
   const Json found = margin_json(margin_report(campaign, result), Json::object());
   CHECK(found["confidence"] == 0.8);
+  CHECK((found["report"] == json["report"] && !found.contains("case")));
+  Campaign hot = campaign;
+  hot.of_case = "hot";
+  CHECK(margin_json(margin_report(hot, result), Json::object())["case"] == "hot");
 
   const Json& given_up = found["searches"][0]["recommended"]["given_up"];
   const Json& requirements = given_up["requirements"];

@@ -132,6 +132,9 @@ TEST_CASE("rare.json names the scene, and the unit of each draw that is no facto
   result.likeliest->draws = {1, 2, 3, 4}, result.likeliest->z = {0.5, -1, 2, 0};
   const Json json = rare_json(result, {}, campaign, {});
   CHECK(json["scene"] == "some wing");
+  CHECK_FALSE(json.contains("report"));
+  campaign.report.title = "T"; // of the first page, for a report of this folder alone
+  CHECK(rare_json(result, {}, campaign, {})["report"] == Json{{"title", "T"}});
   CHECK(json["likeliest"]["units"] == Json{{"d0", "N·m"}, {"d1", ""}, {"d2", "kg"}, {"d3", ""}});
 }
 

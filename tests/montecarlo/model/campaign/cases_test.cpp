@@ -204,6 +204,15 @@ TEST_CASE("Each fault of a case is told", "[cases]") {
   CHECK(facts_of(problems_with({pointer, value, ""})) == facts_of(message));
 }
 
+TEST_CASE("Cases whose names are refused are not said to have one name", "[cases]") {
+  Json document = campaign_with_cases();
+  document["cases"][0]["name"] = "a/b", document["cases"][2]["name"] = "c/d";
+  const std::string message = message_of([&] { return campaign_of(document); });
+  CHECK_THAT(message, Catch::Contains("/cases/0/name: found string \"a/b\"") &&
+                          Catch::Contains("/cases/2/name: found string \"c/d\"") &&
+                          !Catch::Contains("another case"));
+}
+
 TEST_CASE("The law of an `each` is another for all of its copies", "[cases]") {
   Json document = campaign_with_cases();
   document["cases"][1]["distributions"]["mass"] =

@@ -246,6 +246,31 @@ TEST_CASE("sets are paired run by run only if each has the other's draws", "[pag
   CHECK_FALSE(same(*strata(9)));
 }
 
+TEST_CASE("sets are paired in whatever order their campaigns list the dispersions, of any design",
+          "[page]") {
+  Json json = quick_campaign(6);
+  json["sampling"]["design"] = GENERATE("random", "latin_hypercube", "sobol");
+  if (json["sampling"]["design"] != "random") json["sampling"]["replicates"] = 2;
+  if (GENERATE(false, true))
+    json["correlations"] =
+        parse_json(R"([ { "between": ["root_spring", "other"], "spearman": 0.5 } ])");
+  Json other = json["dispersions"][0];
+  other["name"] = "other", other["to"] = {"hinges.mid.spring.scale"};
+  json["dispersions"].push_back(other);
+  const auto set = made(json);
+  std::ranges::reverse(json["dispersions"]);
+  const auto reversed = made(json);
+  REQUIRE(reversed->results.draws.front().name == "other");
+  for (const Column& draws : set->results.draws) {
+    CAPTURE(draws.name);
+    const auto same = std::ranges::find(reversed->results.draws, draws.name, &Column::name);
+    REQUIRE(same != reversed->results.draws.end());
+    CHECK(std::ranges::equal(draws.values, same->values));
+  }
+  CHECK(have_same_draws(*set, *reversed));
+  CHECK(comparison_json(*set, *reversed, {0, 1})["paired"] == true);
+}
+
 TEST_CASE("a status of paired sets is compared by the runs that have it in one of them alone",
           "[page]") {
   const auto first = made(quick_campaign(5)), second = made(quick_campaign(5));

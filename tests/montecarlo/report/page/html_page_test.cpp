@@ -294,4 +294,28 @@ TEST_CASE("the page says which runs are missing, of which set or case", "[page]"
   CHECK(text_of({{"cold", "cold", 5, 5}}, {"hot"}) == "no run of case hot");
   CHECK(text_of({{"cold", "cold", 3, 5}}, {"hot"}) == "3 of 5 runs of case cold, none of hot");
   CHECK(text_of({{"cold", "cold", 0, 5}}, {"hot"}) == "no run of case cold and hot");
+  CHECK(text_of({{"x · cold", "cold", 5, 5}, {"a", "", 3, 5}}) == "3 of 5 runs of a");
+  CHECK(text_of({{"x · cold", "cold", 5, 5}, {"a", "", 0, 5}}) == "no run of a");
+  CHECK(text_of({{"a", "", 0, 5}, {"x · cold", "cold", 2, 5}}) ==
+        "2 of 5 runs of case x · cold, none of a");
+}
+
+TEST_CASE("the sets that are not judged are named beside others that are", "[page]") {
+  const auto text_of = [](std::initializer_list<std::pair<const char*, std::optional<bool>>> sets,
+                          std::initializer_list<const char*> unmade = {}) {
+    PageSources sources;
+    for (const auto& [label, of_part] : sets) {
+      PageSource& source = *sources.runs.emplace_back(std::make_unique<PageSource>());
+      source.label = label;
+      if (of_part) source.summary.requirements.emplace_back().of_part = *of_part;
+    }
+    for (const char* label : unmade) sources.unmade.push_back({label, 5});
+    return unjudged_text(sources);
+  };
+  CHECK(text_of({{"a", true}}) == "requirements are not judged");
+  CHECK(text_of({{"a", true}, {"b", std::nullopt}}, {"c"}) == "requirements are not judged");
+  CHECK(text_of({{"a", true}, {"b", false}}) == "requirements of a are not judged");
+  CHECK(text_of({{"a", true}, {"b", false}, {"c", true}}, {"d"}) ==
+        "requirements of a, c and d are not judged");
+  CHECK(text_of({{"a", std::nullopt}, {"b", false}}).empty()); // a has none
 }

@@ -56,6 +56,7 @@ TEST_CASE("a folder of Sobol' indices is a set with the largest of each output",
   Json json = quick_campaign(10);
   json["statistics"] = {{"confidence", 0.9}};
   json["scene"]["name"] = "dispersed_wing";
+  json["case"] = "hot", json["report"] = {{"author", "A"}};
   const Campaign campaign = campaign_of(json);
   const SaltelliDesign design{campaign, 64, Shard{1, 2}};
   SobolSensitivity all{64, 250, 256, "random", {}, {}, {}};
@@ -66,13 +67,20 @@ TEST_CASE("a folder of Sobol' indices is a set with the largest of each output",
   all.outputs.back().indices.effects.resize(15, {{0, {}}, {std::nan(""), {}}, false});
   folder.write(design_file, design_text(design));
   CHECK(is_study_folder(folder.path()));
-  CHECK(message_of([&] { return study_sets_json(folder.path(), "s"); }).find("sensitivity.json") !=
-        std::string::npos);
+  const auto message = [&] {
+    return message_of([&] { return study_sets_json(folder.path(), "s"); });
+  };
+  CHECK_THAT(message(),
+             Catch::Contains("no sensitivity.json: shard 1/2") && Catch::Contains("merge"));
+  folder.write(design_file, design_text({campaign, 64, std::nullopt}));
+  CHECK_THAT(message(), Catch::Contains("unfinished") && Catch::Contains("--resume"));
+  folder.write(design_file, design_text(design));
   folder.write(sensitivity_json_file, sensitivity_json(all, {}).dump());
   const auto sets = study_sets_json(folder.path(), "s");
   REQUIRE(sets.size() == 1);
   const Json& set = sets[0];
   CHECK((set["label"] == "s" && set["campaign"] == "dispersed_wing" && set["confidence"] == 0.99));
+  CHECK((set["case"] == "hot" && set["document"] == Json{{"author", "A"}}));
   Json impossible = sensitivity_json(all, {});
   impossible["confidence"] = 2;
   folder.write(sensitivity_json_file, impossible.dump());
@@ -117,6 +125,7 @@ TEST_CASE("a folder of a rare event is a set with its levels, strata and likelie
   const Json set = set_of(study), &rare = set["rare"];
   CHECK((set["label"] == "r" && set["seed"] == "3" && set["hash"] == "h"));
   CHECK((set["campaign"] == "wing" && set["confidence"] == 0.9));
+  CHECK((set["case"] == "cold" && set["document"] == Json::object()));
   CHECK((set["margin"].is_null() && set["sensitivity"].is_null() && set["wing"].is_null()));
   for (const char* key : {"beyond", "case", "confidence", "probability", "lower", "upper",
                           "reached", "bias", "warnings"}) {
@@ -203,6 +212,27 @@ TEST_CASE("a page of studies has the first scene for its title, or the first lab
   CHECK(title_of_page({named}) == "wing");
   CHECK(title_of_page({older}) == "older");
   CHECK(title_of_page({older, named}) == "wing");
+}
+
+TEST_CASE("a page of studies has the words of the first campaign that has them", "[page]") {
+  const Folder folder;
+  Json study = rare_study();
+  const auto written = [&](const char* name, const Json& words) {
+    std::filesystem::create_directories(folder.path() / name);
+    study["report"] = words;
+    folder.write((std::string(name) + "/rare.json").c_str(), study.dump());
+    return folder.path() / name;
+  };
+  const std::vector<std::filesystem::path> folders{
+      written("plain", Json::object()), written("first", {{"title", "T1"}, {"unknown", 3}}),
+      written("second", {{"title", "T2"}, {"author", "A2"}, {"date", "D2"}})};
+  ReportHeader given;
+  given.date = "today";
+  CHECK(page_json(read_page_sources(folders, 1), given, "", 1)["document"] ==
+        Json{{"title", "T1"}, {"author", "A2"}, {"date", "today"}});
+  (void)written("first", {{"title", 3}});
+  CHECK_THAT(message_of([&] { return study_sets_json(folders[1], "r"); }),
+             Catch::Contains("expected unchanged files"));
 }
 
 TEST_CASE("a fit's set has the fit's scene and confidence", "[page]") {
