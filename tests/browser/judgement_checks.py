@@ -88,8 +88,8 @@ class JudgementChecks:
         facts, head, badges, *_ = seen("")
         self.assertNotIn("incomplete", facts + head)
         self.assertNotIn("so far", badges)
-        for change, lacks, late in (("Object.assign(W.sets[0], { runs: 62, planned: 4500 })", "62 of 4,500 runs of case cold", False), ("W.data.unmade = [{ label: 'late', case: 'late', campaign_folder: 0, planned: 4500 }]", "62 of 4,500 runs of case cold, none of late", True),
-                                    ("Object.assign(W.sets[1], { runs: 0, planned: 4500 })", "62 of 4,500 runs of case cold, none of ambient and late", True), ("W.sets.forEach(set => Object.assign(set, { runs: 4500, planned: 4500 }))", "no run of case late", True)):
+        for change, lacks, late, counts in (("Object.assign(W.sets[0], { runs: 62, planned: 4500 })", "62 of 4,500 runs of case cold", False, "cold: not judged; ambient and hot: 2 pass"), ("W.data.unmade = [{ label: 'late', case: 'late', campaign_folder: 0, planned: 4500 }]", "62 of 4,500 runs of case cold, none of late", True, "cold and late: not judged; ambient and hot: 2 pass"),
+                                    ("Object.assign(W.sets[1], { runs: 0, planned: 4500 })", "62 of 4,500 runs of case cold, none of ambient and late", True, "cold, ambient and late: not judged; hot: 2 pass"), ("W.sets.forEach(set => Object.assign(set, { runs: 4500, planned: 4500 }))", "no run of case late", True, "cold, ambient and hot: 2 pass; late: not judged")):
             facts, head, badges, columns, warnings = seen(f"W.data.incomplete = '{lacks}'; {change}")  # the program writes the sentence
             self.assertIn(f"incomplete: {lacks}", facts)
             self.assertTrue(head.startswith(f"? incomplete {lacks}"), head)
@@ -97,7 +97,7 @@ class JudgementChecks:
             self.assertEqual(set(badges.split(" | ")), {"✓ pass so far" if one else "✓ pass" for one in partial})
             self.assertEqual(self.run_script("return [...document.querySelector('#verdicts .matrix tbody').rows[0].querySelectorAll('.badge')].map(one => one.textContent.includes('so far'))"), partial)
             self.assertEqual(("late" in columns, "late holds none of 4,500 planned runs" in warnings, "3 of 4 cases" in facts), (late,) * 3)
-            self.assertTrue(head.endswith("late: not judged" if late and not any(partial) else "not judged" if all(partial) else head[-10:]), head)
+            self.assertTrue(head.endswith(f" There is no final verdict. {counts}"), head)
 
     def test_a_finished_folder_keeps_its_verdicts_beside_one_that_lacks_runs(self):
         self.open(pages.made_up("cases"))
@@ -115,9 +115,13 @@ class JudgementChecks:
                 self.assertTrue(row[1].startswith(f"{words[sorted(verdicts)[at]]} +40") if verdicts else row[1] == "–", row)
                 self.assertEqual({row[0], row[2]}, {"? undecided so far not judged"})
         self.assertIn("? undecided so far", [row[1] for row in self.table("Requirements, the worst first")])
+        (head,) = self.told("#verdicts .headline", [], [stated("A")], [])  # what lacks runs has no requirements
+        self.assertTrue(head.startswith("✓ pass The requirement passes"), head)
         self.run_script("W.data.incomplete = null; W.sets[0].planned = 2000; W.sets[0].partial = false")
         (head,) = self.told("#verdicts .headline", [stated("A")], [stated("A")], unjudged[:1])  # a shard has no verdict either
         self.assertEqual(head, "? not judged shard is shard 2/3 There is no final verdict. preview and whole: 1 passes; shard: not judged")
+        (head,) = self.told("#verdicts .headline", [], [], [])
+        self.assertIn("statistics only", head)
 
     def test_a_requirement_and_what_breaks_it_in_words(self):
         self.open(pages.made_up("plain"))

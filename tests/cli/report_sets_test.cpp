@@ -31,6 +31,9 @@ TEST_CASE("a folder beside one of its cases is refused, and each set has its cam
   CHECK(folders_of(hot, path + "/hot/../cold") == std::vector{0, 0});
   CHECK(folders_of(copy, hot) == std::vector{0, 0, 1});
   CHECK(folders_of(copy + "/hot", hot) == std::vector{0, 1});
+  CHECK(page_data(page)["sets"][1]["label"] == path + "/hot"); // without the slash
+  folder.write("r/campaign.json", "{ \"cases\": [");           // of no folder that is named
+  CHECK(run_program(folder, {"report", hot, "--out", page}).code == 0);
 }
 
 TEST_CASE("an unfinished folder leaves the verdicts of others, and the warning names it",

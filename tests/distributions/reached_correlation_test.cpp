@@ -48,7 +48,7 @@ struct Scores {
   }
 };
 
-/// Scores that have with the first the correlation by which the copula reaches Spearman's.
+/// Scores correlated with the first ones, so that the ranks have this Spearman coefficient.
 std::vector<double> coupled(const Scores& scores, double spearman) {
   const double r = normal_correlation(spearman);
   std::vector<double> coupled;
@@ -187,8 +187,8 @@ TEST_CASE("what the ties of rare steps leave is that of an integral, in either o
 
 TEST_CASE("ties of one value among many different ones reduce a correlation") {
   const Scores scores;
-  const std::vector<double> others_scores = coupled(scores, 0.8);
-  const std::vector<double> normal = ranks_at({Normal{0, 1}, {}}, others_scores);
+  const std::vector<double> second_scores = coupled(scores, 0.8);
+  const std::vector<double> normal = ranks_at({Normal{0, 1}, {}}, second_scores);
   for (const int others : {100, 199, 250, 1500}) {
     CAPTURE(others);
     Empirical law{std::vector<double>(1500, 0.0)};
@@ -197,6 +197,6 @@ TEST_CASE("ties of one value among many different ones reduce a correlation") {
     CHECK(reached_correlation({law, {}}, {Normal{0, 1}, {}}, 0.8) ==
           Approx(correlation_of_ranks(ranks, normal)).margin(0.01));
     CHECK(reached_correlation({law, {}}, {law, {}}, 0.8) ==
-          Approx(correlation_of_ranks(ranks, ranks_at({law, {}}, others_scores))).margin(0.015));
+          Approx(correlation_of_ranks(ranks, ranks_at({law, {}}, second_scores))).margin(0.015));
   }
 }

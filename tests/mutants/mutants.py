@@ -204,7 +204,7 @@ def run(command, number, seconds, folder, **environment):
 
 
 def what_failed(text):
-    """The first failing test's name, as Catch, unittest or ctest print it."""
+    """The name of the first failing test, or of its file, as Catch, unittest or ctest print it."""
     failed = text.find(" FAILED:")  # Catch2: before it stands the test's name, before that perhaps those of tests that warn
     if failed >= 0:
         text = text[max((found.start() for found in re.finditer(r"(?m)^-{70,}\n.+\n(?:  .*\n)*-{70,}\n", text[:failed])), default=0):]

@@ -16,7 +16,7 @@ namespace {
 
 constexpr long most_steps = 50'000; // some tenths of a second for ten bodies
 
-/// Processor time of this thread, s: what else the machine does is not counted.
+/// Processor time of this thread, s: time in which other programs have the processor is not counted.
 double processor_time() {
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

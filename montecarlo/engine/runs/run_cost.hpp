@@ -15,7 +15,8 @@ struct NominalRuns {
   /// One for each nominal wing that does not deploy: "the nominal wing of case cold does not deploy: stalled (…)"; or whose
   /// run was given up.
   std::vector<std::string> notes;
-  double seconds = 0;    ///< of a processor: the nominal run of the first case and a run's draws
+  double seconds =
+      0; ///< processor time of the nominal run of the first case and of one run's draws
   bool at_least = false; ///< that run was given up: it takes longer
 };
 

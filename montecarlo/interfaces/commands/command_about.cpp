@@ -45,7 +45,7 @@ void add_schema_options(CLI::App& command, SchemaOptions& options) {
 Example:
   wingspread schema scene > scene.schema.json
 
-A scene with "$schema": "scene.schema.json" names it to the editor; wingspread passes over this key.)");
+A file with "$schema": "scene.schema.json" tells editors its schema; wingspread ignores the key.)");
 }
 
 struct NoOptions {};

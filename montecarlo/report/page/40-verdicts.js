@@ -16,7 +16,7 @@
       h("span", { class: small && !suffix ? "unseen" : null }, word + suffix),
     );
   };
-  // The badge of a set's requirement: "pass so far" while runs of the set's campaign are missing.
+  // The badge of a set's requirement: "undecided so far" while runs of the set's campaign are missing.
   W.verdictBadge = (verdict, set, small) => W.badge(verdict, small, W.isPart(set) ? " so far" : "");
 
   // The guaranteed value's distance to the limit, positive where the limit is kept; of too few runs the observed value's.
@@ -45,6 +45,7 @@
     const falling = (a, b) => (a === b ? 0 : b - a);
     return all.sort(
       (a, b) =>
+        W.isPart(a.set) - W.isPart(b.set) || // which has no verdict
         RANK[verdictOf(a.requirement.verdict)] - RANK[verdictOf(b.requirement.verdict)] ||
         falling(usedShare(a), usedShare(b)) ||
         falling(-relativeMargin(a), -relativeMargin(b)),
@@ -91,7 +92,10 @@
   function headline(all) {
     const rows = all.filter((row) => !W.isPart(row.set)), // the others are not judged
       failed = rows.some((row) => verdictOf(row.requirement.verdict) === "failed");
-    if (!failed && (W.incomplete() || W.sets.some(W.isPart))) return unfinished(all);
+    const states = (one) => // as other cases of its folder do; without any it is not known
+      !W.sets.some((set) => set.campaign_folder === one.campaign_folder && !(set.requirements || []).length);
+    const unjudged = rows.length < all.length || unmade().some(states);
+    if (all.length ? !failed && unjudged : W.incomplete()) return unfinished(all);
     if (!rows.length)
       return h(
         "p.headline",

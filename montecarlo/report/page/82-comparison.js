@@ -165,7 +165,7 @@
     };
     const rows = keys.map(function (one) {
       const [a, b] = [of(first, one), of(second, one)],
-        changed = !a || !b || a.verdict !== b.verdict;
+        changed = !a || !b || (![first, second].some(W.isPart) && a.verdict !== b.verdict);
       return {
         changed,
         mark: changed ? "changed" : null,

@@ -76,7 +76,7 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
   for (const CaseSpec& spec : whole.campaign.cases)
     if (std::ranges::find(made, spec.name, &CaseSpec::name) == made.end())
       sources.unmade.push_back({several ? name + " · " + spec.name : spec.name, whole.runs().size(),
-                                folder / spec.name});
+                                !whole.campaign.requirements.empty(), folder / spec.name});
 }
 
 PageExtent extent_of(const PageSources& sources) {
@@ -115,11 +115,20 @@ std::filesystem::path resolved_folder(const std::filesystem::path& path) {
   return unknown ? path : whole.has_filename() ? whole : whole.parent_path();
 }
 
+/// Whether a folder that the command did not name has cases. A broken one has not.
+bool has_cases(const std::filesystem::path& folder) {
+  try {
+    return is_cases_folder(folder);
+  } catch (const SpecError&) {
+    return false;
+  }
+}
+
 /// The folder of a set's whole campaign: of a case that around its own.
 std::filesystem::path campaign_folder(const StoredCampaign& stored) {
   const std::filesystem::path own = resolved_folder(stored.folder);
   const std::string& of_case = stored.campaign.of_case;
-  return !of_case.empty() && own.filename() == of_case && is_cases_folder(own.parent_path())
+  return !of_case.empty() && own.filename() == of_case && has_cases(own.parent_path())
              ? own.parent_path()
              : own;
 }
@@ -132,11 +141,14 @@ void refuse_repeated_sets(const PageSources& sources,
   for (const auto& source : sources.runs) {
     const auto [first, is_new] =
         argument_of.emplace(resolved_folder(source->stored.folder), source->argument);
-    if (!is_new)
-      problems.push_back({arguments[source->argument].string(), "",
-                          fmt::format("{}, which {} has too", source->stored.folder.string(),
-                                      arguments[first->second].string()),
-                          "each set of runs once"});
+    if (is_new) continue;
+    const std::string& of_case = source->stored.campaign.of_case;
+    problems.push_back(
+        {arguments[source->argument].string(), "",
+         fmt::format("{} a second time, as in {}",
+                     of_case.empty() ? source->stored.folder.string() : "case " + of_case,
+                     arguments[first->second].string()),
+         "each set of runs once: leave one of the two out"});
   }
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
@@ -162,7 +174,10 @@ void label_by_path(PageSources& sources) {
   for (const UnmadeCase& each : sources.unmade)
     if (times[each.label] > 1) arguments.insert(each.argument);
   for (const auto& source : sources.runs)
-    if (arguments.contains(source->argument)) source->label = source->stored.folder.string();
+    if (arguments.contains(source->argument)) {
+      const std::filesystem::path& folder = source->stored.folder;
+      source->label = (folder.has_filename() ? folder : folder.parent_path()).string();
+    }
   for (UnmadeCase& each : sources.unmade)
     if (arguments.contains(each.argument)) each.label = each.folder.string();
   for (Json& set : sources.studies) { // "margin · joint": its folder, then its search
@@ -227,9 +242,11 @@ std::string unjudged_text(const PageSources& sources) {
     if (of_part) unjudged.push_back(source->label);
     any_judged |= !of_part;
   }
-  for (const UnmadeCase& each : sources.unmade) unjudged.push_back(each.label);
+  for (const UnmadeCase& each : sources.unmade)
+    if (each.has_requirements) unjudged.push_back(each.label);
+  if (unjudged.empty()) return "";
   if (!any_judged) return "requirements are not judged";
-  return unjudged.empty() ? "" : fmt::format("requirements of {} are not judged", listed(unjudged));
+  return fmt::format("requirements of {} are not judged", listed(unjudged));
 }
 
 namespace {

@@ -14,6 +14,7 @@ namespace wingspread {
 struct UnmadeCase {
   std::string label;
   long planned;                   ///< its number of runs
+  bool has_requirements;          ///< of its campaign
   std::filesystem::path folder{}; ///< that the case would have
   std::size_t argument = 0;       ///< place of its folder among the command's
 };
@@ -37,8 +38,8 @@ void label_by_path(PageSources& sources);
 /// The sets and cases that lack runs: "62 of 500 runs of case cold, none of hot"; empty if every planned run is there.
 [[nodiscard]] std::string incomplete_text(const PageSources& sources);
 
-/// Which requirements are not judged because runs of their campaign are missing: "requirements of A and B are not judged";
-/// "requirements are not judged" if no set's are; empty if every set's are.
+/// Which requirements are not judged because runs of their campaign are missing: "requirements of A and B are not
+/// judged"; "requirements are not judged" if no set's are; empty if all that are stated are judged.
 [[nodiscard]] std::string unjudged_text(const PageSources& sources);
 
 /// The data of the page (DATA.md).

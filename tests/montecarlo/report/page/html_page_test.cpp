@@ -278,7 +278,7 @@ TEST_CASE("the page says which runs are missing, of which set or case", "[page]"
       source.summary.runs = each.made;
       source.summary.stopped = each.stopped;
     }
-    for (const char* label : unmade) sources.unmade.push_back({label, 5});
+    for (const char* label : unmade) sources.unmade.push_back({label, 5, true});
     return incomplete_text(sources);
   };
   CHECK(text_of({{"a", "", 5, 5}}).empty());
@@ -309,7 +309,7 @@ TEST_CASE("the sets that are not judged are named beside others that are", "[pag
       source.label = label;
       if (of_part) source.summary.requirements.emplace_back().of_part = *of_part;
     }
-    for (const char* label : unmade) sources.unmade.push_back({label, 5});
+    for (const char* label : unmade) sources.unmade.push_back({label, 5, true});
     return unjudged_text(sources);
   };
   CHECK(text_of({{"a", true}}) == "requirements are not judged");
@@ -318,4 +318,8 @@ TEST_CASE("the sets that are not judged are named beside others that are", "[pag
   CHECK(text_of({{"a", true}, {"b", false}, {"c", true}}, {"d"}) ==
         "requirements of a, c and d are not judged");
   CHECK(text_of({{"a", std::nullopt}, {"b", false}}).empty()); // a has none
+  CHECK(text_of({{"a", std::nullopt}}).empty());
+  PageSources stateless;
+  stateless.unmade.push_back({"a", 5, false});
+  CHECK(unjudged_text(stateless).empty());
 }
