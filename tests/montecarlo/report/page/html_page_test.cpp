@@ -244,7 +244,8 @@ TEST_CASE("equal labels give way to paths, for all sets of an argument alike", "
   add(1, "results · cold", "B/results/cold");
   add(1, "results · extra", "B/results/extra"); // no other set has this label
   add(2, "seed7 · cold", "B/seed7/cold");
-  sources.unmade = {{"results · hot", 5, "B/results/hot", 1}, {"seed7 · hot", 5, "B/seed7/hot", 2}};
+  sources.unmade = {{"results · hot", 5, true, "B/results/hot", 1},
+                    {"seed7 · hot", 5, true, "B/seed7/hot", 2}};
   const auto study = [&](const char* label, const char* folder) {
     sources.studies.push_back({{"label", label}, {"folder", folder}});
   };
