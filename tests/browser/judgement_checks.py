@@ -74,7 +74,7 @@ class JudgementChecks:
             for _ in range(20):
                 given = [[stated(f"{at}{k}", verdict, **SHARE, probability=chance.choice([0.5, 0.9, 0.99, 0.999]), allowed=chance.choice([None, 3, 20]) if verdict == "failed" else None, broken=chance.randint(0, 40)) for k in range(4)] for at in range(3)]
                 runs = [chance.choice([20, 300, 4000]) for _ in range(3)]
-                order = self.run_script("W.sets.forEach((set, at) => Object.assign(set, { runs: arguments[1][at], requirements: arguments[0][at] })); return W.verdicts.judged().map(row => row.requirement.text)", given, runs)
+                order = self.run_script("W.sets.forEach((set, at) => Object.assign(set, { runs: arguments[1][at], planned: arguments[1][at], requirements: arguments[0][at] })); return W.verdicts.judged().map(row => row.requirement.text)", given, runs)
                 used = {one["text"]: one["broken"] / (runs[at] * (1 - one["probability"]) if one["allowed"] is None else one["allowed"]) for at, listed in enumerate(given) for one in listed}
                 shares = [used[text] for text in order]
                 self.assertEqual(len(shares), 12)
