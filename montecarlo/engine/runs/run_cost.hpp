@@ -15,8 +15,7 @@ struct NominalRuns {
   /// One for each nominal wing that does not deploy: "the nominal wing of case cold does not deploy: stalled (…)"; or whose
   /// run was given up.
   std::vector<std::string> notes;
-  double seconds =
-      0; ///< processor time of the nominal run of the first case and of one run's draws
+  double seconds = 0;    ///< processor time: nominal run of the first case, draws of one run
   bool at_least = false; ///< that run was given up: it takes longer
 };
 

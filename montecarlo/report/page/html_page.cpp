@@ -115,7 +115,7 @@ std::filesystem::path resolved_folder(const std::filesystem::path& path) {
   return unknown ? path : whole.has_filename() ? whole : whole.parent_path();
 }
 
-/// Whether a folder that the command did not name has cases. A broken one has not.
+/// Whether the folder has cases; false if it cannot be read, because the command did not name it.
 bool has_cases(const std::filesystem::path& folder) {
   try {
     return is_cases_folder(folder);
