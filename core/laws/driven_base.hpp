@@ -209,6 +209,12 @@ drive_at(const BaseTerms<T>& given, const DrivenPiece<T>& piece, const T& t) {
           fused(t, fused(T(0.5) * given.angular_acceleration, t, given.rate), given.angle)};
 }
 
+/// Whether all accelerations, also the angular one, are constant from this piece on.
+template <class T>
+[[nodiscard]] bool accelerates_constantly(const BaseTerms<T>& base, const DrivenPiece<T>& piece) {
+  return !base.table || accelerates_constantly(piece);
+}
+
 /// Whether the accelerations are constant and the rate of turn is constant from this piece on.
 template <class T>
 [[nodiscard]] bool is_steady(const BaseTerms<T>& base, const DrivenPiece<T>& piece) {

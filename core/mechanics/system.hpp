@@ -56,6 +56,9 @@ public:
   /// Motion of a prescribed base at t.
   [[nodiscard]] Drive<T> drive(const T& t) const { return drive_at(wing_.base, work_.driven, t); }
   [[nodiscard]] bool drive_is_steady() const { return is_steady(wing_.base, work_.driven); }
+  [[nodiscard]] bool drive_accelerates_constantly() const {
+    return accelerates_constantly(wing_.base, work_.driven);
+  }
 
   [[nodiscard, gnu::always_inline]] decltype(auto) topology() const {
     return seen_as<Topology>(wing_.tree);

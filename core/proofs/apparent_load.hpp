@@ -15,8 +15,9 @@
 ///
 ///     g_i = Σ m λ_i (|a| + Ω² R)       V(φ) − V(rest) ≥ −Σ g_i |u_i|                           (3)
 ///
-/// If neither a nor Ω is 0, a turns as seen from the base, and V changes with time. There are no such bounds while Ω or a
-/// changes: on a base driven by a table, until its last knot.
+/// If neither a nor Ω is 0, a turns as seen from the base, and V changes with time. There are no such bounds while a
+/// changes: on a base driven by a table, until its last knot. While Ω changes at a constant rate ε, V does, and the base's
+/// angular acceleration does work too: (11) of modal_bounds.hpp bounds both.
 #pragma once
 
 #include "core/mechanics/energy.hpp"
@@ -33,9 +34,9 @@ public:
   template <class AnySystem> bool prepare(const AnySystem& system) {
     const int n = system.layout().bodies;
     moment_.setZero(n + 1), specific_.setZero(n + 1);
-    spin_ = T(0), turns_ = false;
+    spin_ = T(0), turns_ = false, quickens_ = false;
     if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
-      if (!system.drive_is_steady()) return false;
+      if (!system.drive_accelerates_constantly()) return false;
       sum_up(system, system.topology());
     }
     return true;
@@ -45,6 +46,8 @@ public:
   [[nodiscard]] const T& specific(int i) const { return specific_(i); } ///< of (1), at rest, m/s²
   [[nodiscard]] const T& spin() const { return spin_; }                 ///< |Ω|, rad/s
   [[nodiscard]] bool turns() const { return turns_; } ///< whether a turns as seen from the base
+  /// Whether Ω changes. Then `moment` and `specific` are 0, and bound nothing.
+  [[nodiscard]] bool quickens() const { return quickens_; }
 
   /// @return ½ Σ (m v² + J ω²) + V as seen from the base, and the sum of the sizes of its terms, J
   template <class AnySystem>
@@ -65,7 +68,9 @@ private:
     const Drive<T> drive = system.drive(system.work().driven.from); // as at any other time
     const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
     const T push = length(drive.felt);
-    spin_ = abs(drive.rate), turns_ = push * spin_ > T(0);
+    spin_ = abs(drive.rate), quickens_ = drive.angular_acceleration != T(0);
+    turns_ = push > T(0) && (spin_ > T(0) || quickens_);
+    if (quickens_) return;
     for (int k = 1; k <= wing.size(); ++k) {
       const T &mass = wing.bodies[k].mass, own = length(wing.bodies[k].center);
       T reach = own;
@@ -81,7 +86,7 @@ private:
 
   Numbers moment_, specific_;
   T spin_{};
-  bool turns_ = false;
+  bool turns_ = false, quickens_ = false;
 };
 
 } // namespace wingspread

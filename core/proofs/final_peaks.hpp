@@ -261,16 +261,33 @@ private:
     const auto proves = [&](const std::optional<HingeBounds>& most) {
       return most && no_peak_can_rise(system, x, T(t_end - t), momentum, *most, seen);
     };
-    const std::optional<T> within = energy ? std::optional(energy->within) : std::nullopt;
-    if (proves(modes_->bound(start, within, abs(momentum)))) return true;
-    if (!energy) return false;
-    if (prove_by_energy(system, x, *energy, seen)) return true;
-    if (!thorough_.is_due(*within)) return false;
-    const auto closest = modes_->bound_in_reach(start, energy->whole, abs(momentum));
+    constexpr bool is_driven = AnySystem::base_motion == BaseMotion::prescribed;
+    std::optional<T> cap, so_far; // of the modes; of an energy that may grow
+    if (energy)
+      cap = is_driven ? energy->elastic : energy->within;
+    else if (is_driven)
+      so_far = remaining_.energy_so_far(system, x, t);
+    if (proves(modes_->bound(start, cap, abs(momentum)))) return true;
+    if (!energy && !so_far) return false;
+    if (energy && prove_by_energy(system, x, *energy, seen)) return true;
+    const T falling = energy ? energy->within : *so_far;
+    if (!thorough_.is_due(falling)) return false;
+    const std::optional<T> whole =
+        energy ? std::optional(energy->elastic) : most_energy(system, x, T(t_end - t), *so_far);
+    const auto closest =
+        whole ? modes_->bound_in_reach(start, *whole, abs(momentum)) : std::nullopt;
     if (proves(closest)) return true;
-    thorough_.note_failure(*within,
+    thorough_.note_failure(falling,
                            closest ? std::optional(excess_of_loads(seen, *closest)) : std::nullopt);
     return false;
+  }
+
+  /// Bounds an energy that may grow. @param time t_end − t, s @return none where no bound was found, or a κ may not hold
+  [[nodiscard]] std::optional<T> most_energy(const AnySystem& system, const State<T>& x,
+                                             const T& time, const T& so_far) {
+    const std::optional<double> most = modes_->most_energy(so_far, time);
+    if (!most || !remaining_.keeps_laws(system, x, T(*most))) return std::nullopt;
+    return T(*most);
   }
 
   /// @param time t_end − t, s @param momentum H @param most bounds on all that follows

@@ -77,6 +77,19 @@
 /// In (5), |w_j(0) − w'_j(0)| then replaces |w_j(0)|, the largest |w'_j| is added, and n keeps only what
 /// bending adds to the push.
 ///
+/// On a base that turns at a rate Ω with a constant angular acceleration ε, and no linear one, E = T + Σ ½ κ u² as seen
+/// from the base may grow. With the inertia of all bodies but the base about the base's origin, I = 1ᵀM 1,
+///
+///     dE/dt ≤ ½ Ω² dI/dt − ε 1ᵀM S u̇
+///
+/// Let E_0 = E(t) − ½ Ω(t)² (I(t) − I(y*)), remaining_energy.hpp's rest y*, and let δI, u and δM bound I − I(rest), the ways
+/// off rest and M − M(rest) while E ≤ A. As |∫ Ω ε dt| ≤ max Ω², by parts
+///
+///     E ≤ E_0 + 3 max Ω² δI + 2 |ε| Σ |1ᵀM(rest) S|_i u_i + |ε| (t_end − t) max |1ᵀδM S u̇|       (11)
+///
+/// up to t_end while E ≤ A: for the change from y* to rest δI is counted twice. Where the right side is below A the motion
+/// never reaches A, and every right side for a smaller A that bounds E bounds it too.
+///
 /// Eigenvectors and sums are a library's: their last bits may differ between processors. A run may
 /// then end some steps earlier or later, but no peak depends on when a run ends.
 #pragma once
@@ -147,6 +160,12 @@ public:
   /// @return none without `least` in `make`, without such a box, or if a hinge may leave RestModel::room
   [[nodiscard]] std::optional<HingeBounds> bound_in_reach(const ModeVector& start, double energy,
                                                           double spin);
+
+  /// Bounds the energy up to the run's end on a base with a constant angular acceleration and no linear one, by (11).
+  /// Costs as much as `bound_in_reach`. @pre every hinge stays where its κ holds
+  /// @param energy E_0, J @param time t_end − t, s
+  /// @return J; none without `least` in `make`, or where no A was found
+  [[nodiscard]] std::optional<double> most_energy(double energy, double time);
 
 private:
   /// A·B by plain sums: for the few bodies of a wing a blocked product costs more to set up.
@@ -220,6 +239,8 @@ private:
   [[nodiscard]] Image map(const Box& box, const ModeVector& start, double spin,
                           const Reach* reach) const;
   void cap_modes(double energy, const Box& box, Image& image) const;
+  [[nodiscard]] Reach reach_of(double energy) const;
+  [[nodiscard]] std::optional<double> energy_gained(double most, double time) const;
   [[nodiscard]] std::optional<Contraction> contraction(const Reach& reach) const;
   [[nodiscard]] std::optional<double> leave_turning(double& energy, const Reach& reach,
                                                     double spin) const;

@@ -1,4 +1,4 @@
-/// Bounds on the modes of a latched wing from the energy that is left: (7) and (10) of modal_bounds.hpp.
+/// Bounds on the modes of a latched wing from the energy that is left: (7), (10) and (11) of modal_bounds.hpp.
 #include "core/proofs/modal_bounds.hpp"
 
 #include <algorithm>
@@ -119,10 +119,10 @@ auto ModalBounds::contraction(const Reach& reach) const -> std::optional<Contrac
 }
 
 /// Takes the energy of the whole's turning from `energy`. @param reach knows ways already @param spin |H|
-/// @return |H|/I of the least I; none where inertia may vanish
+/// @return |H|/I of the least I, on a base that is driven the rate of its turning; none where inertia may vanish
 std::optional<double> ModalBounds::leave_turning(double& energy, const Reach& reach,
                                                  double spin) const {
-  if (model_->rigid == 0 || spin == 0) return 0.0;
+  if (model_->rigid == 0 || spin == 0) return model_->spin;
   const BodyVector none = BodyVector::Zero(size() + 1), ones = BodyVector::Ones(size() + 1);
   const double change = model_->bound_turns(reach.way, none, ones, &reach.turns).momentum;
   const double inertia = 1 / model_->rigid;
@@ -132,14 +132,55 @@ std::optional<double> ModalBounds::leave_turning(double& energy, const Reach& re
   return spin / (inertia - change);
 }
 
+/// The ways by the energy alone. The rest is left empty.
+auto ModalBounds::reach_of(double energy) const -> Reach {
+  Reach reach;
+  reach.turns = turns_, reach.turns.size = std::sqrt(2 * energy);
+  reach.way = reach.turns.size * soft_ + apart_.cwiseAbs();
+  return reach;
+}
+
+/// What (11) adds to E_0 while E ≤ most. @return none where rates have no bound
+std::optional<double> ModalBounds::energy_gained(double most, double time) const {
+  const RestModel& m = *model_;
+  const Reach reach = reach_of(most);
+  const std::optional<Contraction> found = contraction(reach);
+  if (!found) return std::nullopt;
+  const double root = reach.turns.size / std::sqrt(1 - found->mu);
+  const auto momentum = [&](const BodyVector& rates) {
+    return m.bound_turns(reach.way, BodyVector::Zero(size() + 1), rates, &reach.turns).momentum;
+  };
+  const double inertia = momentum(BodyVector::Ones(size() + 1));
+  const double apart = momentum(root * swing_by_turns_.diagonal().cwiseSqrt());
+  const double along =
+      product(m.dragged.transpose(), product(m.turns.cwiseAbs(), reach.way)).value();
+  return 3 * m.spin * m.spin * inertia + 2 * along + m.quickening * time * apart;
+}
+
+std::optional<double> ModalBounds::most_energy(double energy, double time) {
+  if (!is_capped_) return std::nullopt;
+  if (slowest_.empty()) keep_reach();
+  constexpr int tries = 4; // heuristic: an A that is not found by then is far above the energy
+  const double start = std::max(energy, 0.0);
+  double most = 2 * start;
+  for (int k = 0; k < tries; ++k) {
+    const std::optional<double> gained = energy_gained(most, time);
+    if (!gained) return std::nullopt;
+    if (start + *gained < most) {
+      const std::optional<double> closer = energy_gained(start + *gained, time);
+      return start + std::min(*gained, closer.value_or(*gained));
+    }
+    most = start + 2 * *gained;
+  }
+  return std::nullopt;
+}
+
 /// The box of (7) and what follows from it. With smaller ways μ is smaller, and then the box is.
 auto ModalBounds::reach(double energy, const ModeVector& start, double spin) const
     -> std::optional<Reach> {
   constexpr int rounds = 2, images = 3; // heuristic: further ones gain little
-  Reach reach;
   const double whole = std::max(energy, 0.0);
-  reach.turns = turns_, reach.turns.size = std::sqrt(2 * whole);
-  reach.way = reach.turns.size * soft_ + apart_.cwiseAbs();
+  Reach reach = reach_of(whole);
   for (int round = 0; round < rounds; ++round) {
     double left = whole;
     const std::optional<double> whirl = leave_turning(left, reach, spin);

@@ -25,8 +25,10 @@
 /// On a driven base T is taken as seen from the base, and by (3) of apparent_load.hpp
 ///
 ///     T + Σ ½ κ_i (|u_i| − g_i/κ_i)² ≤ Ē = E + Σ g_i²/2κ_i                                     (2)
+///     T + Σ ½ κ_i u_i² ≤ E + Σ g_i |u_i|,      |u_i| ≤ g_i/κ_i + √(2Ē/κ_i)                     (4)
 ///
-/// On a base that turns and accelerates, a turns as seen from the base and may drive a mode: there is no bound.
+/// On a base that turns and has a linear acceleration, that turns as seen from the base and may drive a mode: there is no
+/// bound. On one that has an angular acceleration alone, E may grow: `energy_so_far` returns it for a bound elsewhere.
 ///
 /// The moment of a hinge then stays within g_i + √(2Ē) √(κ_i + δ_i² σ_i) + τ_s, σ_i as in
 /// energy_bounds.hpp. For a hinge without rest κ is 0, and g the most that its spring exerts on its
@@ -58,8 +60,10 @@ namespace wingspread {
 /// Bounds from the energy that is left.
 template <class T> struct EnergyLeft {
   T whole;    ///< E, or Ē of (2), J
-  T within;   ///< E' of (3), what the hinges may get, J; on a base that is not free E
+  T within;   ///< E' of (3), what the hinges may get, J; on a base that is not free E or Ē
   T whirl{0}; ///< largest |r| of a free base, rad/s
+  /// Bounds T + Σ ½ κ u² of hinges that all have a rest, J: E, or the bound of (4).
+  T elastic{whole};
 };
 
 template <class T> class RemainingEnergy {
@@ -79,7 +83,7 @@ public:
     if (system.base_motion == BaseMotion::free) largest_inertia_ = largest_inertia(system);
     rest_.assign(system.layout().size(), T(0));
     for (int i = 1; i <= n; ++i) prepare(system, i);
-    elastic_ = bounded_ && system.base_motion != BaseMotion::prescribed;
+    elastic_ = bounded_;
     for (int i = 1; i <= n; ++i) elastic_ = elastic_ && least_stiffness_(i) > T(0);
   }
 
@@ -91,29 +95,40 @@ public:
   template <class AnySystem>
   [[nodiscard]] std::optional<EnergyLeft<T>> energy(AnySystem& system, const State<T>& x,
                                                     const T& t) {
-    if (!bounded_) return std::nullopt;
+    if (!bounded_ || load_.quickens()) return std::nullopt;
     const Layout& at = system.layout();
-    T sum(0);
-    for (int i = 1; i <= at.bodies; ++i) {
-      const std::optional<T> own = part_of(system, x, i);
-      if (!own) return std::nullopt;
-      sum = sum + *own;
-    }
-    const EnergyLeft<T> left = with_motion(system, x, t, T(sum + loops_energy(system, x)));
-    if (may_touch_stop(system, left.within) || may_leave_window(system, x, left.within))
-      return std::nullopt;
+    const std::optional<T> springs = springs_energy(system, x);
+    if (!springs) return std::nullopt;
+    const EnergyLeft<T> left = with_motion(system, x, t, *springs);
+    if (!keeps_laws(system, x, left.within)) return std::nullopt;
     for (int i = 1; i <= at.bodies; ++i)
       if (is_open(system, i) && !find_way(system, x[at.angle(i)], left.within, i))
         return std::nullopt;
     return left;
   }
 
+  /// E on a base with an angular acceleration and no linear one, seen from the base. It may grow from there. Cost O(n).
+  /// @return none on another base, where there is no bound for other reasons, or where a hinge has no rest
+  template <class AnySystem>
+  [[nodiscard]] std::optional<T> energy_so_far(AnySystem& system, const State<T>& x,
+                                               const T& t) const {
+    if (!elastic_ || !load_.quickens()) return std::nullopt;
+    const std::optional<T> springs = springs_energy(system, x);
+    if (!springs) return std::nullopt;
+    return *springs + seen_from_base(system, x, t);
+  }
+  /// Whether no hinge may touch a stop or leave the window of its κ while T + Σ ½ κ u² stays below this energy, J.
+  template <class AnySystem>
+  [[nodiscard]] bool keeps_laws(const AnySystem& system, const State<T>& x, const T& energy) const {
+    return !may_touch_stop(system, energy) && !may_leave_window(system, x, energy);
+  }
+
   [[nodiscard]] const State<T>& rest() const { return rest_; }            ///< y* of every hinge
   [[nodiscard]] const T& stiffness(int i) const { return stiffness_(i); } ///< κ
   [[nodiscard]] const T& damping(int i) const { return damping_(i); }     ///< δ
   [[nodiscard]] const T& steady(int i) const { return steady_(i); }       ///< g
-  /// κ of every hinge, the first at [0], such that the energy is at least T + ½ Σ κ (φ − rest)²; null
-  /// where there are none.
+  /// κ of every hinge, the first at [0], such that `elastic`, or on a base with an angular acceleration the energy, is at
+  /// least T + ½ Σ κ (φ − rest)²; null where there are none.
   [[nodiscard]] const T* least_stiffness() const {
     return elastic_ ? least_stiffness_.data() + 1 : nullptr;
   }
@@ -288,22 +303,45 @@ private:
     return T(0.5) * law.stiffness * u * u;
   }
 
+  /// The parts of all hinges and loops in (1), J; none where a hinge's has no bound.
+  template <class AnySystem>
+  [[nodiscard]] std::optional<T> springs_energy(const AnySystem& system, const State<T>& x) const {
+    T sum(0);
+    for (int i = 1; i <= system.layout().bodies; ++i) {
+      const std::optional<T> own = part_of(system, x, i);
+      if (!own) return std::nullopt;
+      sum = sum + *own;
+    }
+    return sum + loops_energy(system, x);
+  }
+
+  static constexpr double lost_by_rounding = 64 * epsilon_of<T>; ///< of differences and sums
+
+  /// T + V − V(rest) as seen from a driven base, J.
+  template <class AnySystem>
+  [[nodiscard]] T seen_from_base(AnySystem& system, const State<T>& x, const T& t) const {
+    const auto [now, size] = ApparentLoad<T>::energy(system, x, t);
+    const auto [at_rest, size_at_rest] = ApparentLoad<T>::energy(system, rest_, t);
+    return (now - at_rest) + T(lost_by_rounding) * (size + size_at_rest);
+  }
+
   template <class AnySystem>
   [[nodiscard]] EnergyLeft<T> with_motion(AnySystem& system, const State<T>& x, const T& t,
                                           const T& springs) const {
     using std::sqrt;
-    constexpr double lost = 64 * epsilon_of<T>; // by the rounding of differences and sums
     if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
-      const auto [now, size] = ApparentLoad<T>::energy(system, x, t);
-      const auto [at_rest, size_at_rest] = ApparentLoad<T>::energy(system, rest_, t);
-      const T bar = springs + (now - at_rest) + T(lost) * (size + size_at_rest) + offset_;
-      return {larger(bar, T(0)), larger(bar, T(0))};
+      const T sum = springs + seen_from_base(system, x, t);
+      const T bar = larger(T(sum + offset_), T(0));
+      T elastic = sum;
+      for (int i = 1; elastic_ && i <= system.layout().bodies; ++i)
+        elastic = elastic + load_.moment(i) * furthest(i, bar);
+      return {bar, bar, T(0), larger(elastic, T(0))};
     } else {
       using std::abs;
       const TotalMotion<T> now = total_motion(system, x, t);
       const bool is_free = AnySystem::base_motion == BaseMotion::free;
       const T own = is_free ? now.central_kinetic() : now.kinetic;
-      const T whole = springs + own + T(lost) * now.kinetic;
+      const T whole = springs + own + T(lost_by_rounding) * now.kinetic;
       const T spin = is_free ? T(abs(now.spin())) : T(0);
       if (!(spin > T(0))) return {whole, whole};
       constexpr double rounded_down = 1 - 1e-9; // far more than the sums lose
@@ -377,7 +415,7 @@ private:
 
   ApparentLoad<T> load_;
   bool bounded_ = false;
-  bool elastic_ = false; ///< the base is not driven, and every hinge has a rest
+  bool elastic_ = false; ///< there is a bound, and every hinge has a rest
   Numbers stiffness_, damping_, steady_;
   Numbers least_stiffness_; ///< κ
   Numbers at_rest_;         ///< P(y*) of a real hinge

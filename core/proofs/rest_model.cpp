@@ -65,8 +65,7 @@ private:
   [[nodiscard]] bool is_modelled() const {
     const BaseTerms<double>& base = wing_.base;
     if (n_ > most_modelled_bodies || !wing_.plates.empty()) return false;
-    if (base.motion == BaseMotion::prescribed && base.table &&
-        !accelerates_constantly(work_.driven))
+    if (base.motion == BaseMotion::prescribed && !accelerates_constantly(base, work_.driven))
       return false;
     return std::none_of(wing_.real.begin(), wing_.real.end(),
                         [](const auto& real) { return real.has_backlash; });

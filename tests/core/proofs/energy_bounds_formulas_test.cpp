@@ -239,6 +239,10 @@ TEST_CASE(
     if (!left) continue;
     CHECK(left->whole == Approx(offset).epsilon(1e-9));
     CHECK(left->within == left->whole);
+    double elastic = 0; // (4)
+    for (const int i : {0, 1})
+      elastic += g[i] * (g[i] / kappa[i] + std::sqrt(2 * offset / kappa[i]));
+    CHECK(left->elastic == Approx(elastic).epsilon(1e-9));
     for (const int i : {1, 2})
       CHECK(wing.remaining.furthest(i, left->within) ==
             Approx(g[i - 1] / kappa[i - 1] + std::sqrt(2 / kappa[i - 1] * offset)));

@@ -21,10 +21,12 @@ struct Shares {
 /// The bounds by the modes alone, with the energy's cap, and inside the energy's box.
 enum class Kind { modes, capped, in_reach };
 
-/// What no energy exceeds from this state on, J.
+/// What T + Σ ½ κ u² does not exceed from this state on, J.
 template <BaseMotion M> std::optional<double> energy_of(Latched<M>& wing, const State<double>& x) {
-  const auto left = wing.remaining.energy(wing.system, x, 0.);
-  return left ? std::optional(left->whole) : std::nullopt;
+  if (const auto left = wing.remaining.energy(wing.system, x, 0.)) return left->elastic;
+  if (M != BaseMotion::prescribed) return std::nullopt;
+  const auto so_far = wing.remaining.energy_so_far(wing.system, x, 0.);
+  return so_far ? wing.modes->most_energy(*so_far, wing.t_end) : std::nullopt;
 }
 
 /// Largest shares of the bounds that the motion from x takes, by Runge and Kutta's classical steps;

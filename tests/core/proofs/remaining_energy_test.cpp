@@ -208,8 +208,8 @@ TEST_CASE(
   CHECK(bounded > 100);
 }
 
-TEST_CASE("the energy bounds ways by each hinge's stiffness, but not on a driven base, where it "
-          "may grow") {
+TEST_CASE("the energy bounds ways by each hinge's stiffness, but not on a base that is pushed and "
+          "turns") {
   Scene scene = oracle::seed_scene();
   const LatchedWing<> fixed(scene);
   REQUIRE(fixed.remaining.least_stiffness());
@@ -220,5 +220,17 @@ TEST_CASE("the energy bounds ways by each hinge's stiffness, but not on a driven
   scene.base.mass = 100, scene.base.inertia = 30, scene.base.motion = BaseMotion::free;
   CHECK(LatchedWing<BaseMotion::free>(scene).remaining.least_stiffness());
   scene.base.motion = BaseMotion::prescribed, scene.base.rate = 0.1;
-  CHECK_FALSE(LatchedWing<BaseMotion::prescribed>(scene).remaining.least_stiffness());
+  using Driven = LatchedWing<BaseMotion::prescribed>;
+  CHECK(Driven(scene).remaining.least_stiffness());
+  scene.base.acceleration = {0.1, 0};
+  CHECK_FALSE(Driven(scene).remaining.least_stiffness());
+  scene.base.rate = 0;
+  CHECK(Driven(scene).remaining.least_stiffness());
+  scene.base.angular_acceleration = 0.1;
+  CHECK_FALSE(Driven(scene).remaining.least_stiffness());
+  scene.base.acceleration = {0, 0};
+  Driven quickening(scene);
+  CHECK(quickening.remaining.least_stiffness());
+  CHECK_FALSE(quickening.remaining.energy(quickening.system, quickening.rest, 0.));
+  CHECK(quickening.remaining.energy_so_far(quickening.system, quickening.rest, 0.));
 }
