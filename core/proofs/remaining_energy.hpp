@@ -50,6 +50,7 @@
 #pragma once
 
 #include "core/proofs/apparent_load.hpp"
+#include "core/proofs/largest_inertia.hpp"
 #include "core/proofs/stall.hpp"
 
 #include <limits>
@@ -80,7 +81,7 @@ public:
     bounded_ = load_.prepare(system) && !load_.turns() &&
                (system.wing().plates.empty() || stands_still(system.wing().base));
     offset_ = T(0);
-    if (system.base_motion == BaseMotion::free) largest_inertia_ = largest_inertia(system);
+    if (system.base_motion == BaseMotion::free) largest_inertia_ = largest_inertia<T>(system);
     rest_.assign(system.layout().size(), T(0));
     for (int i = 1; i <= n; ++i) prepare(system, i);
     elastic_ = bounded_;
@@ -348,41 +349,6 @@ private:
       const T turning = T(rounded_down) * spin * spin / (T(2) * largest_inertia_);
       return {whole, larger(T(whole - turning), T(0)), T(2) * whole / spin};
     }
-  }
-
-  /// I_max of (3), kg·m². Cost O(n²) times the tree's depth.
-  template <class AnySystem> [[nodiscard]] static T largest_inertia(const AnySystem& system) {
-    const Wing<T>& wing = system.wing();
-    T products(0), mass(0), inertia(0);
-    for (int l = 0; l <= wing.size(); ++l) {
-      mass = mass + wing.bodies[l].mass;
-      inertia = inertia + wing.bodies[l].central_inertia;
-      for (int k = 0; k < l; ++k) {
-        const T d = path_between(system, k, l);
-        products = fused(wing.bodies[k].mass * wing.bodies[l].mass, d * d, products);
-      }
-    }
-    return products / mass + inertia;
-  }
-
-  /// The length of the path along the bodies between the centres of k and l, m: it bounds their distance for ever.
-  template <class AnySystem>
-  [[nodiscard]] static T path_between(const AnySystem& system, int k, int l) {
-    const Wing<T>& wing = system.wing();
-    Vec2<T> on_k = wing.bodies[k].center, on_l = wing.bodies[l].center; // where the path enters
-    T sum(0);
-    while (k != l) { // a body has a greater number than its parent
-      int& outer = k > l ? k : l;
-      Vec2<T>& place = k > l ? on_k : on_l;
-      if (system.is_held(outer)) { // one body with its parent
-        place = wing.bodies[outer].arm + rotated(sine_cosine(wing.hinges[outer].stowed), place);
-      } else {
-        sum = sum + length(place);
-        place = wing.bodies[outer].arm;
-      }
-      outer = system.topology().parent_of(outer);
-    }
-    return sum + length(on_k - on_l);
   }
 
   /// Finds how far hinge i, which cannot reach its latch, goes either way with this energy, and keeps
