@@ -1,26 +1,36 @@
 /// Interim analyses: verdicts and bounds from draws that were analysed before with fewer runs.
 ///
 ///   symbol     meaning
-///   n_k, F_k   runs at analysis k of m, failures among them; the runs of an analysis include those of the ones before
+///   n_k, F_k   runs at analysis k, failures among them; the runs of an analysis include those of the ones before
 ///   p, c, α    probability to be shown, confidence, α = 1 − c
 ///   a_k        most failures with which analysis k passes
-///   ρ_k        risk of a wrong pass at analysis k and at none before, for the worst case P = p
+///   R_k        risk that is left to the analyses after k; R_0 = α
 ///
-///   ρ_k = P(F_1 > a_1, …, F_{k−1} > a_{k−1}, F_k ≤ a_k)                                       (1)
+/// Planned analyses (those of `until`) share α equally (bonferroni.hpp). An extension is not planned: whoever adds runs
+/// after "fail" has the chance of another pass, and may choose the number of runs by the failures seen. So risks are
+/// bounded given what was seen: for P = p and given F_{k−1}
 ///
-/// Planned analyses (those of `until`) share α equally (bonferroni.hpp). An extension is not planned: whoever
-/// adds runs after "fail" has the chance of another pass. The first analysis that can pass at all has spent up to α by
-/// itself, because it was a fixed number of runs. Each later one spends at most half of what is left of α:
+///   P(F_k ≤ a_k) + E[R_k if F_k > a_k] ≤ R_{k−1}                                              (1)
 ///
-///   ρ_k ≤ (α − ρ_1 − … − ρ_{k−1})/2                                                           (2)
+/// By induction from the last analysis backwards, the probability of a pass at any analysis after k is at most R_k, by
+/// whatever rule the numbers of runs follow from the failures so far; at any analysis at all it is at most α. The first
+/// analysis that can pass may risk all, because it was a fixed number of runs; a later one half of what is left:
 ///
-/// So Σ ρ_k ≤ α for any number of extensions, and another one is always possible. (1) is exact: the distribution of F_k
-/// on the paths that have not passed follows from that of F_{k−1} by adding Bin(n_k − n_{k−1}, 1 − p). A path with
-/// fewer failures passes no later, so P = p is the worst case of P ≤ p. Half is a choice: any share below 1 keeps Σ ρ_k
-/// ≤ α.
+///   P(F_k ≤ a_k) ≤ R_{k−1}/2                                                                  (2)
 ///
-/// Bounds of extension k (k ≥ 2) use the risk α/(k(k − 1)), in sum α: those of all extensions hold together at c.
-/// Source: C. Jennison, B. W. Turnbull, Group Sequential Methods (2000), chapters 7 (spending) and 12 (binomial).
+/// and no analysis allows more failures than it would by itself. What is left goes to the F_k that may pass later:
+/// with m more runs, and the b and C that use all of (1),
+///
+///   R_k = C P(F_k + Bin(m, 1 − p) ≤ b),   m = max(3 n_k, 4 times the least runs that can pass) (3)
+///
+/// R_k falls with F_k, so that P = p is the worst case of P ≤ p. The half, m and the form of (3) are choices: they change
+/// how often a good wing passes, not the promise. A requirement that has passed can pass wrongly no more, and is judged
+/// by itself from then on.
+///
+/// Bounds of extension k (k ≥ 2) use the risk α/(k(k − 1)), in sum α: those of all extensions hold together at c if the
+/// numbers of runs are not chosen by the results.
+/// Sources: C. Jennison, B. W. Turnbull, Group Sequential Methods (2000), chapters 7 (spending) and 12 (binomial); H.-H.
+/// Müller, H. Schäfer, Biometrics 57 (2001) 886–891 (what a later analysis may risk given the data so far).
 #pragma once
 
 #include <optional>
@@ -42,25 +52,28 @@ struct InterimAnalyses {
 
 /// When a requirement P ≥ p passes at an analysis.
 struct PassingRule {
-  std::optional<long> allowed; ///< a_m; nothing if no number of failures is small enough
+  std::optional<long> allowed; ///< a_k; nothing if no number of failures is small enough
   double confidence = 0;       ///< at which a single analysis allows as many
 
   /// An extension's risk of a wrong pass at any analysis so far.
   struct Joint {
-    double risk = 0;                   ///< Σ ρ_k ≤ α
-    double risk_alone = 0;             ///< the same if each analysis were judged by itself at c
+    double risk = 0;       ///< at most this: α
+    double risk_alone = 0; ///< if each analysis were judged by itself at c; exact for these n_k
     std::optional<long> allowed_alone; ///< most failures, if this were the only analysis
   };
   std::optional<Joint> joint{}; ///< present after an extension
 };
 
 /// The rule at the analysis of n runs.
-/// Cost after an extension: O(m n p (1 − p)) operations, 0.1 s for 10⁶ runs and p = 0.95.
+/// Cost after an extension: O(m n p (1 − p)) operations for m analyses, 0.1 s for 10⁶ runs and p = 0.95.
+/// @param failed F_k of each analysis in interim.before with fewer than n runs
 /// @pre n ≥ 0, 0 < p < 1, 0 < c < 1
-[[nodiscard]] PassingRule passing_rule(const InterimAnalyses& interim, long n, double p, double c);
+[[nodiscard]] PassingRule passing_rule(const InterimAnalyses& interim, long n, double p, double c,
+                                       std::span<const long> failed = {});
 
 /// Whether k failures in n runs show P < p at confidence c: the rule for the probability 1 − p of a failure.
-/// @pre 0 ≤ k ≤ n
-[[nodiscard]] bool is_disproved(const InterimAnalyses& interim, long n, double p, double c, long k);
+/// @param failed as of `passing_rule` @pre 0 ≤ k ≤ n
+[[nodiscard]] bool is_disproved(const InterimAnalyses& interim, long n, double p, double c, long k,
+                                std::span<const long> failed = {});
 
 } // namespace wingspread

@@ -193,10 +193,14 @@ std::string describe_static_margins(const StaticMarginSpec& spec, const Scene& s
 std::string describe_requirement(const Campaign& campaign, const Requirement& requirement) {
   const long runs = campaign.sampling.runs;
   const double p = requirement.probability;
-  const PassingRule rule = passing_rule(interim_analyses(campaign), runs, p,
-                                        confidence_alone(campaign.requirements, requirement));
   const std::string text = to_string(requirement);
   if (!has_spread(campaign)) return text + ": cannot be shown, as nothing is dispersed";
+  const InterimAnalyses interim = interim_analyses(campaign);
+  if (!interim.before.empty())
+    return fmt::format("{}: how many of {} may break it depends on how many of the first {} do",
+                       text, counted(runs, "run", "runs"), fmt::join(interim.before, ", "));
+  const PassingRule rule =
+      passing_rule(interim, runs, p, confidence_alone(campaign.requirements, requirement));
   if (rule.allowed)
     return fmt::format("{}: {} of {} may break it", text, *rule.allowed,
                        counted(runs, "run", "runs"));

@@ -87,10 +87,11 @@ Json definitions(const Summary& summary) {
                      "them together hold at c";
   if (!summary.interim.before.empty())
     json["extended"] =
-        "runs were added to draws that had been analysed: a requirement passes if the risk of a "
-        "wrong pass at any of the analyses, risk_of_wrong_pass, is at most 1 - c (exact, for P = "
-        "p; each analysis after the first spends at most half of what is left); risk_if_alone: the "
-        "risk if each were judged alone at c; bounds of analysis k at 1 - (1 - c)/(k(k - 1))";
+        "runs were added to draws that had been analysed: a requirement passes so that the risk of "
+        "a wrong pass at any of the analyses is at most risk_of_wrong_pass, 1 - c, by whatever "
+        "rule runs were added (each analysis after the first spends at most half of what is left "
+        "after the failures seen); risk_if_alone: the risk if each were judged alone at c; bounds "
+        "of analysis k at 1 - (1 - c)/(k(k - 1)), for numbers of runs not chosen by the results";
   return json;
 }
 

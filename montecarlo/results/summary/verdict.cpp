@@ -62,8 +62,18 @@ double value_or_infinite(const Results& results, std::size_t row, double value,
   return how.absolute ? std::abs(value) : value;
 }
 
+/// Counts a run that breaks the requirement among those of the earlier analyses.
+void count_before(const InterimAnalyses& interim, long run, bool is_open, Verdict& verdict) {
+  for (std::size_t k = 0; k < interim.before.size(); ++k) {
+    if (run >= interim.before[k]) continue;
+    ++verdict.failed_before[k];
+    if (!is_open) ++verdict.surely_before[k];
+  }
+}
+
 /// Sets the runs that break the requirement, the worst first, ties by run number; and why they do.
-void add_breaking(const Results& results, const Column* column, Verdict& verdict) {
+void add_breaking(const Results& results, const Column* column, const InterimAnalyses& interim,
+                  Verdict& verdict) {
   const Requirement& requirement = verdict.requirement;
   const double sign = sign_of(requirement), limit = limit_of(requirement);
   const HowJudged how = how_judged(column, requirement.absolute, requirement.min.has_value());
@@ -80,7 +90,9 @@ void add_breaking(const Results& results, const Column* column, Verdict& verdict
       continue;
     const bool cut = results.status[row] == Status::deployed && results.is_cut(row, how.peak);
     if (column && (cut || value == infinity)) ++(cut ? verdict.cut : verdict.absent);
-    if (cut && may_meet(requirement, seen)) ++verdict.open;
+    const bool is_open = cut && may_meet(requirement, seen);
+    verdict.open += is_open;
+    count_before(interim, results.runs[row], is_open, verdict);
   }
   results.release();
   std::ranges::sort(beyond, [](const BreakingRun& a, const BreakingRun& b) {
@@ -123,7 +135,9 @@ Verdict judge_one(const Requirement& requirement, const Results& results, const 
   Verdict verdict;
   verdict.requirement = requirement;
   verdict.runs = static_cast<long>(results.size());
-  add_breaking(results, column, verdict);
+  verdict.failed_before.assign(interim.before.size(), 0);
+  verdict.surely_before = verdict.failed_before;
+  add_breaking(results, column, interim, verdict);
   decide(confidence, interim, verdict);
   if (ranks)
     add_values(*ranks, verdict);
@@ -166,14 +180,17 @@ void decide(double confidence, const InterimAnalyses& interim, Verdict& verdict)
   verdict.confidence_alone = confidence;
   const double p = verdict.requirement.probability;
   const long n = verdict.runs, broken = verdict.failures();
-  const PassingRule rule = passing_rule(interim, n, p, confidence);
+  const long earlier = std::ranges::count_if(interim.before, [n](long runs) { return runs < n; });
+  const std::span failed = std::span(verdict.failed_before).first(earlier),
+                  surely = std::span(verdict.surely_before).first(earlier);
+  const PassingRule rule = passing_rule(interim, n, p, confidence, failed);
   const double c = rule.confidence;
   verdict.confidence = c;
   verdict.interim = interim;
   verdict.joint = rule.joint;
   verdict.allowed = rule.allowed;
   verdict.least_runs = runs_to_show(p, c, 0);
-  verdict.disproved = is_disproved(interim, n, p, confidence, broken - verdict.open);
+  verdict.disproved = is_disproved(interim, n, p, confidence, broken - verdict.open, surely);
   verdict.share = static_cast<double>(n - broken) / static_cast<double>(n);
   verdict.guaranteed_share = clopper_pearson_lower(n - broken, n, c);
   verdict.decision = decision_of(verdict);
@@ -274,8 +291,8 @@ std::string joint_risk(const Verdict& verdict) {
   if (!verdict.joint) return "";
   const auto& [risk, risk_alone, allowed_alone] = *verdict.joint;
   return fmt::format(". This is analysis {} of the same draws, after {} runs: the risk of a wrong "
-                     "pass at any of them is {:.3g} %, and {:.3g} % had each been judged alone "
-                     "({} may break it then)",
+                     "pass at any of them is at most {:.3g} %, and {:.3g} % had each been judged "
+                     "alone ({} may break it then)",
                      verdict.interim.count(), fmt::join(verdict.interim.before, ", "), 100 * risk,
                      100 * risk_alone, allowed_alone.value_or(0));
 }

@@ -41,8 +41,10 @@ struct Verdict {
   double confidence = 0;
   InterimAnalyses interim{}; ///< that share the risk
   std::optional<PassingRule::Joint>
-      joint{};                    ///< after an extension: the risk of all analyses together
-  std::optional<long> allowed;    ///< most runs that may break it; nothing if n runs are too few
+      joint{};                 ///< after an extension: the risk of all analyses together
+  std::optional<long> allowed; ///< most runs that may break it; nothing if n runs are too few
+  /// Runs that break it among those of each analysis in interim.before; and without those that are `open`.
+  std::vector<long> failed_before{}, surely_before{};
   Spilled<long> broken;           ///< runs that break it, the worst first
   long not_listed = 0;            ///< runs that break it and are not in `broken`: with --no-rows
   std::optional<long> least_runs; ///< fewest runs that could show it, if none broke it
@@ -79,7 +81,7 @@ struct Verdict {
 /// Decides a verdict: sets everything except the values of the output.
 /// @param confidence at which the requirement would be judged in a single analysis
 /// @param interim    the interim analyses that share the risk
-/// @pre requirement, runs, broken, not_listed, cut and open are set
+/// @pre requirement, runs, broken, not_listed, cut, open and the failures before are set
 void decide(double confidence, const InterimAnalyses& interim, Verdict& verdict);
 
 /// Least and largest value, if the limit lies on the other side of zero from both; nothing for a static margin.
