@@ -291,8 +291,9 @@ std::string joint_risk(const Verdict& verdict) {
   if (!verdict.joint) return "";
   const auto& [risk, risk_alone, allowed_alone] = *verdict.joint;
   return fmt::format(". This is analysis {} of the same draws, after {} runs: the risk of a wrong "
-                     "pass at any of them is at most {:.3g} %, and {:.3g} % had each been judged "
-                     "alone ({} may break it then)",
+                     "pass at any of them is at most {:.3g} %, however the numbers of runs were "
+                     "chosen; with these numbers it is {:.3g} % if each is judged alone ({} may "
+                     "break it then)",
                      verdict.interim.count(), fmt::join(verdict.interim.before, ", "), 100 * risk,
                      100 * risk_alone, allowed_alone.value_or(0));
 }
