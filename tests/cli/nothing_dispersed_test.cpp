@@ -134,6 +134,26 @@ TEST_CASE("margin, rare and goals to stop at are refused where nothing is disper
             .code != 2);
 }
 
+TEST_CASE("goals and check look at each case: one that does not vary is named") {
+  const Folder folder;
+  Json json = undispersed(
+      Json::array({stowed_torque_by(parse_json(R"({ "type": "constant", "value": 1 })"))}));
+  json["cases"] = parse_json(R"([ { "name": "amb" }, { "name": "hot", "distributions": {
+    "s": { "type": "normal", "mean": 1, "std": 0.01 } } } ])");
+  const std::string file = folder.write("c.json", json.dump()), out = folder.path() / "out";
+  const std::vector<std::string> words{"run", file,      "--out",
+                                       out,   "--until", "requirement deployed"};
+  const auto refused = run_program(folder, words);
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.error, HasFacts({"/until: found goals to stop at", "in case amb"}));
+  CHECK_FALSE(std::filesystem::exists(out));
+  std::vector<std::string> one = words;
+  one.insert(one.end(), {"--case", "hot"});
+  CHECK(run_program(folder, one).code <= 1);
+  CHECK_THAT(run_program(folder, {"check", file}).error,
+             HasFacts({"/dispersions", "in case amb", "all 40 runs are the same run"}));
+}
+
 TEST_CASE("a law with any spread, in the campaign or in a case, is not warned of") {
   const Folder folder;
   Json json = undispersed(Json::array(

@@ -6,6 +6,7 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/input_checks/requirement_checks.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 
@@ -84,6 +85,7 @@ FitPrediction predict(const Campaign& before, const Campaign& after, ThreadPool 
   constexpr auto runs = static_cast<double>(predicted_runs);
   FitPrediction all{
       {static_cast<double>(first.deployed) / runs, static_cast<double>(second.deployed) / runs}};
+  all.never_final = why_never_final(before);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto quantiles = [&](const OutputOfRuns& output) {
       const long present = std::ssize(output.values);

@@ -112,6 +112,7 @@ struct PredictedOutput {
 struct FitPrediction {
   std::array<double, 2> deployed{};       ///< share of the runs, before and after
   std::vector<PredictedOutput> outputs{}; ///< those that any run has; empty: nothing is predicted
+  std::string_view never_final{}; ///< why no t_end proves peaks final (requirement_checks.hpp)
 };
 
 /// A mode beside the highest one.

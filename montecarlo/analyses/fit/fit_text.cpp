@@ -214,8 +214,9 @@ void add_cut_peaks(const FitResult& result, std::vector<std::string>& list) {
     if (output.cut > 0) names.push_back(output.name), most = std::max(most, output.cut);
   if (!names.empty())
     list.push_back(fmt::format("t_end cut the predicted peaks of {} in up to {} of {} runs: their "
-                               "quantiles are those of the cut values. Lengthen t_end",
-                               fmt::join(names, ", "), most, 2 * predicted_runs));
+                               "quantiles are those of the cut values. {}",
+                               fmt::join(names, ", "), most, 2 * predicted_runs,
+                               advice_on_t_end(result.prediction.never_final)));
 }
 
 /// Fewer measured numbers than unknown dispersions leave some of them to the priors.

@@ -2,6 +2,7 @@
 
 #include "montecarlo/analyses/margin/recommendation.hpp"
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
+#include "montecarlo/model/input_checks/requirement_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -61,24 +62,30 @@ bool is_closed_by_cut_peaks(const MarginSearch& search) {
 
 std::string warn_of(const CutPeaks& each, const MarginResult& result) {
   return fmt::format("{}{}: at scale {} t_end cut the peak in {} of {} runs, and a cut peak breaks "
-                     "the requirement. Lengthen t_end",
+                     "the requirement. {}",
                      each.requirement,
                      result.cases.size() == 1 ? "" : fmt::format(" ({})", each.which_case),
-                     each.scale, each.cut, each.runs);
+                     each.scale, each.cut, each.runs, advice_on_t_end(each.never_final));
+}
+
+std::string_view never_final_in(const MarginResult& result, std::size_t which_case) {
+  return why_never_final(result.campaigns[result.cases[which_case].campaign]);
 }
 
 /// The warning of the scale with most deployed runs whose latches may let go after t_end.
-std::optional<std::string> open_latches(const MarginSearch& search) {
+std::optional<std::string> open_latches(const MarginResult& result, const MarginSearch& search) {
   long most = 0, runs = 0;
   double at = 1;
+  std::size_t in_case = 0;
   for (const auto& [scale, cases] : search.seen)
-    for (const CaseResult& each : cases)
-      if (each.open_latches > most) {
-        most = each.open_latches, at = scale;
+    for (std::size_t which = 0; which < cases.size(); ++which)
+      if (const CaseResult& each = cases[which]; each.open_latches > most) {
+        most = each.open_latches, at = scale, in_case = which;
         runs = std::accumulate(each.statuses.begin(), each.statuses.end(), 0L);
       }
   if (most == 0) return std::nullopt;
-  return fmt::format("at scale {} {}", at, warn_of_open_latches(most, runs));
+  return fmt::format("at scale {} {}", at,
+                     warn_of_open_latches(most, runs, never_final_in(result, in_case)));
 }
 
 /// Whether more runs break the condition, or its quantile comes nearer to the limit.
@@ -227,7 +234,10 @@ std::vector<CutPeaks> cut_peaks(const MarginResult& result, const MarginSearch& 
         if (rank(here) > rank(known)) known = here;
       }
   std::vector<CutPeaks> all;
-  for (auto& [place, each] : most) all.push_back(std::move(each));
+  for (auto& [place, each] : most) {
+    each.never_final = never_final_in(result, place.first);
+    all.push_back(std::move(each));
+  }
   return all;
 }
 
@@ -253,9 +263,8 @@ std::string why_withheld(const MarginSearch& search) {
     return "";
   case Withheld::no_window:
     return fmt::format("no scale that was run meets all requirements{}{}",
-                       is_closed_by_cut_peaks(search)
-                           ? "; at some only because t_end cut peaks: lengthen t_end"
-                           : "",
+                       is_closed_by_cut_peaks(search) ? "; at some only because t_end cut peaks"
+                                                      : "",
                        unseen_windows(search));
   case Withheld::no_lower_edge:
     return fmt::format(
@@ -291,7 +300,7 @@ std::vector<std::string> margin_warnings(const MarginResult& result) {
                         to_string(requirement)));
   for (const MarginSearch& search : result.searches) {
     for (const CutPeaks& each : cut_peaks(result, search)) lines.push_back(warn_of(each, result));
-    if (const auto open = open_latches(search)) lines.push_back(*open);
+    if (const auto open = open_latches(result, search)) lines.push_back(*open);
     if (!search.recommended) continue;
     std::string margins;
     for (const Shortfall& each :

@@ -90,6 +90,7 @@ struct CutPeaks {
   double scale = 1;
   std::string requirement, which_case;
   long cut = 0, runs = 0;
+  std::string_view never_final{}; ///< why_never_final of the case
 };
 /// For each condition the scale with most cut peaks; of equals the one nearest to the present springs. Only three kinds
 /// of scales count: the present springs, the recommended ones, and scales that would pass if the cut peaks did not

@@ -29,12 +29,10 @@ void refuse_unsuitable(const Campaign& campaign) {
     problems.push_back({"", "/margin", "nothing",
                         "the parameters to scale: a \"margin\" here, or the options --scale PATH… "
                         "--range A B, e.g. --scale 'hinges.*.spring.scale' --range 0.5 2"});
-  if (!has_spread(campaign))
-    problems.push_back(
-        {"", "/dispersions",
-         campaign.dispersions.empty() ? "none" : "laws with a single value only",
-         "a parameter that varies: all runs at a scale are the same run, and show no "
-         "probability"});
+  if (const std::string where = where_nothing_varies(campaign); !where.empty())
+    problems.push_back({"", "/dispersions", where,
+                        "a parameter that varies: all runs at a scale are the same run, and show "
+                        "no probability"});
   if (campaign.requirements.empty())
     problems.push_back(
         {"", "/requirements", "none", "at least one: the requirements limit the window"});
@@ -45,9 +43,11 @@ void refuse_unsuitable(const Campaign& campaign) {
          "\"nominal\" too, or a requirement on an output: those on static margins are "
          "not judged where a spring is lost"});
   for (const Requirement& requirement : campaign.requirements) {
-    const auto least = runs_to_show(requirement.probability,
-                                    confidence_alone(campaign.requirements, requirement), 0);
-    if (!least || campaign.sampling.runs < *least)
+    const PassingRule rule =
+        passing_rule(interim_analyses(campaign), campaign.sampling.runs, requirement.probability,
+                     confidence_alone(campaign.requirements, requirement));
+    const auto least = runs_to_show(requirement.probability, rule.confidence, 0);
+    if (!rule.allowed)
       problems.push_back({"", "/sampling/runs", std::to_string(campaign.sampling.runs),
                           fmt::format("at least {}: fewer cannot show \"{}\"",
                                       least.value_or(most_runs_sized), to_string(requirement))});
@@ -120,7 +120,7 @@ CaseResult case_result(const Campaign& campaign, const MarginCase& which, const 
   CaseResult one;
   for (const Status status : results.status) ++one.statuses[static_cast<std::size_t>(status)];
   one.open_latches = count_open_latches(results);
-  one.verdicts = judge_campaign(campaign, results);
+  one.verdicts = judge_campaign(campaign, results, interim_analyses(campaign));
   std::erase_if(one.verdicts,
                 [&](const Verdict& verdict) { return !applies(verdict.requirement, which); });
   for (const Verdict& verdict : one.verdicts)

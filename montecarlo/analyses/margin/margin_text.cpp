@@ -36,9 +36,12 @@ public:
 private:
   [[nodiscard]] std::string heading() const {
     const MarginSpec& spec = *report_.campaign.margin;
-    const std::string what = search_.name == "joint" && spec.mode == MarginMode::joint
-                                 ? fmt::format("{} parameters together", search_.scaled.size())
-                                 : fmt::format("hinge {} alone", search_.name);
+    const std::string what =
+        search_.name == "joint" && spec.mode == MarginMode::joint
+            ? search_.scaled.size() == 1
+                  ? path_of(report_.campaign.scene, search_.scaled.front())
+                  : fmt::format("{} parameters together", search_.scaled.size())
+            : fmt::format("hinge {} alone", search_.name);
     std::string text = fmt::format("WINDOW of the {}: {}, searched from {} to {}", words_.scale,
                                    what, spec.lower, spec.upper);
     const double lowest = search_.seen.begin()->first, highest = search_.seen.rbegin()->first;
@@ -48,11 +51,14 @@ private:
     return text;
   }
 
-  [[nodiscard]] std::string name(std::size_t condition) const {
-    const ConditionFinding& found = conditions_[condition];
+  /// The requirement, with its case if there are several. @param found a ConditionFinding or CutPeaks
+  [[nodiscard]] std::string name(const auto& found) const {
     return report_.result.cases.size() == 1
                ? found.requirement
                : fmt::format("{} ({})", found.requirement, found.which_case);
+  }
+  [[nodiscard]] std::string name(std::size_t condition) const {
+    return name(conditions_[condition]);
   }
 
   [[nodiscard]] const Verdict& verdict(std::size_t condition, double scale) const {
@@ -200,7 +206,7 @@ private:
     for (const CutPeaks& each : cut_peaks(report_.result, search_))
       text += fmt::format("    {}\n",
                           wrapped(fmt::format("t_end cut the peak in {} of {} runs at scale {}: {}",
-                                              each.cut, each.runs, each.scale, each.requirement),
+                                              each.cut, each.runs, each.scale, name(each)),
                                   6));
     return text;
   }

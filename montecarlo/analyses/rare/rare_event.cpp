@@ -4,6 +4,7 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/model/input_checks/requirement_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -209,7 +210,9 @@ RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& opti
                       "at least one that varies"}});
   const LimitState limit_state(campaign, options.event);
   NormalRuns runs(campaign, limit_state, evaluator);
-  return StrataSimulation(campaign, options, runs, progress).run();
+  RareResult result = StrataSimulation(campaign, options, runs, progress).run();
+  result.never_final = why_never_final(campaign);
+  return result;
 }
 
 } // namespace wingspread

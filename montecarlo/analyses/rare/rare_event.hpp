@@ -11,6 +11,7 @@
 
 #include <array>
 #include <functional>
+#include <string_view>
 #include <vector>
 
 namespace wingspread {
@@ -42,6 +43,7 @@ struct RareResult {
   RareEstimate estimate;          ///< over all strata
   std::array<long, 5> statuses{}; ///< of all runs made, in the order of Status
   long cut = 0;                   ///< runs whose peak t_end cut; they count as the event
+  std::string_view never_final{}; ///< why no t_end proves peaks final (requirement_checks.hpp)
   long open_latches = 0;          ///< deployed runs whose latches may let go after t_end
   long undeployed =
       0; ///< runs that did not deploy, but have the event's output: they count by its value

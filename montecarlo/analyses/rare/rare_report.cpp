@@ -241,8 +241,8 @@ bool matters(const StratumEstimate& part, const RareEstimate& all) {
 std::string cut_text(const RareResult& result) {
   if (result.cut == 0) return "";
   return fmt::format("t_end cut the peak in {} of {} runs: they count as the event, so the "
-                     "probability may be too large. Lengthen t_end",
-                     result.cut, result.estimate.evaluations);
+                     "probability may be too large. {}",
+                     result.cut, result.estimate.evaluations, advice_on_t_end(result.never_final));
 }
 
 std::string unseen_text(const std::string& name, double draws) {
@@ -282,7 +282,8 @@ std::vector<std::string> doubts_of(const RareResult& result) {
         "not deploy",
         result.undeployed, result.estimate.evaluations));
   if (result.open_latches > 0)
-    doubts.push_back(warn_of_open_latches(result.open_latches, result.estimate.evaluations));
+    doubts.push_back(
+        warn_of_open_latches(result.open_latches, result.estimate.evaluations, result.never_final));
   const auto any = [&](auto is) {
     return std::ranges::any_of(result.strata, [&](const StratumEstimate& part) {
       return matters(part, result.estimate) && is(part);

@@ -157,13 +157,14 @@ std::string describe(const RunsKept& runs) {
 
 CampaignResults run_campaign(const RunRequest& request, const RunCallbacks& callbacks) {
   const Campaign& campaign = request.campaign;
-  if (!campaign.until.empty() && !has_spread(campaign))
-    throw SpecError(
-        {{"", "/until", "goals to stop at, though nothing is dispersed",
-          "none: all runs are the same run, and more of them decide nothing (`wingspread "
-          "simulate` makes it)"}});
+  const std::vector<CaseSpec> chosen = chosen_cases(campaign, request.cases);
+  if (!campaign.until.empty())
+    if (const std::string where = where_nothing_varies(campaign, chosen); !where.empty())
+      throw SpecError(
+          {{"", "/until", "goals to stop at, though nothing is dispersed (" + where + ')',
+            "none: all runs are the same run, and more of them decide nothing (`wingspread "
+            "simulate` makes it)"}});
   if (!request.streaming && !campaign.cases.empty()) return run_cases(request, callbacks);
-  if (campaign.cases.empty()) (void)chosen_cases(campaign, request.cases); // no case may be named
   OverallCounts overall(shard_runs(campaign.sampling.runs, request.shard).size());
   CampaignResults results;
   const auto run = request.streaming ? run_folder<StreamingFolder> : run_folder<FolderWriter>;

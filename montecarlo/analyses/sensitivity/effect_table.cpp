@@ -114,7 +114,7 @@ std::string quoted(const std::vector<std::string>& names) {
 }
 
 void warn_of_t_end(const std::vector<CutOutput>& outputs, long open_latches, long runs,
-                   std::vector<std::string>& warnings) {
+                   std::string_view never_final, std::vector<std::string>& warnings) {
   std::vector<std::string> names;
   long least = runs, most = 0;
   for (const auto& [name, cut] : outputs) {
@@ -127,7 +127,7 @@ void warn_of_t_end(const std::vector<CutOutput>& outputs, long open_latches, lon
         "in {}{} of {} runs t_end cut the peaks of {}: the effects are those on the values cut at "
         "t_end, not on the peaks. Sign and order may differ with a longer t_end",
         least < most ? fmt::format("{} to ", least) : "", most, runs, quoted(names)));
-  if (open_latches > 0) warnings.push_back(warn_of_open_latches(open_latches, runs));
+  if (open_latches > 0) warnings.push_back(warn_of_open_latches(open_latches, runs, never_final));
 }
 
 } // namespace wingspread

@@ -80,9 +80,10 @@ struct CutOutput {
   long cut = 0; ///< runs
 };
 /// Adds the warnings about t_end: peaks that it cut, and latches that may let go after it.
-/// @param outputs all; those without cut peaks are left out
+/// @param outputs     all; those without cut peaks are left out
+/// @param never_final as for advice_on_t_end
 void warn_of_t_end(const std::vector<CutOutput>& outputs, long open_latches, long runs,
-                   std::vector<std::string>& warnings);
+                   std::string_view never_final, std::vector<std::string>& warnings);
 
 /// `"a", "b"`.
 [[nodiscard]] std::string quoted(const std::vector<std::string>& names);

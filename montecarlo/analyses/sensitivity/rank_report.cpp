@@ -142,7 +142,7 @@ std::vector<std::string> warnings(const RankSensitivity& all) {
   std::vector<std::string> list;
   std::vector<CutOutput> cut;
   for (const OutputRanks& output : all.outputs) cut.push_back({output.output, output.cut});
-  warn_of_t_end(cut, all.open_latches, all.runs, list);
+  warn_of_t_end(cut, all.open_latches, all.runs, all.never_final, list);
   if (all.runs < least_runs_for_effects) list.push_back(too_few_runs(all));
   if (!all.unvaried.empty())
     list.push_back(fmt::format("the draws of {} do not vary", quoted(all.unvaried)));

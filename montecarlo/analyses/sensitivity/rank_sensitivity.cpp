@@ -362,6 +362,7 @@ RankSensitivity rank_sensitivity(const Results& results, double confidence, cons
   }
   note_dispersions(results, draws, with_draws, all);
   all.open_latches = count_open_latches(results);
+  all.never_final = made.never_final;
   return all;
 }
 

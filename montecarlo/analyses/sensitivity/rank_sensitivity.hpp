@@ -54,6 +54,7 @@ struct RankSensitivity {
   std::map<std::string, std::vector<std::string>> rows; ///< as in RunsMade
   long open_latches =
       0; ///< deployed runs of which it is not proven that their latches stay engaged
+  std::string_view never_final{}; ///< as in RunsMade
 };
 
 /// How the runs were made, as far as the bounds depend on it.
@@ -62,6 +63,7 @@ struct RunsMade {
   InterimAnalyses interim{};
   /// Columns of each `rows`: they take the same row of a file, so the file decides how they depend on each other.
   std::map<std::string, std::vector<std::string>> rows{};
+  std::string_view never_final{}; ///< why no t_end proves peaks final (requirement_checks.hpp)
 };
 
 /// The coefficients of all outputs with all dispersions. Pure.

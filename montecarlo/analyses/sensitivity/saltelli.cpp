@@ -30,11 +30,13 @@ PreparedDesign design(const Campaign& campaign, long rows) {
 }
 
 void refuse_unsuitable(const Campaign& campaign) {
-  if (campaign.dispersions.empty())
-    throw SpecError({{"", "/dispersions", "none", "at least one: there is nothing to vary"}});
-  if (campaign.sampling.design == DesignKind::sobol &&
-      2 * campaign.dispersions.size() > most_sobol_dimensions)
-    throw SpecError({{"", "/dispersions", fmt::format("{}", campaign.dispersions.size()),
+  if (!vary(campaign.dispersions))
+    throw SpecError({{"", "/dispersions",
+                      campaign.dispersions.empty() ? "none" : "laws with a single value only",
+                      "at least one that varies"}});
+  const std::size_t d = coordinates_of(campaign.dispersions).names.size(); // one for a `rows`
+  if (campaign.sampling.design == DesignKind::sobol && 2 * d > most_sobol_dimensions)
+    throw SpecError({{"", "/dispersions", fmt::format("{}", d),
                       fmt::format("at most {} for Sobol' points: the design takes two coordinates "
                                   "for each",
                                   most_sobol_dimensions / 2)}});

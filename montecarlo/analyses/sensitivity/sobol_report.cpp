@@ -90,7 +90,16 @@ std::string sensitivity_csv(const SobolSensitivity& all) {
   return text;
 }
 
+namespace {
+
+constexpr const char* shares_outside =
+    "a share below 0 or above 100 % is noise of its estimate: more --samples reduce it";
+
+} // namespace
+
 std::string sensitivity_table(const SobolSensitivity& all, std::string_view title) {
+  constexpr double digit = 0.0005; // half of the last one
+  bool outside = false;
   std::string text = fmt::format("{}\n", title);
   const std::string columns = column_names("total", "first", all.bounds.confidence);
   for (const auto& [name, indices, cut] : all.outputs) {
@@ -98,6 +107,8 @@ std::string sensitivity_table(const SobolSensitivity& all, std::string_view titl
     const auto size = [&](std::size_t i) { return found.effects[i].total.value; };
     const auto line = [&](std::size_t i) {
       const auto& [first, total, inert] = found.effects[i];
+      for (const double share : {first.value, total.value})
+        outside = outside || share < -digit || share > 1 + digit;
       return fmt::format("{}{}{}\n", in_column("  " + all.dispersions[i], name_width + 2),
                          value_text(total.value, total.bounds),
                          value_text(first.value, first.bounds));
@@ -113,12 +124,13 @@ std::string sensitivity_table(const SobolSensitivity& all, std::string_view titl
     if (known > 0)
       text += fmt::format("  {:<{}}{:>39.3f}\n", "sum of the first-order", name_width, sum);
   }
-  return text;
+  return outside ? fmt::format("{}\n{}\n", text, shares_outside) : text;
 }
 
 std::string moved_by_table(const SobolSensitivity& all, std::string_view title) {
   constexpr double least = least_shown_share;
   constexpr double least_counted = 0.005; // of the variance; less is 0 % as printed
+  bool outside = false;
   MovedBy moved;
   for (const auto& [name, indices, cut] : all.outputs) {
     const SobolIndices& found = indices;
@@ -130,11 +142,14 @@ std::string moved_by_table(const SobolSensitivity& all, std::string_view title) 
     const auto visible = [&](std::size_t i) {
       return found.effects[i].total.bounds.lower.value_or(0) >= least_counted;
     };
-    moved.add(name, {all.dispersions, total, least, visible,
-                     [](double share) { return fmt::format("{:.0f} %", 100 * share); }});
+    moved.add(name, {all.dispersions, total, least, visible, [&](double share) {
+                       outside = outside || share > 1 + least_counted;
+                       return fmt::format("{:.0f} %", 100 * share);
+                     }});
   }
   return fmt::format("{}\n\n", title) +
-         moved.table("moved by (share of the variance, interactions included)");
+         moved.table("moved by (share of the variance, interactions included)") +
+         (outside ? fmt::format("  {}\n", shares_outside) : "");
 }
 
 namespace {
@@ -157,7 +172,7 @@ std::vector<std::string> warnings(const SobolSensitivity& all) {
   std::vector<std::string> list;
   std::vector<CutOutput> cut;
   for (const auto& output : all.outputs) cut.push_back({output.name, output.cut});
-  warn_of_t_end(cut, all.open_latches, all.runs, list);
+  warn_of_t_end(cut, all.open_latches, all.runs, all.never_final, list);
   if (const std::vector<std::string> idle = all.idle(); !idle.empty())
     list.push_back(fmt::format("no output of any run changes with {}", quoted(idle)));
   if (!all.unvaried.empty())

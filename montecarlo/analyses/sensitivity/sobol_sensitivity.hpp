@@ -26,6 +26,7 @@ struct SobolSensitivity {
   long open_latches =
       0; ///< deployed runs of which it is not proven that their latches stay engaged
   std::vector<std::string> unvaried{}; ///< dispersions with constant draws
+  std::string_view never_final{};      ///< why no t_end proves peaks final (requirement_checks.hpp)
   /// Other dispersions without any effect: changing them alone changes no bit of any output, in any row.
   [[nodiscard]] std::vector<std::string> idle() const;
 };

@@ -51,11 +51,15 @@ bool is_cut(PeakKind kind, PeaksFinal final) {
   return false;
 }
 
-std::string warn_of_open_latches(long open, long runs) {
+std::string advice_on_t_end(std::string_view never_final) {
+  return never_final.empty() ? "Lengthen t_end" : fmt::format("No t_end will do {}", never_final);
+}
+
+std::string warn_of_open_latches(long open, long runs, std::string_view never_final) {
   return fmt::format(
       "in {} of {} runs it is not proven that every latch with a holding_moment stays engaged "
-      "after t_end: they count as deployed. Lengthen t_end",
-      open, runs);
+      "after t_end: they count as deployed. {}",
+      open, runs, advice_on_t_end(never_final));
 }
 
 void PeaksCount::add(PeaksFinal final, long runs) {

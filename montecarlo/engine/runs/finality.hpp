@@ -50,8 +50,12 @@ inline constexpr std::array all_peaks_final{PeaksFinal::unknown, PeaksFinal::no,
 inline constexpr std::string_view latches_may_let_go =
     "t_end came before a proof that every latch stays engaged";
 
-/// "in 7 of 300 runs it is not proven …", the warning of such runs.
-[[nodiscard]] std::string warn_of_open_latches(long open, long runs);
+/// The advice where t_end cut something: "Lengthen t_end", or "No t_end will do with a base that …".
+/// @param never_final why_never_final (requirement_checks.hpp) of the campaign; empty: a longer t_end may do
+[[nodiscard]] std::string advice_on_t_end(std::string_view never_final);
+
+/// "in 7 of 300 runs it is not proven …", the warning of such runs. @param never_final as for advice_on_t_end
+[[nodiscard]] std::string warn_of_open_latches(long open, long runs, std::string_view never_final);
 
 /// Numbers of runs whose peaks are proven, cut by t_end, or unknown (failed or invalid runs).
 struct PeaksCount {

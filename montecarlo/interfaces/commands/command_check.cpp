@@ -124,7 +124,7 @@ It also prints where each body is, the masses, and what the runs of `run` and `m
 estimated from one nominal run and the draws of up to eight; files and statistics add to it.
 A note on standard error names each case whose nominal wing does not deploy, and why.
 --draw writes a picture for a browser: bodies, hinge axes, the sense in which each spring turns its
-hinge, and names. Look at the wing before you run it.
+hinge, and names; an existing file is replaced. Look at the wing before you run it.
 
 Example:
   wingspread check campaign.json --draw wing.svg

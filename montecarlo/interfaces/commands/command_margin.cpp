@@ -245,9 +245,10 @@ would become negative; a warning names those that are negative at the recommende
 scale works, the report names the requirements that rule it out. A peak that t_end cut breaks a
 requirement, as in `wingspread run`; a warning names the scale with most of them.
 
-All runs are made; "until" is ignored. A run stops once its requirements are decided: if none is
-about a peak, a run that fails numerically after its last latch counts as deployed here, and as
-failed in `wingspread run`. Each verdict holds with its requirement's confidence; the report gives
+All runs are made, also with "until"; the verdicts are those of `wingspread run`, which share the
+risk among all interim analyses. A run stops once its requirements are decided: if none is about a
+peak, a run that fails numerically after its last latch counts as deployed here, and as failed in
+`wingspread run`. Each verdict holds with its requirement's confidence; the report gives
 the joint confidence of all verdicts and both edges.
 
   "margin": { "scale": ["hinges.*.spring.torque_stowed", "hinges.*.spring.torque_latched"],

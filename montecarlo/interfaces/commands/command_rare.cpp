@@ -219,8 +219,8 @@ an estimated upper bound, not guaranteed.
 A run without the output (it stalled before, or failed) counts as the event. So does a run whose
 peak t_end cut, as it breaks a requirement in `wingspread run`, unless --below X is given and the
 peak has reached X; their number is printed. A longer t_end ("integration" in the campaign) decides
-them. A run that did not deploy but has the output counts by its value, although it breaks every
-requirement in `wingspread run`.
+them, or a warning says why none does. A run that did not deploy but has the output counts by its
+value, although it breaks every requirement in `wingspread run`.
 
 With --out the folder has looks.log, a checkpoint of all runs, until the study is finished: after an
 interruption, a crash or a kill the same command with --resume gives the same bytes.

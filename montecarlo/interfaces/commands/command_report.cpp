@@ -84,7 +84,9 @@ int export_folder(const ExportOptions& options) {
 
 void add_report_options(CLI::App& command, ReportOptions& options) {
   command.add_option("folders", options.folders, "Results folders")->required();
-  command.add_option("--out", options.out, "The page; default: report.html in the first folder")
+  command
+      .add_option("--out", options.out,
+                  "The page, which is replaced; default: report.html in the first folder")
       ->type_name("FILE");
   within(command.add_option("--threads", options.threads,
                             "Threads; default: 0, OMP_NUM_THREADS or all processors"),

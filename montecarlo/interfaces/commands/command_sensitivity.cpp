@@ -13,6 +13,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/input_checks/requirement_checks.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 
 #include <fmt/format.h>
@@ -122,6 +123,7 @@ int analyze_ranks(const SensitivityOptions& options) {
   warn_of_preview(stored);
   RunsMade made{replication_of(stored.campaign.sampling, results),
                 interim_analyses(stored.campaign)};
+  made.never_final = why_never_final(stored.campaign);
   for (const Dispersion& each : stored.campaign.dispersions)
     if (!each.rows.empty()) made.rows[each.rows].push_back(each.name);
   show_analysis(rank_sensitivity(results, confidence, made), about,
@@ -148,9 +150,10 @@ int analyze_design(const SaltelliDesign& design, const Results& results,
       replicates,
       given(options.resamples, design.bounds.resamples).value_or(SobolBounds().resamples),
       sampling.seed};
-  show_analysis(sobol_sensitivity(results, coordinates_of(design.campaign.dispersions).names,
-                                  design.rows, kind, bounds),
-                stamp_json(stamp_of(design)),
+  SobolSensitivity all = sobol_sensitivity(
+      results, coordinates_of(design.campaign.dispersions).names, design.rows, kind, bounds);
+  all.never_final = why_never_final(design.campaign);
+  show_analysis(all, stamp_json(stamp_of(design)),
                 fmt::format("{} · {} samples, {} runs · {}, seed {} · Sobol' indices",
                             title_of(design.campaign), design.rows, results.size(), kind,
                             sampling.seed),

@@ -148,7 +148,8 @@ void add_simulate_options(CLI::App& command, SimulateOptions& options) {
   command.add_flag("--json", options.json, "Print the outcome as JSON");
   command.add_flag("--check", options.check,
                    "Repeat by another method at rtol/100; say how many digits agree");
-  command.add_option("--out", options.out, "Write the trajectory to this CSV file");
+  command.add_option("--out", options.out,
+                     "Write the trajectory to this CSV file; an existing file is replaced");
   add_strict_option(command, options.strict);
   add_dt_option(command, options.dt);
   command.add_option("--method", settings.method, "Integration method; see wingspread methods");
@@ -187,11 +188,12 @@ void add_replay_options(CLI::App& command, ReplayOptions& options) {
       ->type_name("K");
   add_case_option(command, options.of_case);
   command.add_flag("--json", options.json, "Print the outcome as JSON");
-  command.add_option("--out", options.out, "Write the trajectory to this CSV file");
+  command.add_option("--out", options.out,
+                     "Write the trajectory to this CSV file; an existing file is replaced");
   add_dt_option(command, options.dt);
   command
       .add_option("--scene", options.scene,
-                  "Write the scene with the run's draws to this JSON file")
+                  "Write the scene with the run's draws to this JSON file, a new one")
       ->type_name("FILE");
   command.footer(
       R"(The run stops where the campaign's run did and is compared with its row of runs.csv, bit for bit. If
@@ -284,7 +286,8 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
   add_case_option(command, options.of_case, without_case);
   command.add_flag("--applied", options.applied,
                    "Print the parameters that the draws change, as each run has them");
-  command.add_option("--out", options.out, "Write to this file; default: standard output");
+  command.add_option("--out", options.out,
+                     "Write to this file, which is replaced; default: standard output");
   command.footer(
       R"(These are the draws that `run` uses, to the last bit. With --applied there is a column for each
 parameter of the scene that a draw changes, named by its path, in SI units: the scene's value, set,

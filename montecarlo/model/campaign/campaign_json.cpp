@@ -8,6 +8,7 @@
 #include "montecarlo/model/scene_file/scene_json.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -328,6 +329,16 @@ std::vector<Campaign> campaigns_of(const Campaign& campaign) {
   std::vector<Campaign> campaigns;
   for (const CaseSpec& spec : campaign.cases) campaigns.push_back(campaign_of_case(campaign, spec));
   return campaigns;
+}
+
+std::string where_nothing_varies(const Campaign& campaign, std::span<const CaseSpec> cases) {
+  const std::string what = campaign.dispersions.empty() ? "none" : "laws with a single value only";
+  if (campaign.cases.empty()) return vary(campaign.dispersions) ? "" : what;
+  std::vector<std::string> names;
+  for (const CaseSpec& spec : cases.empty() ? std::span(campaign.cases) : cases)
+    if (!vary(campaign_of_case(campaign, spec).dispersions)) names.push_back(spec.name);
+  if (names.empty()) return "";
+  return fmt::format("{} in case{} {}", what, names.size() == 1 ? "" : "s", fmt::join(names, ", "));
 }
 
 void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -55,6 +56,12 @@ void read_analysis(const JsonCursor& at, Campaign& campaign);
 
 /// One campaign for each case, in their order; the campaign itself if it has no cases.
 [[nodiscard]] std::vector<Campaign> campaigns_of(const Campaign& campaign);
+
+/// "none" or "laws with a single value only", followed by the names of the cases, if any of these cases varies nothing;
+/// else empty. All runs of such a case are one and the same.
+/// @param cases empty: all
+[[nodiscard]] std::string where_nothing_varies(const Campaign& campaign,
+                                               std::span<const CaseSpec> cases = {});
 
 /// Records the numbers of runs of earlier interim analyses, also in `resolved`.
 /// @pre the numbers ascend and are below the campaign's number of runs

@@ -4,6 +4,7 @@
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/reached_correlation.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/input_checks/draw_check.hpp"
 
 #include <fmt/format.h>
@@ -279,12 +280,12 @@ void check_spread(const Campaign& campaign, InputWarnings& warnings) {
                  fmt::format("{} with independent draws", campaign.sampling.replicates),
                  "1: a random design has no replicates and needs none for its bounds; only "
                  "\"sobol\" and \"latin_hypercube\" have them");
-  if (campaign.sampling.runs < 2 || has_spread(campaign)) return;
-  warnings.add("/dispersions",
-               campaign.dispersions.empty() ? "none" : "laws with a single value only",
-               fmt::format("a parameter that varies: all {} runs are the same run, and show no "
-                           "probability",
-                           campaign.sampling.runs));
+  if (campaign.sampling.runs < 2) return;
+  if (const std::string where = where_nothing_varies(campaign); !where.empty())
+    warnings.add("/dispersions", where,
+                 fmt::format("a parameter that varies: all {} runs are the same run, and show no "
+                             "probability",
+                             campaign.sampling.runs));
 }
 
 void check_correlations(const Campaign& campaign, InputWarnings& warnings) {

@@ -1,6 +1,8 @@
 #include "montecarlo/model/input_checks/requirement_checks.hpp"
 
+#include "distributions/prepared_distribution.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <fmt/format.h>
 
@@ -101,8 +103,28 @@ void check_size(const Campaign& campaign, const Requirement& own, const std::str
                            every_run ? "probably every" : "probably no"));
 }
 
+/// The scene with every draw at the same quantile of its law.
+Scene scene_at(const Campaign& campaign, double quantile) {
+  std::vector<double> draws;
+  for (const Dispersion& dispersion : campaign.dispersions)
+    draws.push_back(PreparedDistribution(dispersion.distribution).quantile(quantile));
+  Scene scene = campaign.scene;
+  apply(campaign, draws, campaign.scene, scene);
+  return scene;
+}
+
+/// why_never_final of the campaign, or of the first of its cases that has a reason: "in case hot with a base that …".
+std::string why_cut_in(const Campaign& campaign) {
+  for (const Campaign& each : campaigns_of(campaign))
+    if (const std::string_view why = why_never_final(each); !why.empty())
+      return (campaign.cases.empty() ? "" : fmt::format("in case {} ", each.of_case)) +
+             std::string(why);
+  return "";
+}
+
+/// @param why_cut why_cut_in the campaign
 void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& nominal,
-                       InputWarnings& warnings) {
+                       const std::string& why_cut, InputWarnings& warnings) {
   const Requirement& own = campaign.requirements[k];
   const std::string at = fmt::format("/{}", k);
   const std::string key = own.max ? "/max" : "/min";
@@ -110,7 +132,6 @@ void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& n
   const std::string unit = parse_output_name(own.output).unit;
   const std::optional<double> value = nominal_of(campaign, own.output, nominal);
   const bool is_peak = peak_kind(own.output) != PeakKind::none;
-  const std::string_view why_cut = is_peak ? why_never_final(campaign.scene) : "";
   if (limit < 0 && (own.absolute || is_peak))
     warnings.add(at + key, fmt::format("a limit of {} {} on a magnitude", limit, unit),
                  "a limit ≥ 0");
@@ -125,13 +146,14 @@ void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& n
                              own.output, *value, unit),
                  "a limit in SI, near the nominal value (write degrees as \"5 deg\" or \"5 "
                  "deg/s\": a factor of 57.3)");
-  else if (why_cut.empty())
+  else if (!is_peak || !own.max || why_cut.empty())
     check_size(campaign, own, at + key, limit,
                nominal.status == Status::deployed ? value : std::nullopt, warnings);
   else
-    warnings.add(at, fmt::format("a limit on {} {}", own.output, why_cut),
-                 "a wing without that: there no peak is proven final, and every run breaks the "
-                 "requirement, whatever t_end is");
+    warnings.add(
+        at, fmt::format("a limit on {} {}", own.output, why_cut),
+        "a wing without that: there no peak is proven final, and every such run breaks the "
+        "requirement, whatever t_end is");
 }
 
 /// Warns of a limit on the overtravel of a hinge without a latch where runs end at the last latch, before it may be largest.
@@ -173,9 +195,18 @@ std::string_view why_never_final(const Scene& scene) {
   return "";
 }
 
+std::string_view why_never_final(const Campaign& campaign) {
+  constexpr double end = 1e-6; // heuristic: a value of a discrete law that is rarer is not seen
+  for (const double quantile : {0.5, end, 1 - end})
+    if (const std::string_view why = why_never_final(scene_at(campaign, quantile)); !why.empty())
+      return why;
+  return "";
+}
+
 void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings) {
+  const std::string why_cut = why_cut_in(campaign);
   for (std::size_t k = 0; k < campaign.requirements.size(); ++k) {
-    check_requirement(campaign, k, nominal, warnings);
+    check_requirement(campaign, k, nominal, why_cut, warnings);
     check_overtravel(campaign, k, warnings);
     check_together(campaign.requirements, k, warnings);
   }

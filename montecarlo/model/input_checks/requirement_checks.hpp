@@ -11,12 +11,16 @@ namespace wingspread {
 /// Where no peak of a deployed wing can be proven final, whatever t_end is.
 /// @return the reason, to follow "a limit on root.peak_moment"; empty where a proof may exist
 [[nodiscard]] std::string_view why_never_final(const Scene& scene);
+/// The same for the nominal wing; where it has no reason, for the wing with every draw at the lower end of its law, then
+/// at the upper: a parameter that is 0 in the nominal wing may differ from 0 in the draws.
+[[nodiscard]] std::string_view why_never_final(const Campaign& campaign);
 
 /// Warns of requirements that no run or every run meets, each by the first rule that it breaks:
 ///
 /// - a negative limit of a magnitude, or one on the other side of zero than the nominal value
 /// - a limit on an angle or a rate that is in degrees or has been converted twice: about 57.3 from the nominal value
-/// - a limit on a peak of which no peak is ever proven final
+/// - an upper limit on a peak where no peak is ever proven final, in any case: a cut peak breaks it. A cut peak may
+///   meet a lower limit
 /// - a limit on a final angle or an overtravel of more than half the travel
 /// - a limit a hundred times the nominal value, or a hundredth of it, of times, rates and loads
 ///

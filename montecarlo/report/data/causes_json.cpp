@@ -290,7 +290,7 @@ Json effects_json(const PageSource& source, const PageDetail& detail) {
     return nullptr;
   Results first;
   const Results& runs = effect_runs(source, first);
-  const RunsMade made{source.replication, source.summary.interim};
+  const RunsMade made{source.replication, source.summary.interim, {}, source.summary.never_final};
   const RankSensitivity all =
       rank_sensitivity(runs, source.stored.campaign.statistics.confidence, made);
   Json effects = Json::array();

@@ -1,4 +1,6 @@
 #include "core/proofs/natural_modes.hpp"
+#include "montecarlo/engine/runs/finality.hpp"
+#include "montecarlo/model/input_checks/requirement_checks.hpp"
 #include "montecarlo/report/text/outcome_report.hpp"
 #include "montecarlo/results/summary/latch_jump.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
@@ -185,7 +187,10 @@ std::vector<std::string> outcome_warnings(const Scene& scene, const Outcome& out
   if (const auto forces = forces_of_jumps(scene, outcome); !forces.empty())
     lines.push_back(warning_of_forces(forces));
   if (has_cut_peaks(outcome)) lines.push_back(cut_peaks_warning(outcome));
-  if (!outcome.latches_final) lines.emplace_back(open_latches_warning);
+  if (!outcome.latches_final)
+    lines.push_back("it is not proven that every latch with a holding_moment stays engaged after "
+                    "t_end. " +
+                    advice_on_t_end(why_never_final(scene)));
   if (outcome.status == Status::failed && outcome.reason.find("max_steps") != std::string::npos)
     if (const auto frequencies = natural_frequencies(scene); !frequencies.empty())
       lines.push_back(fmt::format(

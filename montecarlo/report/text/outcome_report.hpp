@@ -13,9 +13,6 @@ namespace wingspread {
 [[nodiscard]] bool has_cut_peaks(const Outcome& outcome);
 /// "t_end cut the peaks: …", or the peak forces, or the peak moments.
 [[nodiscard]] std::string cut_peaks_warning(const Outcome& outcome);
-inline constexpr const char* open_latches_warning =
-    "it is not proven that every latch with a holding_moment stays engaged after t_end. Lengthen "
-    "t_end";
 
 /// Warnings of one run: overtravel, latches whose damping decides the peak, cut peaks, latches that may let go after
 /// t_end. In this order, each on one line.

@@ -338,6 +338,7 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results, int
   summary.overtravels = overtravels(campaign.scene, results);
   if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
   withdraw_if_one_run(campaign, summary);
+  explain_cuts(campaign, summary);
   const bool whole = std::ssize(results.runs) == stored.runs().size();
   summary.stopped = !whole && is_complete(stored, results);
   const bool unfinished = !stored.foreign && !whole && !summary.stopped;

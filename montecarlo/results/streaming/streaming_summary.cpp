@@ -2,6 +2,7 @@
 
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/results/summary/judge_campaign.hpp"
+#include "montecarlo/results/summary/warnings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -288,6 +289,7 @@ Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistic
       summary.peaks->add(final, statistics.peaks()[static_cast<std::size_t>(final)]);
   }
   withdraw_if_one_run(campaign, summary);
+  explain_cuts(campaign, summary);
   if (stored.stamp.is_part() || statistics.runs() < stored.runs().size()) withdraw_of_part(summary);
   return summary;
 }

@@ -158,10 +158,12 @@ struct Summary {
   std::vector<std::string> jump_forces{};    ///< forces_of_jumps of the nominal run
   std::vector<StrangeDraws> strange_draws{}; ///< only of runs of another tool
   std::optional<PeaksCount> peaks{};         ///< nothing if not recorded
-  std::vector<GoalState> until{};            ///< goals of the stopping rule
-  bool stopped = false;                      ///< all goals were met before all runs were made
-  InterimAnalyses interim{};                 ///< they share the risk of every bound and verdict
-  bool without_rows = false;                 ///< computed from streaming statistics
+  std::string_view
+      never_final{}; ///< why no t_end proves peaks final (explain_cuts); empty: one may
+  std::vector<GoalState> until{}; ///< goals of the stopping rule
+  bool stopped = false;           ///< all goals were met before all runs were made
+  InterimAnalyses interim{};      ///< they share the risk of every bound and verdict
+  bool without_rows = false;      ///< computed from streaming statistics
   bool one_run =
       false; ///< nothing is dispersed, and all runs have the same result (judge_campaign.hpp)
   /// There are more kinds of orders than latch_order_kinds: streaming statistics count only so many apart.

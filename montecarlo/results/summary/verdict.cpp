@@ -321,14 +321,15 @@ std::string evidence(const Verdict& verdict) {
   if (!causes.empty()) found += fmt::format(" ({})", fmt::join(causes, ", "));
   if (verdict.allowed) {
     const bool open = verdict.decision == Decision::fail && !verdict.disproved;
-    return fmt::format("{}; at most {} may{}{}", found, *verdict.allowed,
-                       rests_on_cut_peaks(verdict)
-                           ? verdict.requirement.min
-                                 ? ". A cut peak may still rise to the limit: lengthen t_end"
-                                 : ". A cut peak may still rise and shows nothing: lengthen t_end"
-                       : open ? ": not shown, and not disproved either"
-                              : "",
-                       joint_risk(verdict));
+    return fmt::format(
+        "{}; at most {} may{}{}", found, *verdict.allowed,
+        rests_on_cut_peaks(verdict)
+            ? fmt::format(". A cut peak may still rise {}. {}",
+                          verdict.requirement.min ? "to the limit" : "and shows nothing",
+                          advice_on_t_end(verdict.never_final))
+        : open ? ": not shown, and not disproved either"
+               : "",
+        joint_risk(verdict));
   }
   if (verdict.disproved) return found + ": disproved";
   const std::string least = verdict.least_runs

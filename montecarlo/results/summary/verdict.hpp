@@ -6,7 +6,7 @@
 /// value, for a `min` below. Leaving such runs out would make the result look better than it is. A run whose peak was
 /// cut by t_end (finality.hpp) breaks a `max` on that peak too, because the peak might have risen. It disproves
 /// none, unless its value is beyond the limit already: where the cut peaks alone stand against a pass, the verdict is
-/// `undecided`, and a longer t_end decides it. The peak is at least its value so far: from there on it meets a `min`,
+/// `undecided`, and a longer t_end decides it, if any does. The peak is at least its value so far: from there on it meets a `min`,
 /// and below it breaks one, but may still rise and disproves nothing.
 ///
 /// Symbols as in wilks.hpp: n runs, k of them break the requirement P ≥ p at confidence c.
@@ -21,6 +21,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace wingspread {
@@ -53,7 +54,8 @@ struct Verdict {
   bool of_part = false; ///< of a shard, a preview or an unfinished folder, which are not judged
   long cut = 0;         ///< deployed runs that break it because t_end cut their peak
   long open = 0;        ///< those among them that may meet it: whose cut peak is not above a `max`
-  long absent = 0;      ///< runs that break a limit because they did not deploy or lack the output
+  std::string_view never_final{}; ///< why no t_end proves peaks final (explain_cuts)
+  long absent = 0; ///< runs that break a limit because they did not deploy or lack the output
   /// Least and largest value, if the limit lies on the other side of zero from all values; not of static
   /// margins.
   std::optional<std::array<double, 2>> beyond_zero{};

@@ -2,6 +2,7 @@
 
 #include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/model/input_checks/requirement_checks.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,10 +14,11 @@ namespace wingspread {
 namespace {
 
 /// @pre some runs have cut peaks
-std::string warn_of_cut_peaks(const PeaksCount& peaks, long runs) {
+std::string warn_of_cut_peaks(const PeaksCount& peaks, long runs, std::string_view never_final) {
   return cut_peaks_text(peaks, runs) +
          ": they may still rise, and break every max on a peak; statistics and "
-         "correlations are of the cut values. Lengthen t_end";
+         "correlations are of the cut values. " +
+         advice_on_t_end(never_final);
 }
 
 /// Adds a warning if t_end cut the nominal run's peaks.
@@ -140,6 +142,11 @@ PeaksCount count_peaks_final(const Results& results) {
   return count;
 }
 
+void explain_cuts(const Campaign& campaign, Summary& summary) {
+  summary.never_final = why_never_final(campaign);
+  for (Verdict& verdict : summary.requirements) verdict.never_final = summary.never_final;
+}
+
 std::vector<std::string> warnings(const Summary& summary) {
   std::vector<std::string> lines;
   if (summary.one_run && summary.runs > 1)
@@ -157,9 +164,9 @@ std::vector<std::string> warnings(const Summary& summary) {
     lines.push_back("in the nominal run: " + warning_of_forces(summary.jump_forces));
   if (summary.nominal) add_nominal_cut(*summary.nominal, lines);
   if (summary.peaks && summary.peaks->cut > 0)
-    lines.push_back(warn_of_cut_peaks(*summary.peaks, summary.runs));
+    lines.push_back(warn_of_cut_peaks(*summary.peaks, summary.runs, summary.never_final));
   if (const long open = count_open_latches(summary); open > 0)
-    lines.push_back(warn_of_open_latches(open, summary.runs));
+    lines.push_back(warn_of_open_latches(open, summary.runs, summary.never_final));
   if (summary.accuracy && !summary.accuracy->moved.empty())
     lines.push_back(warn_of_moved_runs(*summary.accuracy));
   for (const Verdict& verdict : summary.requirements)

@@ -13,6 +13,9 @@ namespace wingspread {
 /// Numbers of runs whose peaks are proven, cut by t_end, or unknown.
 [[nodiscard]] PeaksCount count_peaks_final(const Results& results);
 
+/// Sets never_final of the summary and its verdicts, from the scene and laws of the case's campaign.
+void explain_cuts(const Campaign& campaign, Summary& summary);
+
 /// One line for each warning, in this order: all runs are the same; overtravel; latches whose damping decides the
 /// nominal peak; peaks cut by t_end; latches that may let go after t_end; outputs that moved at a tighter tolerance;
 /// limits on the other side of zero from every value.

@@ -154,10 +154,10 @@ TEST_CASE("a warning of open latches, or of a cut peak, names the scale with mos
   for (const auto& [scale, open] : {std::pair{0.5, 2L}, {1.5, 7L}, {4.0, 3L}})
     search.seen[scale][0].open_latches = open;
   CHECK(margin_warnings(result) ==
-        std::vector{"at scale 1.5 " + warn_of_open_latches(7, runs_of_case)});
+        std::vector{"at scale 1.5 " + warn_of_open_latches(7, runs_of_case, "")});
   search.seen[1.5][0].open_latches = 1;
   CHECK(margin_warnings(result) ==
-        std::vector{"at scale 4 " + warn_of_open_latches(3, runs_of_case)});
+        std::vector{"at scale 4 " + warn_of_open_latches(3, runs_of_case, "")});
 
   // 9 runs break the second requirement and 5 may: cut peaks alone stand against it where 4 of them or more may rise
   const auto cut = [&](double scale, long runs) {
@@ -192,6 +192,11 @@ TEST_CASE("a warning of open latches, or of a cut peak, names the scale with mos
   CHECK(found().scale == 1.5);
   search.recommended.reset();
   CHECK((found().scale == 1 && found().cut == 2));
+  CHECK_THAT(margin_warnings(result).at(0), Catch::EndsWith("Lengthen t_end"));
+  Base& base = result.campaigns[0].scene.base; // whose peaks no t_end proves final
+  base.motion = BaseMotion::prescribed, base.angular_acceleration = 1e-4;
+  CHECK_THAT(margin_warnings(result).at(1),
+             Catch::EndsWith("No t_end will do with a base that turns faster and faster"));
 }
 
 TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {
@@ -205,7 +210,7 @@ TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {
   Verdict& verdict = cut.verdicts.front();
   verdict.decision = Decision::undecided, verdict.not_listed = verdict.cut = verdict.open = 100;
   CHECK(why_withheld(search) == "no scale that was run meets all requirements; at some only "
-                                "because t_end cut peaks: lengthen t_end");
+                                "because t_end cut peaks");
   search.seen = {{1, stalls}, {1.36, stalls}, {1.45, scale_with(0, 9)}};
   CHECK_THAT(why_withheld(search), Catch::Contains("between 1.36 and 1.45"));
   search.seen = {{0.0625, scale_with(0, 0)}, {16, scale_with(0, 0)}};

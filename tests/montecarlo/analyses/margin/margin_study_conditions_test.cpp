@@ -188,3 +188,52 @@ TEST_CASE("a margin is sought from that number of runs on that can show each req
     }
   }
 }
+
+TEST_CASE("the present springs have the verdicts of run, with interim analyses too",
+          "[margin][parallel]") {
+  for (const char* kind : {"alone", "until", "extended_from"}) {
+    Json json = one_panel_margin(2000);
+    json["margin"]["range"] = {0.9, 1.1};
+    if (kind == std::string("until")) // never met: both analyses take place
+      json["until"] = parse_json(R"([ { "output": "deployed", "width": 1e-6 } ])");
+    if (kind == std::string("extended_from")) json["sampling"]["extended_from"] = {500, 1000};
+    const Campaign campaign = campaign_of(json);
+    const Folder folder;
+    (void)run_into(folder.path() / "r", campaign);
+    const Json summary = parse_json_file(folder.path() / "r" / summary_file);
+    const MarginResult result = margin_of(campaign);
+    const std::vector<Verdict>& verdicts = result.searches.front().seen.at(1).front().verdicts;
+    REQUIRE(verdicts.size() == 2);
+    for (std::size_t k = 0; k < 2; ++k) {
+      CAPTURE(kind, k);
+      const Json& there = summary["requirements"][k];
+      CHECK(there["failures"]["allowed"] == *verdicts[k].allowed);
+      CHECK(there["verdict"] == to_string(verdicts[k].decision));
+    }
+    if (kind != std::string("alone"))
+      CHECK(*verdicts[0].allowed < *allowed_failures(2000, 0.97, 0.9));
+  }
+}
+
+TEST_CASE("a margin with too few runs for its interim analyses is refused", "[margin]") {
+  Json json = one_panel_margin(1300);
+  for (Json& requirement : json["requirements"]) requirement["probability"] = 0.998;
+  REQUIRE(allowed_failures(1300, 0.998, 0.9)); // as the only analysis; 1497 runs of one of two
+  json["until"] = parse_json(R"([ { "output": "deployed", "width": 1e-6 } ])");
+  CHECK_THROWS_WITH(margin_of(campaign_of(json)),
+                    Catch::Contains("/sampling/runs: found 1300, expected at least 1497"));
+}
+
+TEST_CASE("a margin over a case that does not vary is refused by its name", "[margin]") {
+  Json json = one_panel_margin(200);
+  for (Json& dispersion : json["dispersions"])
+    dispersion["distribution"] = parse_json(R"({ "type": "constant", "value": 0.9 })");
+  json["cases"] = parse_json(R"([ { "name": "amb" }, { "name": "hot", "distributions": {
+    "spring": { "type": "normal", "mean": 1, "std": 0.05 } } } ])");
+  CHECK_THROWS_WITH(
+      margin_of(campaign_of(json)),
+      Catch::Contains("/dispersions: found laws with a single value only in case amb") &&
+          !Catch::Contains("hot"));
+  json["cases"].erase(0);
+  CHECK_NOTHROW(margin_of(campaign_of(json)));
+}

@@ -143,6 +143,32 @@ TEST_CASE("the text of a margin shows the deployed share of the worst case", "[m
   CHECK(words_after(text, "  1.5 ").at(0).starts_with("70"));
 }
 
+TEST_CASE("the text of a margin names a single parameter, and the case of every cut peak",
+          "[margin]") {
+  Json json = one_panel_margin(runs_of_window);
+  json["margin"]["scale"] = {"hinges.root.spring.scale"};
+  const Campaign campaign = campaign_of(json);
+  MarginResult result = made_up_window(campaign);
+  CHECK(prints(margin_text({campaign, result, {}}),
+               "WINDOW of the spring scale: hinges.root.spring.scale, searched from 0.5 to 2 "));
+  MarginSearch& search = result.searches[0];
+  result.cases.push_back({"root spring out", {}});
+  search.recommended.reset(), search.withheld = Withheld::no_window;
+  for (auto& [scale, cases] : search.seen) { // every scale fails in both cases, at 1 by cut peaks
+    Verdict& verdict = cases[0].verdicts[0];
+    verdict.decision = Decision::undecided;
+    verdict.not_listed = verdict.cut = verdict.open = scale == 1 ? 300 : 0;
+    if (scale != 1) verdict.decision = Decision::fail;
+    cases.push_back(cases[0]);
+  }
+  const std::string text = margin_text({campaign, result, {}});
+  CAPTURE(text);
+  for (const char* which : {"(nominal)", "(root spring out)"})
+    CHECK(prints(text, std::string("t_end cut the peak in 300 of 1000 runs at scale 1: deployed, "
+                                   "97 % at 90 % ") +
+                           which));
+}
+
 TEST_CASE("the text of a margin says what is recommended, and what it costs", "[margin]") {
   const Campaign campaign = campaign_of(one_panel_margin(runs_of_window));
   MarginResult result = made_up_window(campaign);

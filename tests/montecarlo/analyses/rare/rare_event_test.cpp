@@ -154,6 +154,10 @@ TEST_CASE("peaks that t_end cut count as the event, as they break a requirement,
   const std::string said = "t_end cut the peak in 200 of 200 runs: they count as the event";
   CHECK_THAT(doubts_of(cut).at(0), Catch::StartsWith(said) && Catch::EndsWith("Lengthen t_end"));
   CHECK_THAT(rare_text(cut, options, campaign), Catch::Contains(said));
+  Campaign rattling = campaign; // no t_end proves its peaks final
+  rattling.scene.hinges[0].latch->backlash = 0.002;
+  CHECK_THAT(doubts_of(estimate_rare_event(rattling, options, evaluator, untold)).at(0),
+             Catch::StartsWith(said) && Catch::Contains("No t_end will do with backlash"));
 
   // A peak is at least what it has come to: none lies below 1 N·m, as the spring alone has 2.
   RareOptions below = options;

@@ -162,7 +162,7 @@ TEST_CASE("one unphysical draw, one cut peak and one open latch are doubts, and 
     if (count == 0) continue;
     CHECK(said[0].starts_with("1 of 2000 runs have an unphysical draw"));
     CHECK(said[1].starts_with("t_end cut the peak in 1 of 2000 runs"));
-    CHECK(said[2] == warn_of_open_latches(1, 2000));
+    CHECK(said[2] == warn_of_open_latches(1, 2000, ""));
   }
 }
 

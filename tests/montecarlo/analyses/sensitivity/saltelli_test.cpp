@@ -58,6 +58,9 @@ TEST_CASE("nothing to vary, and what varies together, is refused") {
   CHECK_THROWS_WITH(saltelli_plan(correlated, 8),
                     Catch::Contains("/correlations: found 1 of them, expected independent"));
   json.erase("correlations");
+  for (Json& dispersion : json["dispersions"])
+    dispersion["distribution"] = parse_json(R"({ "type": "constant", "value": 1 })");
+  CHECK_THROWS_WITH(saltelli_plan(campaign_of(json), 8), Catch::Contains("a single value only"));
   json.erase("dispersions");
   const Campaign bare = campaign_of(json);
   CHECK_THROWS_WITH(saltelli_plan(bare, 8), Catch::Contains("/dispersions: found none"));
@@ -95,4 +98,21 @@ TEST_CASE("Sobol' points have two coordinates for each dispersion, so half of th
                       Catch::Contains("/dispersions: found " + std::to_string(count)) &&
                           Catch::Contains("at most " + std::to_string(most_sobol_dimensions / 2)));
   }
+}
+
+TEST_CASE("Sobol' points count all columns of a rows as one dispersion") {
+  Json json = quick_campaign(10);
+  json["sampling"]["design"] = "sobol";
+  json["dispersions"] = Json::array();
+  Json rows = parse_json(R"({ "name": "fitted", "rows": { "apply": "scale" } })");
+  const std::size_t columns = most_sobol_dimensions / 2 + 1;
+  for (std::size_t k = 0; k < columns; ++k) {
+    const std::string name = "c" + std::to_string(k);
+    rows["rows"]["values"][name] = {1, 1.01};
+    rows["rows"]["columns"][name] = "hinges.root.spring.scale";
+  }
+  json["dispersions"].push_back(rows);
+  const Campaign campaign = campaign_of(json);
+  REQUIRE(campaign.dispersions.size() == columns);
+  CHECK(saltelli_plan(campaign, 8).coordinates().names.size() == 1);
 }

@@ -89,7 +89,7 @@ TEST_CASE("one point without a value, one cut peak and one open latch are told, 
     if (!one) continue;
     CHECK_THAT(said[0],
                Catch::StartsWith("in 1 of 256 runs t_end cut the peaks of \"root.peak_moment\""));
-    CHECK(said[1] == warn_of_open_latches(1, 256));
+    CHECK(said[1] == warn_of_open_latches(1, 256, ""));
     CHECK_THAT(said[2], Catch::StartsWith("no indices of \"root.peak_moment\""));
   }
 }
@@ -277,4 +277,26 @@ TEST_CASE("the report of Sobol' indices says what its bounds are") {
              Catch::Contains("jackknife") && Catch::Contains(" 2 independent replicates"));
   CHECK_THAT(definition({.replicates = 8, .resamples = 250}),
              Catch::Contains("jackknife") && Catch::Contains(" 8 independent replicates"));
+}
+
+TEST_CASE("a share that no true index has is said to be noise of its estimate") {
+  SobolSensitivity all;
+  all.rows = 100, all.runs = all.total = 400, all.dispersions = {"a", "b"};
+  SobolIndices indices;
+  indices.rows = 100;
+  indices.effects = {{{0.4, {0.2, 0.6}}, {0.9, {0.7, 1.1}}, false},
+                     {{0.02, {-0.1, 0.1}}, {0.1, {0.05, 0.2}}, false}};
+  const auto noisy = [&] {
+    all.outputs = {{"root.latch_time", indices}};
+    const auto says = [](const std::string& text) {
+      return text.find("noise of its estimate") != std::string::npos;
+    };
+    return std::pair(says(moved_by_table(all, "")), says(sensitivity_table(all, "")));
+  };
+  CHECK(noisy() == std::pair(false, false));
+  indices.effects[1].first.value = -0.02; // printed by the full table alone
+  CHECK(noisy() == std::pair(false, true));
+  indices.effects[1].first.value = 0.02;
+  indices.effects[0].total.value = 1.13;
+  CHECK(noisy() == std::pair(true, true));
 }

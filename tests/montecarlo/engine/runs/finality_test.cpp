@@ -22,6 +22,14 @@ TEST_CASE("the runs that t_end cut are counted once, and by the kind of the peak
   CHECK(cut_peaks_text(both, 7) == "in 1 of 7 runs t_end cut the peaks");
 }
 
+TEST_CASE("a longer t_end is advised unless there is a reason why none will do") {
+  CHECK(advice_on_t_end("") == "Lengthen t_end");
+  CHECK(advice_on_t_end("in air") == "No t_end will do in air");
+  CHECK_THAT(warn_of_open_latches(2, 5, ""),
+             Catch::StartsWith("in 2 of 5 runs ") && Catch::EndsWith(advice_on_t_end("")));
+  CHECK_THAT(warn_of_open_latches(2, 5, "in air"), Catch::EndsWith(advice_on_t_end("in air")));
+}
+
 TEST_CASE("what is proven of a run's peaks has a word, which is read back") {
   for (const PeaksFinal final : all_peaks_final)
     CHECK(peaks_final_named(to_string(final)) == final);

@@ -84,3 +84,44 @@ TEST_CASE("a limit far from the nominal value: met by every run or by none, by i
                  Catch::Contains(is_max == is_far_above ? "every run meets" : "no run meets"));
     }
 }
+
+TEST_CASE("a cut peak breaks a max and may meet a min: only the max is warned of", "[warnings]") {
+  Campaign campaign = test::campaign_of(test::ringing_panel(10, 6, 2));
+  Base& base = campaign.scene.base;
+  base.motion = BaseMotion::prescribed, base.angular_acceleration = 1e-5;
+  Goal goal;
+  const Outcome nominal = Deployment().run(campaign.scene, campaign.integration, goal);
+  REQUIRE_FALSE(nominal.peaks_final);
+  const auto warned = [&] {
+    InputWarnings warnings({});
+    check_requirements(campaign, nominal, warnings);
+    return warnings.list();
+  };
+  Requirement& requirement = campaign.requirements.front();
+  REQUIRE(warned().size() == 1);
+  CHECK_THAT(warned()[0].found, Catch::Contains("faster and faster"));
+  requirement.max.reset(), requirement.min = 3;
+  CHECK(warned().empty());
+  requirement.min = 3000; // its size is checked as elsewhere
+  REQUIRE(warned().size() == 1);
+  CHECK_THAT(warned()[0].usual, Catch::Contains("no run meets"));
+}
+
+TEST_CASE("draws may be what no peak is final with, where the nominal wing has no such motion",
+          "[warnings]") {
+  Json json = test::ringing_panel(10, 6, 2);
+  json["scene"]["base"] = parse_json(R"({ "motion": "prescribed" })");
+  const auto why = [&](const char* law) {
+    json["dispersions"][0] = parse_json(R"({ "name": "turn", "apply": "set",
+      "to": ["base.angular_acceleration"] })");
+    json["dispersions"][0]["distribution"] = parse_json(law);
+    return why_never_final(test::campaign_of(json));
+  };
+  CHECK(why(R"({ "type": "constant", "value": 0 })").empty());
+  for (const char* law : {R"({ "type": "normal", "mean": 0, "std": 1e-5 })",
+                          R"({ "type": "uniform", "lower": 0, "upper": 1e-3 })",
+                          R"({ "type": "discrete", "values": [0, 1e-3], "weights": [99, 1] })"}) {
+    CAPTURE(law);
+    CHECK(why(law) == "with a base that turns faster and faster");
+  }
+}

@@ -185,7 +185,7 @@ TEST_CASE("peaks of one kind that t_end cut are named, and latches that may let 
   Results open(ResultNames{{}, {"root.latch_rate"}});
   open.append({0, Status::deployed, {}, {-1.}, "", std::string(latches_may_let_go)});
   open.append({1, Status::deployed, {}, {-1.}, "", ""});
-  CHECK(warnings(summarize(open, {})) == std::vector{warn_of_open_latches(1, 2)});
+  CHECK(warnings(summarize(open, {})) == std::vector{warn_of_open_latches(1, 2, "")});
 }
 
 TEST_CASE("a nominal run whose peaks t_end cut is told") {
