@@ -42,10 +42,12 @@ void refuse_unsuitable(const Campaign& campaign) {
         {"", "/margin/cases", "only cases with a lost spring",
          "\"nominal\" too, or a requirement on an output: those on static margins are "
          "not judged where a spring is lost"});
+  const InterimAnalyses interim = interim_analyses(campaign);
+  const std::vector<long> none_failed(interim.before.size(), 0); // then the most may break it
   for (const Requirement& requirement : campaign.requirements) {
     const PassingRule rule =
-        passing_rule(interim_analyses(campaign), campaign.sampling.runs, requirement.probability,
-                     confidence_alone(campaign.requirements, requirement));
+        passing_rule(interim, campaign.sampling.runs, requirement.probability,
+                     confidence_alone(campaign.requirements, requirement), none_failed);
     const auto least = runs_to_show(requirement.probability, rule.confidence, 0);
     if (!rule.allowed)
       problems.push_back({"", "/sampling/runs", std::to_string(campaign.sampling.runs),

@@ -212,8 +212,9 @@ PassingRule passing_rule(const InterimAnalyses& interim, long n, double p, doubl
   for (const long earlier : interim.before)
     if (earlier < n) runs.push_back(earlier);
   if (!runs.empty()) {
-    if (failed.size() != runs.size())
+    if (failed.size() < runs.size())
       throw std::logic_error("an extension without the failures at each analysis before");
+    failed = failed.first(runs.size());
     runs.push_back(n);
     return extended_rule(runs, failed, p, c);
   }

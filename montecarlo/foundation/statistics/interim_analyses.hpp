@@ -66,7 +66,7 @@ struct PassingRule {
 
 /// The rule at the analysis of n runs.
 /// Cost after an extension: O(m n p (1 − p)) operations for m analyses, 0.1 s for 10⁶ runs and p = 0.95.
-/// @param failed F_k of each analysis in interim.before with fewer than n runs
+/// @param failed F_k of each analysis in interim.before; only those with fewer than n runs count
 /// @pre n ≥ 0, 0 < p < 1, 0 < c < 1
 [[nodiscard]] PassingRule passing_rule(const InterimAnalyses& interim, long n, double p, double c,
                                        std::span<const long> failed = {});

@@ -180,17 +180,15 @@ void decide(double confidence, const InterimAnalyses& interim, Verdict& verdict)
   verdict.confidence_alone = confidence;
   const double p = verdict.requirement.probability;
   const long n = verdict.runs, broken = verdict.failures();
-  const long earlier = std::ranges::count_if(interim.before, [n](long runs) { return runs < n; });
-  const std::span failed = std::span(verdict.failed_before).first(earlier),
-                  surely = std::span(verdict.surely_before).first(earlier);
-  const PassingRule rule = passing_rule(interim, n, p, confidence, failed);
+  const PassingRule rule = passing_rule(interim, n, p, confidence, verdict.failed_before);
   const double c = rule.confidence;
   verdict.confidence = c;
   verdict.interim = interim;
   verdict.joint = rule.joint;
   verdict.allowed = rule.allowed;
   verdict.least_runs = runs_to_show(p, c, 0);
-  verdict.disproved = is_disproved(interim, n, p, confidence, broken - verdict.open, surely);
+  verdict.disproved =
+      is_disproved(interim, n, p, confidence, broken - verdict.open, verdict.surely_before);
   verdict.share = static_cast<double>(n - broken) / static_cast<double>(n);
   verdict.guaranteed_share = clopper_pearson_lower(n - broken, n, c);
   verdict.decision = decision_of(verdict);

@@ -102,7 +102,7 @@ TEST_CASE("numbers of runs that are chosen by the failures pass no more often th
                                                        {.8, .9, 25, 2, .8},
                                                        {.5, .6, 3, 2, .7},
                                                        {.9, .9, 30, 2, .7},
-                                                       {.95, .9, 100, 1, .7},
+                                                       {.95, .9, 100, 1, .6},
                                                        {.9, .8, 5, 2, .7},
                                                        {.99, .95, 300, 1, .6}}) {
     Adversary adversary{p, c, {1.1, 1.5, 2, 3, 5}};
