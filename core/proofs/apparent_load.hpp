@@ -16,8 +16,8 @@
 ///     g_i = Σ m λ_i (|a| + Ω² R)       V(φ) − V(rest) ≥ −Σ g_i |u_i|                           (3)
 ///
 /// If neither a nor Ω is 0, a turns as seen from the base, and V changes with time. There are no such bounds while a
-/// changes: on a base driven by a table, until its last knot. While Ω changes at a constant rate ε, V does, and the base's
-/// angular acceleration does work too: (11) of modal_bounds.hpp bounds both.
+/// changes: on a base driven by a table, until its last knot. While Ω changes at a constant rate ε, V changes too, and the
+/// base's angular acceleration does work: (11) of modal_bounds.hpp bounds both.
 #pragma once
 
 #include "core/mechanics/energy.hpp"
@@ -46,7 +46,7 @@ public:
   [[nodiscard]] const T& specific(int i) const { return specific_(i); } ///< of (1), at rest, m/s²
   [[nodiscard]] const T& spin() const { return spin_; }                 ///< |Ω|, rad/s
   [[nodiscard]] bool turns() const { return turns_; } ///< whether a turns as seen from the base
-  /// Whether Ω changes. Then `moment` and `specific` are 0, and bound nothing.
+  /// Whether Ω changes. Then `moment` and `specific` are 0 and bound nothing, and `spin` is that at one time.
   [[nodiscard]] bool quickens() const { return quickens_; }
 
   /// @return ½ Σ (m v² + J ω²) + V as seen from the base, and the sum of the sizes of its terms, J
@@ -65,7 +65,8 @@ private:
   void sum_up(const AnySystem& system, const Topology& tree) {
     using std::abs, std::sqrt;
     const Wing<T>& wing = system.wing();
-    const Drive<T> drive = system.drive(system.work().driven.from); // as at any other time
+    const Drive<T> drive =
+        system.drive(system.work().driven.from); // as at any other time, but for Ω if it changes
     const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
     const T push = length(drive.felt);
     spin_ = abs(drive.rate), quickens_ = drive.angular_acceleration != T(0);

@@ -262,22 +262,23 @@ private:
       return most && no_peak_can_rise(system, x, T(t_end - t), momentum, *most, seen);
     };
     constexpr bool is_driven = AnySystem::base_motion == BaseMotion::prescribed;
-    std::optional<T> cap, so_far; // of the modes; of an energy that may grow
+    std::optional<T> cap;    // of the modes' energy
+    std::optional<T> so_far; // an energy that may grow
     if (energy)
       cap = is_driven ? energy->elastic : energy->within;
     else if (is_driven)
       so_far = remaining_.energy_so_far(system, x, t);
     if (proves(modes_->bound(start, cap, abs(momentum)))) return true;
-    if (!energy && !so_far) return false;
+    if (!energy && !(so_far && *so_far > T(0))) return false;
     if (energy && prove_by_energy(system, x, *energy, seen)) return true;
-    const T falling = energy ? energy->within : *so_far;
-    if (!thorough_.is_due(falling)) return false;
+    const T at_hand = energy ? energy->within : *so_far;
+    if (!thorough_.is_due(at_hand)) return false;
     const std::optional<T> whole =
         energy ? std::optional(energy->elastic) : most_energy(system, x, T(t_end - t), *so_far);
     const auto closest =
         whole ? modes_->bound_in_reach(start, *whole, abs(momentum)) : std::nullopt;
     if (proves(closest)) return true;
-    thorough_.note_failure(falling,
+    thorough_.note_failure(at_hand,
                            closest ? std::optional(excess_of_loads(seen, *closest)) : std::nullopt);
     return false;
   }

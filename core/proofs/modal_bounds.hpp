@@ -78,17 +78,18 @@
 /// bending adds to the push.
 ///
 /// On a base that turns at a rate Ω with a constant angular acceleration ε, and no linear one, E = T + Σ ½ κ u² as seen
-/// from the base may grow. With the inertia of all bodies but the base about the base's origin, I = 1ᵀM 1,
+/// from the base may grow. With the inertia about the base's origin, I = 1ᵀM 1,
 ///
 ///     dE/dt ≤ ½ Ω² dI/dt − ε 1ᵀM S u̇
 ///
-/// Let E_0 = E(t) − ½ Ω(t)² (I(t) − I(y*)), remaining_energy.hpp's rest y*, and let δI, u and δM bound I − I(rest), the ways
-/// off rest and M − M(rest) while E ≤ A. As |∫ Ω ε dt| ≤ max Ω², by parts
+/// Let y* be the rest of remaining_energy.hpp and E_0 = E(t) − ½ Ω(t)² (I(t) − I(y*)). While E ≤ A, let δI, u and δM bound
+/// I − I(rest), the ways off rest and M − M(rest); |I − I(y*)| is then at most 2 δI. As ∫ |Ω ε| dt ≤ max Ω², by parts
 ///
 ///     E ≤ E_0 + 3 max Ω² δI + 2 |ε| Σ |1ᵀM(rest) S|_i u_i + |ε| (t_end − t) max |1ᵀδM S u̇|       (11)
 ///
-/// up to t_end while E ≤ A: for the change from y* to rest δI is counted twice. Where the right side is below A the motion
-/// never reaches A, and every right side for a smaller A that bounds E bounds it too.
+/// up to t_end. (The code takes |1ᵀM(rest)| |S| for |1ᵀM(rest) S|.) Where the right side is below A, the motion never
+/// reaches A. It starts below A: δI is concave in A, so that A' − E_0 > 3 max Ω² δI(A') for every A' > A too, whereas
+/// E(t) − E_0 ≤ max Ω² δI(E(t)). The right side is then a bound of E, and may take the place of A.
 ///
 /// Eigenvectors and sums are a library's: their last bits may differ between processors. A run may
 /// then end some steps earlier or later, but no peak depends on when a run ends.

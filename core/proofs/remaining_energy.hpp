@@ -27,8 +27,8 @@
 ///     T + Σ ½ κ_i (|u_i| − g_i/κ_i)² ≤ Ē = E + Σ g_i²/2κ_i                                     (2)
 ///     T + Σ ½ κ_i u_i² ≤ E + Σ g_i |u_i|,      |u_i| ≤ g_i/κ_i + √(2Ē/κ_i)                     (4)
 ///
-/// On a base that turns and has a linear acceleration, that turns as seen from the base and may drive a mode: there is no
-/// bound. On one that has an angular acceleration alone, E may grow: `energy_so_far` returns it for a bound elsewhere.
+/// On a base that turns and has a linear acceleration, this acceleration turns as seen from the base and may drive a mode:
+/// there is no bound. On one that has an angular acceleration alone, E may grow: `energy_so_far` returns it for a bound elsewhere.
 ///
 /// The moment of a hinge then stays within g_i + √(2Ē) √(κ_i + δ_i² σ_i) + τ_s, σ_i as in
 /// energy_bounds.hpp. For a hinge without rest κ is 0, and g the most that its spring exerts on its
@@ -88,7 +88,7 @@ public:
     for (int i = 1; i <= n; ++i) elastic_ = elastic_ && least_stiffness_(i) > T(0);
   }
 
-  /// Bounds the energy from the state x at t on, by (1) or (2). Cost O(n).
+  /// Bounds the energy from the state x at t on, by (1), (2) and (4). Cost O(n).
   /// @return none without a bound: where the base's motion is not steady, its acceleration turns as seen from it, air
   ///         meets a moving base, a spring drives its hinge away from rest, an open hinge has a motor or stands beside
   ///         real hinges, a latch has backlash or is smoothed and not yet full, or a hinge may touch a stop or leave its

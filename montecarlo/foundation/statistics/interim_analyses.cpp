@@ -116,7 +116,7 @@ public:
     if (k < first_) return 0;
     return sums_[static_cast<std::size_t>(std::min(k - first_, std::ssize(sums_) - 1))];
   }
-  /// The largest k with P(Bin ≤ k) ≤ risk; below 0 for none.
+  /// The largest k with P(Bin ≤ k) ≤ risk; for none the last k whose probability is neglected, which may be −1.
   [[nodiscard]] long most_within(double risk) const {
     return first_ - 1 + (std::ranges::upper_bound(sums_, risk) - sums_.begin());
   }

@@ -196,11 +196,11 @@ std::string describe_requirement(const Campaign& campaign, const Requirement& re
   const std::string text = to_string(requirement);
   if (!has_spread(campaign)) return text + ": cannot be shown, as nothing is dispersed";
   const InterimAnalyses interim = interim_analyses(campaign);
-  if (!interim.before.empty())
+  const double c = confidence_alone(campaign.requirements, requirement);
+  if (!interim.before.empty() && allowed_failures(runs, p, c))
     return fmt::format("{}: how many of {} may break it depends on how many of the first {} do",
                        text, counted(runs, "run", "runs"), fmt::join(interim.before, ", "));
-  const PassingRule rule =
-      passing_rule(interim, runs, p, confidence_alone(campaign.requirements, requirement));
+  const PassingRule rule = passing_rule({interim.planned}, runs, p, c);
   if (rule.allowed)
     return fmt::format("{}: {} of {} may break it", text, *rule.allowed,
                        counted(runs, "run", "runs"));

@@ -87,10 +87,10 @@ Json definitions(const Summary& summary) {
                      "them together hold at c";
   if (!summary.interim.before.empty())
     json["extended"] =
-        "runs were added to draws that had been analysed: a requirement passes so that the risk of "
-        "a wrong pass at any of the analyses is at most risk_of_wrong_pass, 1 - c, by whatever "
-        "rule runs were added (each analysis after the first spends at most half of what is left "
-        "after the failures seen); risk_if_alone: the risk if each were judged alone at c; bounds "
+        "runs were added to draws that had been analysed. The risk of a wrong pass at any of the "
+        "analyses is at most risk_of_wrong_pass, 1 - c, however the numbers of runs were chosen: "
+        "each analysis after the first spends at most half of what is left after the failures "
+        "seen; risk_if_alone: the risk if each were judged alone at c; bounds "
         "of analysis k at 1 - (1 - c)/(k(k - 1)), for numbers of runs not chosen by the results";
   return json;
 }

@@ -46,14 +46,15 @@ struct Verdict {
   std::optional<long> allowed; ///< most runs that may break it; nothing if n runs are too few
   /// Runs that break it among those of each analysis in interim.before; and without those that are `open`.
   std::vector<long> failed_before{}, surely_before{};
-  Spilled<long> broken;           ///< runs that break it, the worst first
-  long not_listed = 0;            ///< runs that break it and are not in `broken`: with --no-rows
-  std::optional<long> least_runs; ///< fewest runs that could show it, if none broke it
-  bool disproved = false;         ///< P < p is shown at the same confidence
-  bool one_run = false;           ///< all runs are the same run and show no probability
-  bool of_part = false; ///< of a shard, a preview or an unfinished folder, which are not judged
-  long cut = 0;         ///< deployed runs that break it because t_end cut their peak
-  long open = 0;        ///< those among them that may meet it: whose cut peak is not above a `max`
+  Spilled<long> broken; ///< runs that break it, the worst first
+  long not_listed = 0;  ///< runs that break it and are not in `broken`: with --no-rows
+  std::optional<long>
+      least_runs; ///< fewest runs that could show it, if none broke it; not after an extension
+  bool disproved = false; ///< P < p is shown at the same confidence
+  bool one_run = false;   ///< all runs are the same run and show no probability
+  bool of_part = false;   ///< of a shard, a preview or an unfinished folder, which are not judged
+  long cut = 0;           ///< deployed runs that break it because t_end cut their peak
+  long open = 0; ///< those among them that may meet it: whose cut peak is not above a `max`
   std::string_view never_final{}; ///< why no t_end proves peaks final (explain_cuts)
   long absent = 0; ///< runs that break a limit because they did not deploy or lack the output
   /// Least and largest value, if the limit lies on the other side of zero from all values; not of static

@@ -122,6 +122,44 @@ TEST_CASE("no motion on a base that turns faster and faster has more energy than
   CHECK(closest > 0.9);
 }
 
+TEST_CASE(
+    "the time left adds to (11) at least what the angular acceleration does off the way to rest") {
+  int bounded = 0;
+  double closest = 0;
+  for (int k = 0; k < 40; ++k) {
+    oracle::Draws draws(8700 + k);
+    Scene scene = ringing_wing(k, draws);
+    const double quickening = draws.log_uniform(1e-3, 1e-2), time = 1e-3;
+    scene.base.rate = draws.uniform(-0.01, 0.01), scene.base.angular_acceleration = quickening;
+    Driven wing(scene, time);
+    if (!wing.has_model) continue;
+    SeenEnergy seen(scene);
+    const double energy = draws.log_uniform(0.01, 1);
+    const auto now = wing.modes->most_energy(energy, 0),
+               later = wing.modes->most_energy(energy, time);
+    if (!now || !later) continue;
+    ++bounded;
+    const double power = (*later - *now) / time;
+    Latched<BaseMotion::fixed> still([&] {
+      Scene s = scene;
+      s.base = {};
+      return s;
+    }());
+    for (int n = 0; n < 30; ++n) {
+      State<double> x = with_energy(wing, seen, draws, energy), at_rest = wing.rest();
+      for (int i = 1; i <= wing.at.bodies; ++i) at_rest[wing.at.rate(i)] = x[wing.at.rate(i)];
+      const double momentum = total_motion(still.system, x, 0.).angular -
+                              total_motion(still.system, at_rest, 0.).angular;
+      CAPTURE(k, quickening, energy, power);
+      CHECK(quickening * std::abs(momentum) <= power * (1 + 1e-6));
+      closest = std::max(closest, quickening * std::abs(momentum) / power);
+    }
+  }
+  CAPTURE(bounded, closest);
+  CHECK(bounded >= 20);
+  CHECK(closest > 0.3);
+}
+
 TEST_CASE("no motion on a base that is pushed, or turns, has more energy than (4) says") {
   int grown = 0;
   double closest = 0;

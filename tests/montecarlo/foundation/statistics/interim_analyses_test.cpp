@@ -165,11 +165,18 @@ TEST_CASE("the more have failed, the fewer of the runs added may") {
       }
 }
 
-TEST_CASE("analyses that could not pass have spent nothing") {
+TEST_CASE("analyses of few runs leave a later one of many all that it may risk, and one of few "
+          "more less") {
   const PassingRule rule =
       passing_rule({1, {10, 20}}, 3000, .999, .9, std::array{0L, 0L}); // it takes 2302
   CHECK(rule.allowed == allowed_failures(3000, .999, .9));
   CHECK_FALSE(passing_rule({1, {10}}, 20, .999, .9, std::array{0L}).allowed);
+  // 22 runs would do without the 20 before
+  for (const auto& [n, passes] : {std::pair{22L, false}, {25L, false}, {35L, true}}) {
+    CAPTURE(n);
+    const PassingRule next = passing_rule({1, {20}}, n, .9, .9, std::array{0L});
+    CHECK((next.joint->allowed_alone.has_value() && next.allowed.has_value() == passes));
+  }
 }
 
 TEST_CASE(

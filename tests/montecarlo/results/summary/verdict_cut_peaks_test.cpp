@@ -100,6 +100,32 @@ TEST_CASE("cut peaks below the limit disprove nothing, and only what is known ma
   }
 }
 
+TEST_CASE("the runs that break a requirement are counted in each earlier analysis, known or not") {
+  std::mt19937_64 random(6);
+  const InterimAnalyses interim{1, {8, 20, 33}};
+  for (int k = 0; k < 50; ++k) {
+    Results results(ResultNames{{}, {"root.peak_moment"}, true});
+    std::vector<long> failed(3, 0), surely(3, 0);
+    for (long run = 0; run < 60; ++run) {
+      const bool is_cut = uniform(random) < 0.3, is_beyond = uniform(random) < 0.3;
+      ResultRow row{run, Status::deployed, {}, {is_beyond ? 1.0 : 0.5}, "", ""};
+      row.peaks_final = is_cut ? PeaksFinal::no : PeaksFinal::yes;
+      results.append(row);
+      for (std::size_t n = 0; n < 3; ++n) {
+        failed[n] += run < interim.before[n] && (is_cut || is_beyond);
+        surely[n] += run < interim.before[n] && is_beyond;
+      }
+    }
+    const Requirement requirement{"", "root.peak_moment", 0.75, {}, 0.6, 0.9};
+    const Verdict verdict = judge(requirement, results, interim);
+    CHECK(verdict.failed_before == failed);
+    CHECK(verdict.surely_before == surely);
+    CHECK(verdict.allowed == passing_rule(interim, 60, 0.6, 0.9, failed).allowed);
+    CHECK(verdict.disproved ==
+          is_disproved(interim, 60, 0.6, 0.9, verdict.failures() - verdict.open, surely));
+  }
+}
+
 // The same with the peak turned round: what t_end cut below a min may still rise to it, and shows nothing.
 TEST_CASE("a cut peak meets a min that it has reached, and disproves none that it has not") {
   std::mt19937_64 random(6);
