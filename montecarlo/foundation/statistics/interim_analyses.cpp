@@ -131,6 +131,7 @@ struct AnalysesSoFar {
   double left = 0;     ///< R_k
   bool first = true;   ///< no analysis so far could pass
   bool passed = false; ///< one has
+  long before = 0;     ///< analyses
   long runs = 0, failed = 0;
 };
 
@@ -162,7 +163,12 @@ double left_after(const AnalysesSoFar& before, const Failures& added, long allow
 std::optional<long> allowed_next(const AnalysesSoFar& so_far, const Failures& added, long n,
                                  double p, double c) {
   const auto alone = allowed_failures(n, p, c);
-  if (so_far.passed || so_far.runs == 0 || !alone) return alone;
+  if (so_far.passed) {
+    const auto with_bounds =
+        allowed_failures(n, p, at_each_of(c, so_far.before * (so_far.before + 1)));
+    return with_bounds ? with_bounds : alone;
+  }
+  if (so_far.before == 0 || !alone) return alone;
   const long most =
       CumulativeFailures(added).most_within(so_far.first ? so_far.left : so_far.left / 2);
   const long allowed = std::min(so_far.failed + most, *alone);
@@ -189,7 +195,7 @@ PassingRule extended_rule(std::span<const long> runs, std::span<const long> fail
       so_far.left = left_after(so_far, added, allowed, failed[k],
                                binomial(std::max(3 * n, 4 * least), 1 - p));
     so_far.first = so_far.first && allowed < so_far.failed;
-    so_far.runs = n, so_far.failed = failed[k];
+    ++so_far.before, so_far.runs = n, so_far.failed = failed[k];
   }
   if (rule.allowed)
     rule.confidence = std::clamp(confidence_alone(runs.back(), p, *rule.allowed), c, most_sure);
