@@ -25,6 +25,12 @@ Json cut_panel(const std::string& how) {
     scene["bodies"][0]["plate"] = parse_json(
         R"({ "from": [-0.5, 0], "to": [0.5, 0], "width": 0.5, "drag_coefficient": 1.2 })");
   }
+  if (how == "some draws") {
+    json["integration"]["t_end"] = 2.3;
+    json["dispersions"].push_back(parse_json(R"({ "name": "turn", "apply": "set",
+      "to": ["base.angular_acceleration"],
+      "distribution": { "type": "discrete", "values": [0, 1e-5], "weights": [9, 1] } })"));
+  }
   if (how == "draws")
     json["dispersions"].push_back(parse_json(R"({ "name": "turn", "apply": "set",
       "to": ["base.angular_acceleration"],
@@ -49,6 +55,7 @@ std::vector<std::pair<std::string, std::string>> all_said(const Folder& folder, 
   add({"rare", file, "--output", "root.peak_moment", "--above", "500", "--samples", "100",
        "--repeats", "1", "--out", in + "/e"},
       "/e/rare.json");
+  add({"sensitivity", in + "/r", "--all", "--out", in + "/s"}, "/s/sensitivity.json");
   add({"margin", file, "--out", in + "/m"}, "/m/margin.json");
   return all;
 }
@@ -74,6 +81,10 @@ TEST_CASE("a longer t_end is advised only where one may do") {
     }
     const Finished checked = run_program(folder, {"check", folder.path() / "c.json"});
     CHECK_THAT(checked.error, HasFacts({"/requirements/0", why, "whatever t_end is"}));
+  }
+  for (const auto& [command, text] : all_said(folder, cut_panel("some draws"))) {
+    CAPTURE(command, text);
+    CHECK_THAT(text, Catch::Contains("Lengthen t_end, but none will do for runs with a base that"));
   }
 }
 

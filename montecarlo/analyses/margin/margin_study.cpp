@@ -48,11 +48,15 @@ void refuse_unsuitable(const Campaign& campaign) {
     const PassingRule rule =
         passing_rule(interim, campaign.sampling.runs, requirement.probability,
                      confidence_alone(campaign.requirements, requirement), none_failed);
+    if (rule.allowed) continue;
     const auto least = runs_to_show(requirement.probability, rule.confidence, 0);
-    if (!rule.allowed)
-      problems.push_back({"", "/sampling/runs", std::to_string(campaign.sampling.runs),
-                          fmt::format("at least {}: fewer cannot show \"{}\"",
-                                      least.value_or(most_runs_sized), to_string(requirement))});
+    problems.push_back(
+        {"", "/sampling/runs", std::to_string(campaign.sampling.runs),
+         rule.joint ? fmt::format("more: the analyses before (\"extended_from\") have left too "
+                                  "little of the risk to show \"{}\"",
+                                  to_string(requirement))
+                    : fmt::format("at least {}: fewer cannot show \"{}\"",
+                                  least.value_or(most_runs_sized), to_string(requirement))});
   }
   if (!problems.empty()) throw SpecError(std::move(problems));
 }

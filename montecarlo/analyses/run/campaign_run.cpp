@@ -162,8 +162,11 @@ CampaignResults run_campaign(const RunRequest& request, const RunCallbacks& call
     if (const std::string where = where_nothing_varies(campaign, chosen); !where.empty())
       throw SpecError(
           {{"", "/until", "goals to stop at, though nothing is dispersed (" + where + ')',
-            "none: all runs are the same run, and more of them decide nothing (`wingspread "
-            "simulate` makes it)"}});
+            campaign.cases.empty()
+                ? "none: all runs are the same run, and more of them decide nothing (`wingspread "
+                  "simulate` makes it)"
+                : "cases that vary (`--case NAME`): all runs of the others are the same run, and "
+                  "more of them decide nothing"}});
   if (!request.streaming && !campaign.cases.empty()) return run_cases(request, callbacks);
   OverallCounts overall(shard_runs(campaign.sampling.runs, request.shard).size());
   CampaignResults results;

@@ -125,8 +125,9 @@ void warn_of_t_end(const std::vector<CutOutput>& outputs, long open_latches, lon
   if (!names.empty())
     warnings.push_back(fmt::format(
         "in {}{} of {} runs t_end cut the peaks of {}: the effects are those on the values cut at "
-        "t_end, not on the peaks. Sign and order may differ with a longer t_end",
-        least < most ? fmt::format("{} to ", least) : "", most, runs, quoted(names)));
+        "t_end, not on the peaks. Sign and order may differ. {}",
+        least < most ? fmt::format("{} to ", least) : "", most, runs, quoted(names),
+        advice_on_t_end(never_final)));
   if (open_latches > 0) warnings.push_back(warn_of_open_latches(open_latches, runs, never_final));
 }
 

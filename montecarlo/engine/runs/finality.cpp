@@ -52,7 +52,11 @@ bool is_cut(PeakKind kind, PeaksFinal final) {
 }
 
 std::string advice_on_t_end(std::string_view never_final) {
-  return never_final.empty() ? "Lengthen t_end" : fmt::format("No t_end will do {}", never_final);
+  if (never_final.empty()) return "Lengthen t_end";
+  return fmt::format("{} {}",
+                     never_final.starts_with("for runs") ? "Lengthen t_end, but none will do"
+                                                         : "No t_end will do",
+                     never_final);
 }
 
 std::string warn_of_open_latches(long open, long runs, std::string_view never_final) {

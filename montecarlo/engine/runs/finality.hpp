@@ -50,7 +50,8 @@ inline constexpr std::array all_peaks_final{PeaksFinal::unknown, PeaksFinal::no,
 inline constexpr std::string_view latches_may_let_go =
     "t_end came before a proof that every latch stays engaged";
 
-/// The advice where t_end cut something: "Lengthen t_end", or "No t_end will do with a base that …".
+/// The advice where t_end cut something: "Lengthen t_end", "No t_end will do with a base that …", or, if that holds for
+/// some of the runs, "Lengthen t_end, but none will do for runs with …".
 /// @param never_final why_never_final (requirement_checks.hpp) of the campaign; empty: a longer t_end may do
 [[nodiscard]] std::string advice_on_t_end(std::string_view never_final);
 

@@ -166,7 +166,7 @@ std::optional<long> allowed_next(const AnalysesSoFar& so_far, const Failures& ad
   if (so_far.passed) {
     const auto with_bounds =
         allowed_failures(n, p, at_each_of(c, so_far.before * (so_far.before + 1)));
-    return with_bounds ? with_bounds : alone;
+    return with_bounds || !alone ? with_bounds : 0; // the least that can pass
   }
   if (so_far.before == 0 || !alone) return alone;
   const long most =

@@ -23,11 +23,11 @@
 ///
 ///   R_k = min(1, C P(F_k + Bin(m, 1 − p) ≤ b)),   m = max(3 n_k, 4 times the least runs that can pass) (3)
 ///
-/// or, where no b ≥ 0 is small enough, R_k = R_{k−1} − P(F_k ≤ a_k) for all F_k. R_k never rises with F_k and is at most
-/// 1, a pass: so P = p is the worst case of P ≤ p. After analyses of few runs, (3) may leave too little for n runs to
-/// pass that could pass alone. The half, m and the form of (3) are choices: they change
-/// how often a good wing passes, not the promise. A requirement that has passed can pass wrongly no more; from then
-/// on it is judged with the confidence of bounds, for its tolerance limit is one (with c where that could not pass).
+/// or, where no b ≥ 0 is small enough, R_k = R_{k−1} − P(F_k ≤ a_k) for all F_k. R_k never rises with F_k and is at
+/// most 1, a pass: so P = p is the worst case of P ≤ p. After analyses of few runs, (3) may leave too little for n
+/// runs to pass that could pass alone. The half, m and the form of (3) are choices: they change how often a good
+/// wing passes, not the promise. A requirement that has passed can pass wrongly no more; from then on it is judged
+/// with the confidence of bounds, for its tolerance limit is one (with none allowed where that could not pass).
 ///
 /// Bounds of extension k (k ≥ 2) use the risk α/(k(k − 1)), in sum α: those of all extensions hold together at c if the
 /// numbers of runs are not chosen by the results.

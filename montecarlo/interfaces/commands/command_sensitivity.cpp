@@ -326,7 +326,7 @@ largest; others with visible effect are counted. --all prints every coefficient 
 sensitivity.json and sensitivity.csv in the folder, or in --out, have all of them. A warning names
 each dispersion that moves no output.
 Effects on peaks that t_end cut are those on the values up to t_end: a warning gives the number of
-runs, and a longer t_end decides them.
+runs, and says whether a longer t_end decides them.
 
 Example:
   wingspread sensitivity results/first

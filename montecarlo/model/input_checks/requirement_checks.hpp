@@ -8,11 +8,11 @@
 
 namespace wingspread {
 
-/// Where no peak of a deployed wing can be proven final, whatever t_end is.
+/// Why no peak of a deployed wing can be proven final, whatever t_end is.
 /// @return the reason, to follow "a limit on root.peak_moment"; empty where a proof may exist
 [[nodiscard]] std::string_view why_never_final(const Scene& scene);
-/// The same for the nominal wing; where it has no reason, for the wing with every draw at the lower end of its law, then
-/// at the upper: a parameter that is 0 in the nominal wing may differ from 0 in the draws.
+/// The same for the wings with every draw at either end of its law, and in the middle.
+/// @return where only some of these have the reason, it begins with "for runs"
 [[nodiscard]] std::string_view why_never_final(const Campaign& campaign);
 
 /// Warns of requirements that no run or every run meets, each by the first rule that it breaks:

@@ -222,6 +222,13 @@ TEST_CASE("a margin with too few runs for its interim analyses is refused", "[ma
   json["until"] = parse_json(R"([ { "output": "deployed", "width": 1e-6 } ])");
   CHECK_THROWS_WITH(margin_of(campaign_of(json)),
                     Catch::Contains("/sampling/runs: found 1300, expected at least 1497"));
+  json.erase("until");
+  json["sampling"] = {{"design", "random"}, {"runs", 30}, {"seed", 1}, {"extended_from", {20}}};
+  for (Json& requirement : json["requirements"]) requirement["probability"] = 0.9;
+  REQUIRE(allowed_failures(30, 0.9, 0.9)); // as the only analysis
+  CHECK_THROWS_WITH(
+      margin_of(campaign_of(json)),
+      Catch::Contains("/sampling/runs: found 30, expected more: the analyses before"));
 }
 
 TEST_CASE("a margin over a case that does not vary is refused by its name", "[margin]") {

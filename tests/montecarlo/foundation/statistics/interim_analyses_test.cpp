@@ -90,6 +90,8 @@ TEST_CASE("two analyses: by hand") {
   // it has passed: from then on judged as bounds are, at 1 − 0.4/2
   CHECK(passing_rule({1, {2}}, 6, .5, .6, std::array{0L}).allowed == 1);
   CHECK(allowed_failures(6, .5, .6) == 2);
+  for (const long n : {79, 80, 100}) // 0.95^79 > 0.1/6, 0.95^80 is not
+    CHECK(passing_rule({1, {45, 60}}, n, .95, .9, std::array{0L, 0L}).allowed == 0);
 }
 
 TEST_CASE("numbers of runs that are chosen by the failures pass no more often than promised") {
