@@ -28,7 +28,8 @@
 ///     T + Σ ½ κ_i u_i² ≤ E + Σ g_i |u_i|,      |u_i| ≤ g_i/κ_i + √(2Ē/κ_i)                     (4)
 ///
 /// On a base that turns and has a linear acceleration, this acceleration turns as seen from the base and may drive a mode:
-/// there is no bound. On one that has an angular acceleration alone, E may grow: `energy_so_far` returns it for a bound elsewhere.
+/// there is no bound. On one that has an angular acceleration alone, E may grow: `energy_so_far` returns it, and (11) of
+/// modal_bounds.hpp bounds it.
 ///
 /// The moment of a hinge then stays within g_i + √(2Ē) √(κ_i + δ_i² σ_i) + τ_s, σ_i as in
 /// energy_bounds.hpp. For a hinge without rest κ is 0, and g the most that its spring exerts on its

@@ -52,11 +52,12 @@ void refuse_unsuitable(const Campaign& campaign) {
     const auto least = runs_to_show(requirement.probability, rule.confidence, 0);
     problems.push_back(
         {"", "/sampling/runs", std::to_string(campaign.sampling.runs),
-         rule.joint ? fmt::format("more: the analyses before (\"extended_from\") have left too "
-                                  "little of the risk to show \"{}\"",
-                                  to_string(requirement))
-                    : fmt::format("at least {}: fewer cannot show \"{}\"",
-                                  least.value_or(most_runs_sized), to_string(requirement))});
+         rule.joint && rule.joint->allowed_alone
+             ? fmt::format("more: the analyses before (\"extended_from\") have left too "
+                           "little of the risk to show \"{}\"",
+                           to_string(requirement))
+             : fmt::format("at least {}: fewer cannot show \"{}\"", least.value_or(most_runs_sized),
+                           to_string(requirement))});
   }
   if (!problems.empty()) throw SpecError(std::move(problems));
 }

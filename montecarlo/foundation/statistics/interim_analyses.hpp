@@ -67,7 +67,7 @@ struct PassingRule {
 };
 
 /// The rule at the analysis of n runs.
-/// Cost after an extension: O(m n p (1 − p)) operations for m analyses, 5 ms for 10⁶ runs and p = 0.95.
+/// Cost after an extension: O(n p (1 − p)) operations for each analysis.
 /// @param failed F_k of each analysis in interim.before; only those with fewer than n runs count
 /// @pre n ≥ 0, 0 < p < 1, 0 < c < 1
 [[nodiscard]] PassingRule passing_rule(const InterimAnalyses& interim, long n, double p, double c,

@@ -186,7 +186,7 @@ void decide(double confidence, const InterimAnalyses& interim, Verdict& verdict)
   verdict.interim = interim;
   verdict.joint = rule.joint;
   verdict.allowed = rule.allowed;
-  if (!rule.joint) verdict.least_runs = runs_to_show(p, c, 0);
+  if (!rule.joint || !rule.joint->allowed_alone) verdict.least_runs = runs_to_show(p, c, 0);
   verdict.disproved =
       is_disproved(interim, n, p, confidence, broken - verdict.open, verdict.surely_before);
   verdict.share = static_cast<double>(n - broken) / static_cast<double>(n);
@@ -330,9 +330,9 @@ std::string evidence(const Verdict& verdict) {
         joint_risk(verdict));
   }
   if (verdict.disproved) return found + ": disproved";
-  if (verdict.joint)
+  if (verdict.joint && verdict.joint->allowed_alone)
     return fmt::format("{} cannot show it, even if none breaks it, after the analyses of {} runs: "
-                       "these have left too little of the risk. Add more ({})",
+                       "these have left too little of the risk. Add runs ({})",
                        counted(verdict.runs, "run", "runs"),
                        fmt::join(verdict.interim.before, ", "), found);
   const std::string least = verdict.least_runs

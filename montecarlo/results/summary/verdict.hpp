@@ -6,8 +6,8 @@
 /// value, for a `min` below. Leaving such runs out would make the result look better than it is. A run whose peak was
 /// cut by t_end (finality.hpp) breaks a `max` on that peak too, because the peak might have risen. It disproves
 /// none, unless its value is beyond the limit already: where the cut peaks alone stand against a pass, the verdict is
-/// `undecided`, and a longer t_end decides it, if any does. The peak is at least its value so far: from there on it meets a `min`,
-/// and below it breaks one, but may still rise and disproves nothing.
+/// `undecided`, and a longer t_end decides it, if any does. The peak is at least its value so far: from there on it
+/// meets a `min`, and below it breaks one, but may still rise and disproves nothing.
 ///
 /// Symbols as in wilks.hpp: n runs, k of them break the requirement P ≥ p at confidence c.
 #pragma once
@@ -49,7 +49,8 @@ struct Verdict {
   Spilled<long> broken; ///< runs that break it, the worst first
   long not_listed = 0;  ///< runs that break it and are not in `broken`: with --no-rows
   std::optional<long>
-      least_runs; ///< fewest runs that could show it, if none broke it; not after an extension
+      least_runs; ///< fewest runs that could show it, if none broke it; none where only earlier
+                  ///< analyses stand against it
   bool disproved = false; ///< P < p is shown at the same confidence
   bool one_run = false;   ///< all runs are the same run and show no probability
   bool of_part = false;   ///< of a shard, a preview or an unfinished folder, which are not judged

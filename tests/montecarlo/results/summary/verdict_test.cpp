@@ -86,6 +86,13 @@ TEST_CASE("what the runs cannot decide is undecided, and says what it takes") {
   CHECK(disproved.decision == Decision::fail);
   CHECK(evidence(disproved) == "4 of 1000 runs break it: disproved");
   CHECK(judge(at_most(1, .5, .5), counting(0)).decision == Decision::undecided);
+  const Verdict after_few =
+      judge(at_most(50, .9, .9), counting(25), {1, {20}}); // 22 would do alone
+  CHECK((after_few.decision == Decision::undecided && !after_few.least_runs));
+  CHECK(evidence(after_few).find("after the analyses of 20 runs") != std::string::npos);
+  const Verdict too_few = judge(at_most(50, .9, .9), counting(21), {1, {10}});
+  CHECK(too_few.least_runs == 22);
+  CHECK(evidence(too_few).find("it takes 22") != std::string::npos);
 }
 
 TEST_CASE("runs that did not deploy count against every requirement, whatever their values") {
