@@ -25,6 +25,16 @@ Json cut_panel(const std::string& how) {
     scene["bodies"][0]["plate"] = parse_json(
         R"({ "from": [-0.5, 0], "to": [0.5, 0], "width": 0.5, "drag_coefficient": 1.2 })");
   }
+  if (how == "unheld") {
+    scene["bodies"].push_back({{"name", "boom"}, {"mass", 0.1}, {"inertia", 0.01}});
+    scene["hinges"].push_back(parse_json(R"({ "name": "pivot", "parent": "panel", "child": "boom",
+      "parent_point": [0.5, 0], "child_point": [0, 0], "angle": { "stowed": 0, "latched": 1 },
+      "spring": { "torque_stowed": 1e-3, "torque_latched": 1e-3 } })"));
+  }
+  if (how == "undamped") {
+    hinge["latch"].erase("dissipation"), hinge["latch"]["damping"] = 0;
+    scene["base"]["rate"] = 0.001, scene["base"]["acceleration"] = {0.001, 0};
+  }
   if (how == "some draws") {
     json["integration"]["t_end"] = 2.3;
     json["dispersions"].push_back(parse_json(R"({ "name": "turn", "apply": "set",
@@ -72,6 +82,8 @@ TEST_CASE("a longer t_end is advised only where one may do") {
        {std::pair("acceleration", "with a base that turns faster and faster"),
         {"draws", "with a base that turns faster and faster"},
         {"backlash", "with backlash in a latch"},
+        {"unheld", "with a hinge that nothing holds"},
+        {"undamped", "with latches without damping on a base that is pushed and turns"},
         {"air", "in air, with a base that moves"}}) {
     const Json json = cut_panel(how);
     for (const auto& [command, text] : all_said(folder, json)) {

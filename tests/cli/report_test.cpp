@@ -161,6 +161,13 @@ TEST_CASE("a folder given twice is refused as such, under any of its names", "[r
   CHECK_FALSE(std::filesystem::exists(whole));
 }
 
+TEST_CASE("report says that a finished shard is no whole campaign", "[report]") {
+  const Done done(quick_campaign(4), {.shard = Shard{1, 2}});
+  const Finished made = done.program({"report", done.path});
+  CHECK((made.code == 0 && lines_of(made.error).size() == 1));
+  CHECK_THAT(made.error, HasFacts({"warning: " + done.path.string(), "shard 1/2", "merge"}));
+}
+
 TEST_CASE("report refuses what is no results folder, with its place", "[report]") {
   const Done done(quick_campaign(3));
   const std::string nowhere = done.folder.path() / "nowhere", f = done.folder.path();

@@ -85,7 +85,7 @@ FitPrediction predict(const Campaign& before, const Campaign& after, ThreadPool 
   constexpr auto runs = static_cast<double>(predicted_runs);
   FitPrediction all{
       {static_cast<double>(first.deployed) / runs, static_cast<double>(second.deployed) / runs}};
-  all.never_final = why_never_final(before);
+  all.never_final = why_never_final(before, after);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto quantiles = [&](const OutputOfRuns& output) {
       const long present = std::ssize(output.values);

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace wingspread {
 namespace {
@@ -202,15 +201,23 @@ private:
       const Campaign& laws = laws_of(parameter, campaign_, spec_);
       const ParameterPrior prior = prior_of(parameter, laws, fit_confidence);
       const Moments after = moments(columns[k]);
-      std::vector<double> sorted = columns[k];
-      std::ranges::sort(sorted);
+      std::ranges::sort(columns[k]);
       const double tail = (1 - fit_confidence) / 2;
       const auto place = static_cast<Eigen::Index>(k);
-      result_.parameters.push_back({parameter.name, std::string(prior.unit), prior.mean, prior.std,
-                                    mode[k], after.mean, after.std, quantile(sorted, tail),
-                                    quantile(sorted, 1 - tail), std::sqrt(covariance(place, place)),
-                                    std::abs(scores[place]), 1, limit_at(sorted, parameter, laws),
-                                    false, prior.lower, prior.upper});
+      result_.parameters.push_back({.name = parameter.name,
+                                    .unit = std::string(prior.unit),
+                                    .prior_mean = prior.mean,
+                                    .prior_std = prior.std,
+                                    .mode = mode[k],
+                                    .mean = after.mean,
+                                    .std = after.std,
+                                    .lower = quantile(columns[k], tail),
+                                    .upper = quantile(columns[k], 1 - tail),
+                                    .score_std = std::sqrt(covariance(place, place)),
+                                    .prior_sigmas = std::abs(scores[place]),
+                                    .limit = limit_at(columns[k], parameter, laws),
+                                    .prior_lower = prior.lower,
+                                    .prior_upper = prior.upper});
     }
     const auto common = static_cast<Eigen::Index>(space_.common());
     result_.score_covariance = covariance.topLeftCorner(common, common);
@@ -278,9 +285,8 @@ private:
       add_bands(channel, predictions, fitted);
       add_outliers(channel, fitted);
     }
-    std::vector<Channel> values;
-    std::ranges::copy_if(data_.channels, std::back_inserter(values),
-                         [](const Channel& channel) { return !channel.column; });
+    std::vector<Channel> values = data_.channels;
+    std::erase_if(values, [](const Channel& channel) { return channel.column.has_value(); });
     result_.values.count = values.size();
     for (const FittedChannel& each : result_.channels)
       if (!each.channel.column) result_.values.chi_squared += each.chi_squared;

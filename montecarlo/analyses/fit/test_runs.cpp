@@ -250,8 +250,7 @@ void TestRuns::make_values(const Prepared& prepared, std::vector<Prediction>& pr
   const std::vector<std::string>& names = prepared.values.names().outputs;
   const auto put = [&](const ResultRow& row) {
     Prediction& prediction = predictions[static_cast<std::size_t>(row.run)];
-    Scene scene = prepared.campaign.scene;
-    apply(prepared.campaign, row.draws, prepared.campaign.scene, scene);
+    const Scene scene = scene_with(prepared.campaign, row.draws);
     for (std::size_t v = 0; v < values.size(); ++v) {
       const auto column =
           static_cast<std::size_t>(std::ranges::find(names, values[v].name) - names.begin());

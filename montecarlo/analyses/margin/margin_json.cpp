@@ -254,7 +254,8 @@ Json margin_json(const MarginReport& report, const Json& about) {
             {"searches", searches},
             {"motorization", static_margins_json(report.static_margins)},
             {"definitions", definitions()}};
-  if (!report.campaign.of_case.empty()) json["case"] = report.campaign.of_case;
+  const std::string& of_case = report.campaign.of_case;
+  json["case"] = of_case.empty() ? Json(nullptr) : Json(of_case);
   if (report.campaign.report != ReportHeader{})
     json["report"] = write_report_header(report.campaign.report);
   return json;

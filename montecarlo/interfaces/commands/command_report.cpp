@@ -43,6 +43,13 @@ std::string command_of(const ReportOptions& options) {
   return command;
 }
 
+void warn_of_shard(const StoredCampaign& stored) {
+  if (stored.stamp.shard)
+    print_message("warning: {} is {} of its campaign: statistics are those of its own runs, and no "
+                  "requirement is judged; `wingspread merge` merges all shards\n",
+                  stored.folder.string(), describe(stored.stamp.shard));
+}
+
 int report(const ReportOptions& options) {
   refuse_repeated(options.folders);
   refuse_overwriting(options.out, options.folders);
@@ -52,7 +59,9 @@ int report(const ReportOptions& options) {
     const bool written = options.out.empty() && locks.empty();     // the page goes into the first
     locks.emplace_back(folder, written ? FolderLock::For::writing : FolderLock::For::reading,
                        page_elsewhere);
-    if (!is_study_folder(folder)) warn_of_preview(read_any_campaign(folder));
+    if (is_study_folder(folder)) continue;
+    const StoredCampaign stored = read_any_campaign(folder);
+    warn_of_preview(stored), warn_of_shard(stored);
   }
   const std::filesystem::path out =
       options.out.empty() ? options.folders.front() / report_file : options.out;

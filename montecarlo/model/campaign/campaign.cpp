@@ -24,14 +24,6 @@ std::string campaign_hash(const Json& resolved) {
   return fmt::format("{:016x}", stream_name(hashed.dump()).hash); // FNV-1a
 }
 
-bool has_spread(const Campaign& campaign) {
-  const auto varies_in = [](const CaseSpec& spec) {
-    return std::ranges::any_of(
-        spec.distributions, [](const CaseDistribution& own) { return varies(own.distribution); });
-  };
-  return vary(campaign.dispersions) || std::ranges::any_of(campaign.cases, varies_in);
-}
-
 std::size_t entry_of(const Campaign& campaign, const Dispersion& dispersion) {
   const Json& list = campaign.resolved.at("dispersions");
   const std::string& own = dispersion.rows.empty() ? dispersion.name : dispersion.rows;
@@ -82,8 +74,12 @@ Scene nominal_scene(const Campaign& campaign) {
   std::vector<double> medians;
   for (const Dispersion& dispersion : campaign.dispersions)
     medians.push_back(PreparedDistribution(dispersion.distribution).quantile(0.5));
+  return scene_with(campaign, medians);
+}
+
+Scene scene_with(const Campaign& campaign, std::span<const double> draws) {
   Scene scene = campaign.scene;
-  apply(campaign, medians, campaign.scene, scene);
+  apply(campaign, draws, campaign.scene, scene);
   return scene;
 }
 

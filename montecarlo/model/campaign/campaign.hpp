@@ -55,9 +55,8 @@ struct Campaign {
 /// The scene with every dispersion at the median of its law, tables included. All nominal values come from this scene:
 /// those of `simulate`, static margins, input checks, summary.json and the report. Correlations do not move medians.
 [[nodiscard]] Scene nominal_scene(const Campaign& campaign);
-
-/// Whether draws differ, in the campaign or in one of its cases: else all runs of a case are one and the same.
-[[nodiscard]] bool has_spread(const Campaign& campaign);
+/// The scene with these draws. @param draws one for each dispersion, in their order
+[[nodiscard]] Scene scene_with(const Campaign& campaign, std::span<const double> draws);
 
 /// The parameters that the dispersions change, each once, in the order of their first change.
 [[nodiscard]] std::vector<SceneParameter>

@@ -57,11 +57,13 @@ void read_extended_from(const JsonCursor& at, Sampling& sampling) {
   std::int64_t before = 0;
   for (const JsonCursor& element : at.elements()) {
     std::int64_t runs = 0;
-    if (!element.read(runs, expected)) return;
-    if (runs <= before) return void(element.refuse(expected));
-    if (runs >= sampling.runs)
-      return void(element.refuse(fmt::format("less than the number of runs, {}", sampling.runs)));
-    sampling.extended_from.push_back(before = runs);
+    if (!element.read(runs, expected)) continue;
+    if (runs <= before)
+      element.refuse(expected);
+    else if (runs >= sampling.runs)
+      element.refuse(fmt::format("less than the number of runs, {}", sampling.runs));
+    else
+      sampling.extended_from.push_back(before = runs);
   }
 }
 

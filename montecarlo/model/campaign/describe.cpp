@@ -2,6 +2,7 @@
 
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/statistics/wilks.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/distribution_json.hpp"
 
 #include <fmt/format.h>
@@ -190,11 +191,15 @@ std::string describe_static_margins(const StaticMarginSpec& spec, const Scene& s
 }
 
 /// The requirement, and how many failures the campaign's runs allow.
-std::string describe_requirement(const Campaign& campaign, const Requirement& requirement) {
+/// @param unvaried where_nothing_varies in the campaign
+std::string describe_requirement(const Campaign& campaign, const Requirement& requirement,
+                                 const std::string& unvaried) {
   const long runs = campaign.sampling.runs;
   const double p = requirement.probability;
   const std::string text = to_string(requirement);
-  if (!has_spread(campaign)) return text + ": cannot be shown, as nothing is dispersed";
+  if (!unvaried.empty())
+    return fmt::format("{}: cannot be shown by runs that are all the same; dispersions: {}", text,
+                       unvaried);
   const InterimAnalyses interim = interim_analyses(campaign);
   const double c = confidence_alone(campaign.requirements, requirement);
   if (!interim.before.empty() && allowed_failures(runs, p, c))
@@ -223,8 +228,9 @@ std::string describe_guarantees(const Campaign& campaign) {
   for (const auto& [probability, confidence, side] : campaign.statistics.tolerance_limits)
     text += fmt::format("tolerance limits: {} probability, {} confidence, {}\n", probability,
                         confidence, side_names[static_cast<std::size_t>(side)]);
+  const std::string unvaried = where_nothing_varies(campaign);
   for (const Requirement& requirement : campaign.requirements)
-    text += "requirement: " + describe_requirement(campaign, requirement) + "\n";
+    text += "requirement: " + describe_requirement(campaign, requirement, unvaried) + "\n";
   for (const StoppingGoal& goal : campaign.until)
     text += (std::holds_alternative<WidthGoal>(goal) ? "stop at an interval's width of: "
                                                      : "stop when decided: ") +

@@ -104,9 +104,7 @@ private:
     const std::string place = place_of_law(whole_, case_.of_case, dispersion);
     if (faults.contains(place)) return;
     draws[i] = law.values[k];
-    Scene scene = case_.scene;
-    apply(case_, draws, case_.scene, scene);
-    const std::vector<Fault> found = unphysical(scene);
+    const std::vector<Fault> found = unphysical(scene_with(case_, draws));
     if (found.empty()) return;
     const double all = std::accumulate(law.weights.begin(), law.weights.end(), 0.0);
     faults[place] = {found.front(),

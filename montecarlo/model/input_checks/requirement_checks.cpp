@@ -1,6 +1,8 @@
 #include "montecarlo/model/input_checks/requirement_checks.hpp"
 
+#include "core/laws/linear_law.hpp"
 #include "distributions/prepared_distribution.hpp"
+#include "distributions/random_stream.hpp"
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 
@@ -13,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace wingspread {
@@ -32,10 +35,64 @@ bool stands_still(const Base& base) {
           base.angular_acceleration == 0 && base.rate == 0);
 }
 
+/// Whether gravity or the base's acceleration, seen from the base, loads the hinges. A table may end without either.
+bool is_pushed(const Scene& scene) {
+  const Base& base = scene.base;
+  const bool is_driven = base.motion == BaseMotion::prescribed;
+  if (base.motion == BaseMotion::free || (is_driven && base.table)) return false;
+  return (is_driven ? base.acceleration : Eigen::Vector2d{0, 0}) != scene.environment.gravity;
+}
+bool turns_steadily(const Base& base) {
+  return base.motion == BaseMotion::prescribed && !base.table && base.rate != 0;
+}
+
+HingeTerms<double> terms_of(const Hinge& hinge) {
+  HingeTerms<double> terms{};
+  detail::set_hinge(terms, hinge);
+  return terms;
+}
+/// The moment, tables left out, once the latch has engaged.
+LinearLaw<double> latched_law(const Hinge& hinge) {
+  const HingeTerms<double> terms = terms_of(hinge);
+  return linear_law(terms, terms.has_latch);
+}
+
 /// Whether the hinge swings in its latch's backlash until exact friction holds it.
 bool has_backlash(const Hinge& hinge) { return hinge.latch && hinge.latch->backlash > 0; }
-bool is_held_by_friction(const Hinge& hinge) {
-  return hinge.friction.model == FrictionModel::exact && hinge.friction.coulomb != 0;
+bool can_stick(const Hinge& hinge) {
+  const auto& spring = hinge.spring.table;
+  const bool is_measured = spring && spring->both_ways() && hinge.friction.scale != 0 &&
+                           hinge.friction.model == FrictionModel::exact;
+  return is_measured || terms_of(hinge).can_stick();
+}
+
+/// Whether no spring, latch, table, motor or loop turns hinge h back: the energy does not bound how far it goes.
+bool is_unheld(const Scene& scene, std::size_t h) {
+  const Hinge& hinge = scene.hinges[h];
+  const auto ties = [h](const Synchronisation& loop) {
+    return loop.first == static_cast<int>(h) || loop.second == static_cast<int>(h);
+  };
+  return !hinge.spring.table && !hinge.harness.table && !hinge.motor &&
+         std::ranges::none_of(scene.synchronisations, ties) && latched_law(hinge).stiffness <= 0;
+}
+/// Whether an unheld hinge is driven away: one without any load goes on at what energy it has, which is bounded.
+bool is_driven_off(const Scene& scene, std::size_t h) {
+  const LinearLaw<double> law = latched_law(scene.hinges[h]);
+  return law.stiffness < 0 || law.drive != 0 || is_pushed(scene) || turns_steadily(scene.base);
+}
+
+/// Whether nothing damps the hinge but friction.
+bool is_undamped(const Hinge& hinge) {
+  return latched_law(hinge).damping == 0 && !hinge.damper && !hinge.motor &&
+         !(hinge.latch && hinge.latch->dissipation);
+}
+/// Whether neither loops nor bending panels are damped.
+bool is_undamped_elsewhere(const Scene& scene) {
+  return std::ranges::all_of(
+             scene.synchronisations, [](double d) { return d == 0; }, &Synchronisation::damping) &&
+         std::ranges::none_of(scene.bodies, [](const Body& body) {
+           return body.flexible && body.flexible->damping_ratio != 0;
+         });
 }
 
 /// The output's value in the nominal deployment; nothing if it has none.
@@ -102,16 +159,6 @@ void check_size(const Campaign& campaign, const Requirement& own, const std::str
                            own.output, *value, output.unit),
                fmt::format("a limit near the nominal value: {} run meets this one",
                            every_run ? "probably every" : "probably no"));
-}
-
-/// The scene with every draw at the same quantile of its law.
-Scene scene_at(const Campaign& campaign, double quantile) {
-  std::vector<double> draws;
-  for (const Dispersion& dispersion : campaign.dispersions)
-    draws.push_back(PreparedDistribution(dispersion.distribution).quantile(quantile));
-  Scene scene = campaign.scene;
-  apply(campaign, draws, campaign.scene, scene);
-  return scene;
 }
 
 /// why_never_final of the campaign, or of the first of its cases that has a reason: "in case hot with a base that …".
@@ -185,36 +232,84 @@ void check_together(const std::vector<Requirement>& all, std::size_t k, InputWar
                           "a lower limit below the upper one: no run meets both");
 }
 
-/// Why no peak is final in one of the wings that have each parameter as one of the scenes has it. The parameters that make
-/// a reason together may vary apart.
-/// @param every whether all draws have a reason; else the reason begins with "for runs"
-std::string_view why_in(std::span<const Scene> scenes, bool every) {
+/// Why no peak is final in one of the wings that have each parameter as one of the scenes has it: the parameters that make
+/// a reason together may vary apart. All scenes have the same hinges.
+std::string_view why_in(std::span<const Scene> scenes) {
   const auto in_any = [&](auto&& has) { return std::ranges::any_of(scenes, has); };
   if (in_any([](const Scene& scene) {
         return scene.base.motion == BaseMotion::prescribed && scene.base.angular_acceleration != 0;
       }))
-    return every ? "with a base that turns faster and faster"
-                 : "for runs with a base that turns faster and faster";
+    return "for runs with a base that turns faster and faster";
   if (in_any(feels_air) && in_any([](const Scene& scene) { return !stands_still(scene.base); }))
-    return every ? "in air, with a base that moves" : "for runs in air, with a base that moves";
-  for (std::size_t h = 0; h < scenes.front().hinges.size(); ++h)
-    if (in_any([h](const Scene& scene) { return has_backlash(scene.hinges[h]); }) &&
-        in_any([h](const Scene& scene) { return !is_held_by_friction(scene.hinges[h]); }))
-      return every ? "with backlash in a latch whose hinge has no exact friction"
-                   : "for runs with backlash in a latch whose hinge has no exact friction";
+    return "for runs in air, with a base that moves";
+  bool all_undamped = in_any(is_undamped_elsewhere);
+  for (std::size_t h = 0; h < scenes.front().hinges.size(); ++h) {
+    const auto any_hinge = [&](auto&& is) {
+      return in_any([&](const Scene& scene) { return is(scene.hinges[h]); });
+    };
+    const bool may_slide = any_hinge([](const Hinge& hinge) { return !can_stick(hinge); });
+    if (may_slide && any_hinge(has_backlash))
+      return "for runs with backlash in a latch whose hinge has no exact friction";
+    if (may_slide && in_any([h](const Scene& scene) { return is_unheld(scene, h); }) &&
+        in_any([h](const Scene& scene) { return is_driven_off(scene, h); }))
+      return "for runs with a hinge that nothing holds";
+    all_undamped = all_undamped && any_hinge(is_undamped);
+  }
+  if (all_undamped && in_any(is_pushed) &&
+      in_any([](const Scene& scene) { return turns_steadily(scene.base); }))
+    return "for runs with latches without damping on a base that is pushed and turns";
   return "";
+}
+
+/// Appends the wings with every draw at the low end of its law, at the high end, and at random.
+void add_wings(const Campaign& campaign, std::vector<Scene>& scenes) {
+  constexpr double end = 1e-6; // heuristic: rarer draws of a continuous law are not looked for
+  constexpr std::uint64_t some = 16; // heuristic: as many random wings with a reason stand for all
+  std::vector<PreparedDistribution> laws;
+  std::vector<double> low, high;
+  for (const Dispersion& dispersion : campaign.dispersions) {
+    const PreparedDistribution& law = laws.emplace_back(dispersion.distribution);
+    const bool has_steps = std::holds_alternative<Discrete>(dispersion.distribution.law) ||
+                           std::holds_alternative<Empirical>(dispersion.distribution.law);
+    low.push_back(law.quantile(has_steps ? 0 : end));
+    high.push_back(law.quantile_complement(has_steps ? 0 : end));
+  }
+  scenes.push_back(scene_with(campaign, low));
+  scenes.push_back(scene_with(campaign, high));
+  std::vector<double> draws(laws.size());
+  for (std::uint64_t k = 0; k < some && !laws.empty(); ++k) {
+    for (std::size_t i = 0; i < laws.size(); ++i)
+      draws[i] = laws[i].quantile(
+          uniform(campaign.sampling.seed, k, stream_name(campaign.dispersions[i].name)));
+    scenes.push_back(scene_with(campaign, draws));
+  }
+}
+
+/// why_in, without "for runs" where each of the scenes has a reason.
+std::string_view why_in_all(std::span<const Scene> scenes) {
+  constexpr std::string_view some = "for runs ";
+  std::string_view why = why_in(scenes);
+  const bool every = std::ranges::none_of(scenes, [](const Scene& scene) {
+    return why_in({&scene, 1}).empty();
+  });
+  if (every) why.remove_prefix(some.size());
+  return why;
 }
 
 } // namespace
 
-std::string_view why_never_final(const Scene& scene) { return why_in({&scene, 1}, true); }
+std::string_view why_never_final(const Scene& scene) { return why_in_all({&scene, 1}); }
 
 std::string_view why_never_final(const Campaign& campaign) {
-  constexpr double end = 1e-6; // heuristic: a value of a discrete law that is rarer is not seen
-  const std::array scenes{scene_at(campaign, end), scene_at(campaign, 1 - end),
-                          nominal_scene(campaign)};
-  const bool every = !why_never_final(scenes[0]).empty() && !why_never_final(scenes[1]).empty();
-  return why_in(scenes, every);
+  std::vector<Scene> scenes;
+  add_wings(campaign, scenes);
+  return why_in_all(scenes);
+}
+
+std::string_view why_never_final(const Campaign& campaign, const Campaign& other) {
+  std::vector<Scene> scenes;
+  add_wings(campaign, scenes), add_wings(other, scenes);
+  return why_in_all(scenes);
 }
 
 void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings) {

@@ -11,9 +11,11 @@ namespace wingspread {
 /// Why no peak of a deployed wing can be proven final, whatever t_end is.
 /// @return the reason, to follow "a limit on root.peak_moment"; empty where a proof may exist
 [[nodiscard]] std::string_view why_never_final(const Scene& scene);
-/// The same for the wings with every draw at either end of its law, and in the middle.
+/// The same for the wings with every draw at either end of its law, and for some random ones.
 /// @return where only some of these have the reason, it begins with "for runs"
 [[nodiscard]] std::string_view why_never_final(const Campaign& campaign);
+/// The same for the wings of both. @pre they have the same hinges
+[[nodiscard]] std::string_view why_never_final(const Campaign& campaign, const Campaign& other);
 
 /// Warns of requirements that no run or every run meets, each by the first rule that it breaks:
 ///

@@ -128,9 +128,7 @@ Scene ReplayRequest::applied_scene() const {
   const Campaign& campaign = stored_->campaign;
   std::vector<double> draws(campaign.dispersions.size());
   RunPlan(campaign).draw(run_, draws);
-  Scene scene = campaign.scene;
-  apply(campaign, draws, campaign.scene, scene);
-  return scene;
+  return scene_with(campaign, draws);
 }
 
 Replayed ReplayRequest::replay(const Observer& observer, double interval) const {

@@ -117,6 +117,22 @@ TEST_CASE(
   CHECK(time.after[2] > time.after[1]);
 }
 
+TEST_CASE("a prediction asks both campaigns why no peak is final: cut runs of both are counted") {
+  Json json = panel_campaign(0.05);
+  json["outputs"] = {"latch_time", "peak_moment"};
+  json["scene"]["base"] = parse_json(R"({ "motion": "prescribed" })");
+  const Campaign still = campaign_of(json);
+  json["scene"]["base"]["angular_acceleration"] = 1e-4;
+  const Campaign turned = campaign_of(json);
+  const auto why = [](const Campaign& before, const Campaign& after) {
+    return predict(before, after, {.threads = 1}, never).never_final;
+  };
+  CHECK(why(still, still).empty());
+  CHECK(why(turned, turned) == "with a base that turns faster and faster");
+  for (const auto& [before, after] : {std::pair(&still, &turned), {&turned, &still}})
+    CHECK(why(*before, *after) == "for runs with a base that turns faster and faster");
+}
+
 TEST_CASE("a prediction has the runs of a whole design, however few or many the campaign has") {
   Json json = panel_campaign(0.3);
   json["sampling"]["design"] = "latin_hypercube";

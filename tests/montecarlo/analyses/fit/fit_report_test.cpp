@@ -55,10 +55,18 @@ FitResult result_of(oracle::Draws& draws) {
   result.finished = true, result.common = 2, result.runs = 12345;
   for (const char* name : {"spring", "\"friction\", all", "time offset of vacuum"}) {
     const auto n = numbers_of(draws, 7);
-    result.parameters.push_back(
-        {name, "", n[0], n[1], n[2], n[3], draws.uniform(0.1, 0.8) * n[1], n[5], n[6], 0.5, 0});
-    result.parameters.back().prior_lower = n[0] - 3 * n[1];
-    result.parameters.back().prior_upper = n[0] + 2 * n[1];
+    result.parameters.push_back({.name = name,
+                                 .unit = "",
+                                 .prior_mean = n[0],
+                                 .prior_std = n[1],
+                                 .mode = n[2],
+                                 .mean = n[3],
+                                 .std = draws.uniform(0.1, 0.8) * n[1],
+                                 .lower = n[5],
+                                 .upper = n[6],
+                                 .score_std = 0.5,
+                                 .prior_lower = n[0] - 3 * n[1],
+                                 .prior_upper = n[0] + 2 * n[1]});
   }
   result.parameters[2].unit = "s";
   result.correlation = Eigen::MatrixXd::Identity(3, 3);

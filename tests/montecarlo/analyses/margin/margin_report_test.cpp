@@ -111,7 +111,7 @@ TEST_CASE("margin.json has the campaign's confidence, and what the recommended s
   search.recommended = scale, search.confirmation = weaker->second;
   const Json found = margin_json(margin_report(campaign, result), Json::object());
   CHECK(found["confidence"] == 0.8);
-  CHECK((found["report"] == json["report"] && !found.contains("case")));
+  CHECK((found["report"] == json["report"] && found.at("case").is_null()));
   Campaign hot = campaign;
   hot.of_case = "hot";
   CHECK(margin_json(margin_report(hot, result), Json::object())["case"] == "hot");

@@ -289,6 +289,10 @@ TEST_CASE("the looks before a campaign was extended are read, and written where 
         "/extended_from/0: found 2000, expected less than the number of runs, 2000");
   CHECK(fault(R"({"runs": 2000, "extended_from": [1000, 1000]})") ==
         "/extended_from/1: found 1000, expected an array of integers ≥ 1, each less than the next");
+  CHECK_THAT(fault(R"({"runs": 2000, "extended_from": [1000, "a", 900, 2500, 1500, 1400]})"),
+             Catch::Contains("/extended_from/1: ") && Catch::Contains("/extended_from/2: ") &&
+                 Catch::Contains("/extended_from/3: found 2500") &&
+                 Catch::Contains("/extended_from/5: found 1400"));
   CHECK(fault(R"({"runs": 2000, "extended_from": 1000})") ==
         "/extended_from: found 1000, expected an array of integers ≥ 1, each less than the next");
   CHECK(fault(R"({"design": "latin_hypercube", "runs": 2000, "extended_from": [1000]})") ==

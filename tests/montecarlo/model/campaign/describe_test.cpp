@@ -117,6 +117,20 @@ TEST_CASE("What a campaign asks for is described with what its runs can show", "
              Catch::EndsWith("stop at an interval's width of: deployed 0.01\n"));
 }
 
+TEST_CASE("What no run can show in a case where nothing varies is not promised", "[describe]") {
+  Json document = test::small_campaign();
+  document["requirements"] = parse_json(R"([ { "output": "deployed", "probability": 0.9,
+                                              "confidence": 0.9 } ])");
+  document["dispersions"] = parse_json(R"([ { "name": "spring", "apply": "scale",
+    "to": ["hinges.root.spring.scale"], "distribution": { "type": "normal", "mean": 1, "std": 0.1 } } ])");
+  document["cases"] = parse_json(R"([ { "name": "cold" }, { "name": "amb", "distributions": {
+    "spring": { "type": "constant", "value": 1 } } } ])");
+  CHECK_THAT(describe(read_campaign(document.dump(), "")),
+             Catch::Contains("cannot be shown") && Catch::Contains("in case amb\n"));
+  document["cases"][1].erase("distributions");
+  CHECK_THAT(describe(read_campaign(document.dump(), "")), !Catch::Contains("all the same"));
+}
+
 TEST_CASE("Causes, cases and draws that act on one parameter are described", "[describe]") {
   Json document = test::small_campaign();
   document["dispersions"] = parse_json(R"([
