@@ -175,10 +175,16 @@ template <class T>
   return any(sets_out) ? chosen(sets_out, without_root_at_start(rate), rate) : rate;
 }
 
-/// Whether a sliding hinge is at rest at t or at an instant simultaneous with t.
-/// @param rate, slope φ̇ and φ̈ times minus the sense of sliding
+/// Whether a sliding hinge is at rest now or within an instant.
+/// @param rate, slope φ̇ and φ̈ times minus the sense of sliding @param instant s
+template <class T>
+[[nodiscard]] auto rests_within(const T& instant, const T& rate, const T& slope) {
+  return rate > T(0) || (slope > T(0) && rate + instant * slope >= T(0));
+}
+
+/// The same at t or at an instant simultaneous with t.
 template <class T> [[nodiscard]] auto rests_at(const T& t, const T& rate, const T& slope) {
-  return rate > T(0) || (slope > T(0) && rate + one_instant(t) * slope >= T(0));
+  return rests_within(one_instant(t), rate, slope);
 }
 
 /// Where friction sticks: the first s in [0, 1] at which sliding hinge i comes to rest; none if it does not.
@@ -188,16 +194,17 @@ template <class T, class AnySystem>
 }
 
 /// Sets the rate of hinge `due` (0: none) to zero at the start of a step, and that of every hinge that comes to rest
-/// simultaneously. @return whether any came to rest
+/// simultaneously; with a hinge that is due, within the instant of latches. @return whether any came to rest
 template <class T, class AnySystem>
 bool stop_simultaneous(const AnySystem& system, int due, Step<T>& step) {
   const Layout& at = system.layout();
   bool any = false;
+  const T instant = due != 0 ? one_instant_of_latches(step.t) : one_instant(step.t);
   for (int i = 1; i <= at.bodies; ++i) {
     const T against(-sliding_sense(system, i));
     if (against == T(0)) continue;
     const T rate = against * step.x[at.rate(i)], slope = against * step.dxdt[at.rate(i)];
-    if (i != due && !rests_at(step.t, rate, slope)) continue;
+    if (i != due && !rests_within(instant, rate, slope)) continue;
     step.x[at.rate(i)] = T(0);
     any = true;
   }

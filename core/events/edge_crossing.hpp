@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/dense/step.hpp"
+#include "core/events/instant.hpp"
 #include "core/mechanics/system.hpp"
 
 #include <optional>
@@ -25,7 +26,8 @@ template <class AnySystem> [[nodiscard]] int way_over(const AnySystem& system, i
 }
 
 /// The first s in [0, 1] at which hinge i reaches the edge from its present side; none if it does not. A step that
-/// starts at the edge has just passed it or rests there: the root at s = 0 is divided out, up to three times.
+/// starts at the edge has just passed it or rests there: the root at s = 0 is divided out, up to three times. A hinge
+/// that stays within rounding of the edge over the whole step does not pass it: it may lie unloaded on its stop.
 template <class T, class AnySystem>
 [[nodiscard]] std::optional<T> first_crossing(const AnySystem& system, const Step<T>& step, int i,
                                               Edge edge) {
@@ -33,11 +35,30 @@ template <class T, class AnySystem>
   const T angle = edge_angle(system.wing(), i, edge), way(way_over(system, i, edge));
   Quintic<T> past = step.distance(at.angle(i), at.freedoms(), angle);
   for (T& c : past) c = way * c;
+  using std::abs;
+  if (!(bound(past) > T(8 * epsilon_of<T>) * (T(1) + abs(angle)))) return std::nullopt;
   if (step.x[at.angle(i)] != angle) return first_nonnegative(past);
   past = without_root_at_start(past);
-  using std::abs;
   if (!(abs(past[0]) > T(vanishes_below) * bound(past))) past = divided_by_s(past);
   return bound(past) > T(0) ? first_nonnegative(past) : std::nullopt;
+}
+
+/// Puts hinge `due` exactly at its edge at the start of a step, and every hinge that reaches an edge simultaneously:
+/// settle_edges then decides their sides together. A moment may jump at an edge (a damped latch with backlash, a
+/// damper's window): of mirrored wings one would bear for an instant what two share.
+template <class T, class AnySystem>
+void meet_edges_simultaneous(const AnySystem& system, int due, Edge edge_due, Step<T>& step) {
+  const Layout& at = system.layout();
+  for_each_edge(system, [&](int i, Edge edge) {
+    if (system.is_locked(i)) return;
+    using std::abs;
+    const T there = edge_angle(system.wing(), i, edge);
+    const T along = T(way_over(system, i, edge)) * step.x[at.rate(i)];
+    T& angle = step.x[at.angle(i)];
+    if ((i == due && edge == edge_due) ||
+        abs(angle - there) < one_instant_of_latches(step.t) * along)
+      angle = there;
+  });
 }
 
 /// Sets the side of every hinge that stands exactly at an edge, by its rate or, at rest, its acceleration.

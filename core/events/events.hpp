@@ -161,10 +161,8 @@ public:
     const bool engaged = latches_.engage_simultaneous(latching, step, record);
     const bool missed = record.missed.size() > missed_before; // settle_edges decides the new side
     const bool rested = stop_simultaneous(system_, resting, step);
-    if (due &&
-        due->event == Event::edge) // exactly at the edge, where settle_edges decides its side
-      step.x[system_.layout().angle(due->hinge)] =
-          edge_angle(system_.wing(), due->hinge, due->edge);
+    if (due && due->event == Event::edge)
+      meet_edges_simultaneous(system_, due->hinge, due->edge, step);
     const bool let_go = system_.wing().can_let_go &&
                         latches_.disengage_simultaneous(hinge_of(Event::let_go), step, record);
     const bool released = releases_.release_due(hinge_of(Event::seen), step, record);

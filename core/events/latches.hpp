@@ -136,12 +136,15 @@ public:
     return any;
   }
 
-  /// Lets go, at the start of a step, the latch of hinge `due` (0: none) and every latch that is loaded beyond its
-  /// holding moment where it begins to bear on its stowed side. @return whether any let go
+  /// Lets go, at the start of a step, the latch of hinge `due` (0: none), every latch that lets go simultaneously with it,
+  /// and every latch that is loaded beyond its holding moment where it begins to bear on its stowed side.
+  /// @return whether any let go
   bool disengage_simultaneous(int due, Step<T>& step, LatchRecord& events) {
     bool any = false;
     for (int i = 1; i <= at_.bodies; ++i) {
-      if (!may_let_go(i) || (i != due && !lets_go_at_edge(i, step.x))) continue;
+      if (!may_let_go(i)) continue;
+      const bool with_it = due != 0 && lets_go_now(i, step);
+      if (i != due && !with_it && !lets_go_at_edge(i, step.x)) continue;
       // the step to the event may have ended on the other side, within its tolerance
       if (gap(step.x, i) > T(0)) step.x[at_.angle(i)] = system_.wing().hinges[i].latched;
       system_.disengage(i);
@@ -181,6 +184,17 @@ private:
     const T &angle = x[at_.angle(i)], &rate = x[at_.rate(i)];
     return !(latch.deflection(angle) > T(0)) && latch.sense * rate < T(0) &&
            latch.excess(angle, rate) >= T(0);
+  }
+
+  /// Whether the latch of hinge i lets go within one instant: it bears on its stowed side and its load reaches the
+  /// holding moment.
+  [[nodiscard]] bool lets_go_now(int i, const Step<T>& step) const {
+    const CaptureTerms<T>& latch = system_.wing().real[i].capture;
+    const T &angle = step.x[at_.angle(i)], &rate = step.x[at_.rate(i)],
+            &acceleration = step.dxdt[at_.rate(i)];
+    return engages_at(step.t, T(-latch.deflection(angle)), T(-(latch.sense * rate))) &&
+           engages_at(step.t, latch.excess(angle, rate),
+                      latch.excess_rate(angle, rate, acceleration));
   }
 
   AnySystem& system_;

@@ -77,3 +77,51 @@ TEST_CASE("a hinge at rest at an edge is on the side to which it accelerates") {
   CHECK_FALSE(side_after(-0.1, 5));
   CHECK_FALSE(side_after(0, 0));
 }
+
+TEST_CASE("a hinge that rounding moves about its edge does not cross it") {
+  Scene scene = free_panel(0.2);
+  scene.hinges[0].stop = Stop{100, 0.1, 0};
+  const Wing<double> wing = [&] {
+    Wing<double> made = make_wing<double>(scene, outward_order(scene));
+    set_parameters(made, scene);
+    return made;
+  }();
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+  const double angle = edge_angle(wing, 1, Edge::stop), ulp = 0x1p-52 * std::abs(angle);
+  for (const bool above : {false, true}) {
+    system.note_crossing(1, Edge::stop, above);
+    const double way = way_over(system, 1, Edge::stop);
+    for (const double start : {-2., 0., 1.}) {
+      Step<double> step = step_from(angle, way * 4 * ulp, 1, 0.5, 1e-3);
+      step.x[0] = angle + way * start * ulp, step.x1[0] = angle - way * ulp;
+      CHECK_FALSE(first_crossing(system, step, 1, Edge::stop).has_value());
+    }
+    // a thousand times as far it does
+    Step<double> far = step_from(angle - way * 1e4 * ulp, way * 4e4 * ulp, 1, 2, 1e-3);
+    CHECK(first_crossing(system, far, 1, Edge::stop).has_value());
+  }
+}
+
+TEST_CASE("hinges that reach their edges within an instant stand there together") {
+  Scene scene = symmetric_tree();
+  for (Hinge& hinge : scene.hinges) hinge.stop = Stop{100, 0.1, 0.1};
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::free> system(wing, std::nullopt, work);
+  const Layout& at = system.layout();
+  Step<double> step;
+  step.t = 2, step.x.assign(at.size(), 0.0), step.dxdt.assign(at.size(), 0.0);
+  const double instant = one_instant_of_latches(step.t);
+  const double late[] = {0, 3, 0.5, 2, 0.9}; // instants before the edge, by hinge
+  for (int i = 1; i <= 4; ++i) {
+    step.x[at.rate(i)] =
+        i == 4 ? -0.3 * way_over(system, i, Edge::stop) : 0.3 * way_over(system, i, Edge::stop);
+    step.x[at.angle(i)] = edge_angle(wing, i, Edge::stop) - late[i] * instant * step.x[at.rate(i)];
+  }
+  meet_edges_simultaneous(system, 1, Edge::stop, step);
+  const bool there[] = {false, true, true, false, false}; // due; soon; too late; on its way back
+  for (int i = 1; i <= 4; ++i)
+    CHECK((step.x[at.angle(i)] == edge_angle(wing, i, Edge::stop)) == there[i]);
+}
