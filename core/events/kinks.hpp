@@ -21,6 +21,7 @@
 #pragma once
 
 #include "core/dense/step.hpp"
+#include "core/events/instant.hpp"
 #include "core/laws/smoothed_latch.hpp"
 #include "core/mechanics/linear_solve.hpp"
 
@@ -108,11 +109,11 @@ template <class T, class AnySystem>
   return T(8 * epsilon_of<T>) * size;
 }
 
-/// Moves a state that stands just before a kink of strands to just beyond, by twice beyond_rounding.
+/// Moves K e of a kink of strands on by so much, N·m.
 template <class T, class AnySystem>
-void cross(const AnySystem& system, const Kink<T>& kink, State<T>& x) {
+void move_strands(const AnySystem& system, const Kink<T>& kink, const T& by, State<T>& x) {
   const LoopTerms<T>& loop = system.wing().loops[kink.index];
-  const T way = kink.way * T(2) * beyond_rounding(system, kink, x) / loop.stiffness; // of e
+  const T way = kink.way * by / loop.stiffness; // of e
   const T gear = system.state_of(loop, x).gear;
   if (!system.is_locked(loop.second) || gear == T(0)) {
     T& angle = x[system.layout().angle(loop.second)];
@@ -120,6 +121,28 @@ void cross(const AnySystem& system, const Kink<T>& kink, State<T>& x) {
   } else {
     T& angle = x[system.layout().angle(loop.first)];
     angle = angle + loop.sense_a * way / gear;
+  }
+}
+
+/// Moves a state that stands just before a kink of strands to just beyond, by twice beyond_rounding; and beyond the
+/// kinks of other loops' strands within an instant, else one of two mirrored loops would bear alone for that time.
+/// @param dxdt of the state at t
+template <class T, class AnySystem>
+void cross(const AnySystem& system, const Kink<T>& kink, const T& t, State<T>& x,
+           const State<T>& dxdt) {
+  using std::abs;
+  move_strands(system, kink, T(T(2) * beyond_rounding(system, kink, x)), x);
+  const std::vector<LoopTerms<T>>& loops = system.wing().loops;
+  for (int l = 0; l < static_cast<int>(loops.size()); ++l) {
+    if (l == kink.index || !jumps(loops[l])) continue;
+    for (const T& there : {T(-loops[l].slack_beyond), loops[l].slack_beyond}) {
+      Kink<T> other{Kink<T>::Of::strands, l, there, T(1)};
+      const Jet<T> u = argument(system, other, x, dxdt, t);
+      other.way = u.first < T(0) ? T(-1) : T(1);
+      const T past = other.way * (u.value - there), beyond = beyond_rounding(system, other, x);
+      const T near = T(2) * beyond + one_instant_of_latches(t) * abs(u.first);
+      if (past > -near && past < beyond) move_strands(system, other, T(beyond - past), x);
+    }
   }
 }
 

@@ -103,7 +103,10 @@ public:
   [[nodiscard]] bool at_jump() const { return at_kink() && due_->kink.of == Kink<T>::Of::strands; }
 
   /// Moves the state across that jump, from a step's end to the next one's start. @pre at_jump()
-  void cross_jump() { cross(run_.system, due_->kink, run_.step.x); }
+  void cross_jump() {
+    Step<T>& step = run_.step;
+    cross(run_.system, due_->kink, step.t, step.x, step.dxdt);
+  }
 
   /// Whether that event is a hinge with exact friction that comes to rest or lets go.
   [[nodiscard]] bool at_friction() const {

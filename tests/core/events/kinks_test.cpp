@@ -183,7 +183,7 @@ TEST_CASE("a state is moved across a kink of strands by two roundings, whichever
         const double gear = system.state_of(loop, x).gear;
         if (std::abs(gear) < 0.05) continue; // one rounding of the angle may be more than the way
         State<double> y = x;
-        cross(system, kink, y);
+        cross(system, kink, 1.0, y, State<double>(y.size(), 0.0));
         CAPTURE(seed, k, locked, gear);
         CHECK(kink.way * (elastic(y) - elastic(x)) > rounding);
         CHECK(kink.way * (elastic(y) - elastic(x)) < 4 * rounding);
@@ -195,6 +195,45 @@ TEST_CASE("a state is moved across a kink of strands by two roundings, whichever
     }
   }
   CHECK(std::min(moved_first, moved_second) > 50);
+}
+
+TEST_CASE("loops whose strands go slack within an instant of each other cross together") {
+  Scene scene = symmetric_tree();
+  Synchronisation loop;
+  loop.stiffness = 100, loop.damping = 1, loop.preload = 2;
+  for (const int root : {0, 2}) {
+    loop.first = root, loop.second = root + 1;
+    scene.synchronisations.push_back(loop);
+  }
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::free> system(wing, std::nullopt, work);
+  const double t = 2, slack = wing.loops[0].slack_beyond;
+  const auto elastic = [&](int l, const State<double>& x) {
+    return system.state_of(wing.loops[l], x).elastic;
+  };
+  for (const double late : {0.5, 20.}) { // instants by which the second loop is later
+    State<double> x, dxdt;
+    system.start(x);
+    for (const int l : {0, 1})
+      x[system.layout().rate(wing.loops[l].second)] = -0.3 * wing.loops[l].sense_b;
+    dxdt.assign(x.size(), 0.0);
+    for (int i = 1; i <= wing.size(); ++i)
+      dxdt[system.layout().angle(i)] = x[system.layout().rate(i)];
+    for (const int l : {0, 1}) {
+      const Kink<double> kink{Kink<double>::Of::strands, l, slack, 1};
+      const double rate = argument(system, kink, x, dxdt, t).first;
+      REQUIRE(rate > 0);
+      const double before =
+          l == 0 ? beyond_rounding(system, kink, x) : late * one_instant_of_latches(t) * rate;
+      move_strands(system, kink, slack - before - elastic(l, x), x);
+    }
+    cross(system, {Kink<double>::Of::strands, 0, slack, 1}, t, x, dxdt);
+    CAPTURE(late);
+    CHECK(elastic(0, x) > slack);
+    CHECK((elastic(1, x) > slack) == (late < 1));
+  }
 }
 
 namespace {

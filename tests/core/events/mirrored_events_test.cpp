@@ -55,6 +55,21 @@ void give_laws(Scene& scene, const std::pair<int, int>& pair, Draws& draws) {
   }
 }
 
+/// Ties the hinges of either wing by the same damped loop, whose strands go slack.
+void tie(Scene& scene, Draws& draws) {
+  Synchronisation loop;
+  loop.stiffness = draws.log_uniform(10, 1e3);
+  loop.damping = loop.stiffness * draws.log_uniform(3e-3, 3e-1);
+  loop.preload = loop.stiffness * draws.log_uniform(1e-3, 3e-2);
+  const auto travel = [&](int h) {
+    return std::abs(scene.hinges[h].latched - scene.hinges[h].stowed);
+  };
+  for (const int root : {0, 2}) {
+    loop.first = root, loop.second = root + 1, loop.ratio = travel(root + 1) / travel(root);
+    scene.synchronisations.push_back(loop);
+  }
+}
+
 double apart(const Peak& left, const Peak& right) {
   return std::abs(left.value - right.value) / std::max({left.value, right.value, 1e-6});
 }
@@ -69,6 +84,7 @@ TEST_CASE("the peaks of mirrored wings are the same on both sides, by every kind
     const Pairs pairs = pairs_of(scene);
     REQUIRE(pairs.size() == 2);
     for (const auto& pair : pairs) give_laws(scene, pair, draws);
+    if (draws.chance(0.5)) tie(scene, draws);
     for (const char* method : {"auto", "dopri5", "seulex"}) {
       Integration how = within(1e-8, 5);
       how.method = method;
