@@ -2,6 +2,7 @@
 
     /usr/bin/python3 studies/drivers/strangers_lives.py --program build/release/wingspread               # 40 wings
     /usr/bin/python3 studies/drivers/strangers_lives.py --program … --wings 300 --seed 9 --keep DIR      # their scenes stay
+    /usr/bin/python3 studies/drivers/strangers_lives.py --program … --wings 200 --mirrored               # left against right
 
 Draws the wings of strangers.py, and gives them what they lack: rigid and elastic holds, releases in sequence, latches that
 miss a pass or let go, backlash, dissipation, motors, stops on both sides and panels that bend. Each is simulated by auto,
@@ -12,6 +13,9 @@ unengaged, events that another method lacks or has at another time, and peaks th
 events have moved apart by more than 1e-6 s are chaotic: what follows is not compared. A run of more than 60 s is left out
 ("–" in place of its evaluations), and dopri5 may give up, for many of these wings are stiff. Rattling wings (backlash) move
 peaks: look at those with `simulate --check`. Exits 1 if it reports anything.
+
+With --mirrored each wing is the right one of two on a free base at rest, and the key "mirror" makes the left one. Events
+and peaks of the left wing must be those of the right one, by each method; there are no campaigns then.
 """
 
 import argparse
@@ -27,6 +31,7 @@ from strangers import make_campaign, make_scene, rounded, spread
 
 METHODS = (("auto", 1e-8), ("dopri5", 1e-9), ("seulex", 1e-8))
 KINDS = ("latches", "releases", "missed", "let_go")
+PEAKS = ("peak_moment", "peak_force", "hold_moment")
 PATIENCE = 60  # s of one run
 CHAOTIC = 1e-6  # s
 
@@ -90,6 +95,23 @@ def give_life(dice, scene):
         bend(dice, scene)
 
 
+def mirror(scene):
+    """Puts one wing and its mirror image on a free base at rest."""
+    mass = 5 * sum(body["mass"] for body in scene["bodies"])
+    root = next(hinge["parent_point"] for hinge in scene["hinges"] if hinge["parent"] == "base")
+    scene["base"] = {"motion": "free", "mass": rounded(mass), "inertia": rounded(mass * root[0] ** 2)}
+    scene["mirror"] = {"of": "*", "as": "M_*"}
+
+
+def wing_of(outcome, prefix):
+    """Events and peaks of the hinges whose names begin so, by the name without it; prefix "": of the others."""
+    mine = lambda name: name.startswith(prefix or "R_")
+    wing = {kind: [event | {"hinge": event["hinge"].removeprefix(prefix)} for event in outcome.get(kind) or [] if mine(event["hinge"])]
+            for kind in KINDS}
+    return wing | {family: {name.removeprefix(prefix): peak for name, peak in (outcome.get(family) or {}).items() if mine(name)}
+                   for family in PEAKS}
+
+
 def simulate(given, scene, method, rtol):
     """@return the outcome; None if the run takes too long"""
     command = [given.program, "simulate", scene, "--t-end", str(given.t_end), "--method", method, "--rtol", str(rtol), "--json"]
@@ -135,7 +157,7 @@ def compare(own, other):
             return
     if left:
         yield f"has more: {left[0]}"
-    for family in ("peak_moment", "peak_force", "hold_moment"):
+    for family in PEAKS:
         for hinge, peak in (own.get(family) or {}).items():
             values = [p["value"] for p in (peak, other[family][hinge]) if p and p.get("value")]
             if len(values) == 2 and abs(values[0] - values[1]) > 3e-4 * max(values) > 1e-9:
@@ -169,6 +191,7 @@ def main():
     parser.add_argument("--wings", type=int, default=40)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--t-end", type=float, default=12)
+    parser.add_argument("--mirrored", action="store_true", help="compare left with right")
     parser.add_argument("--keep", metavar="DIR", help="scenes and results stay here")
     given = parser.parse_args()
     reports = 0
@@ -177,6 +200,10 @@ def main():
             dice = random.Random(f"lives {given.seed}/{index}")
             scene, words = make_scene(dice, f"stranger_{index}")
             give_life(dice, scene)
+            if given.mirrored:
+                if any(body["name"].startswith("L_") for body in scene["bodies"]):
+                    continue
+                mirror(scene)
             folder = pathlib.Path(given.keep or scratch) / str(index)
             folder.mkdir(parents=True, exist_ok=True)
             (folder / "scene.json").write_text(json.dumps(scene, indent=1))
@@ -187,7 +214,9 @@ def main():
                 found += [f"{method}: {what}" for what in look_at_events(events_of(run))]
                 if method != "auto" and "auto" in usable:
                     found += [f"{method}: {what}" for what in compare(usable["auto"], run)]
-            found += look_at_campaign(given, folder, scene)
+                if given.mirrored:
+                    found += [f"{method}, left: {what}" for what in compare(wing_of(run, ""), wing_of(run, "M_"))]
+            found += [] if given.mirrored else look_at_campaign(given, folder, scene)
             work = " ".join(f"{run['work']['rhs_evaluations'] if run else '–':>9}" for run in runs.values())
             print(f"{index:4} {work}   {words}", *found, sep="\n       ", flush=True)
             reports += len(found)
