@@ -5,6 +5,7 @@
 #include "montecarlo/model/static_margins/static_margin_report.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -15,14 +16,14 @@ namespace {
 /// What requirements by this standard ask of a drive's margin, "root+mid" of coupled hinges; 0, the standard's, if none does.
 double required_of(const std::string& drive, const std::vector<Requirement>& requirements,
                    MarginKind kind) {
-  double most = 0;
+  std::optional<double> most;
   for (const Requirement& each : requirements) {
     if (!each.static_margin || each.static_margin->kind != kind || !each.min) continue;
     const std::string& hinge = each.static_margin->hinge;
     if (hinge == "*" || ('+' + drive + '+').find('+' + hinge + '+') != std::string::npos)
-      most = std::max(most, *each.min);
+      most = std::max(most.value_or(*each.min), *each.min);
   }
-  return most;
+  return most.value_or(0);
 }
 
 Json curves_of(Campaign some) {
