@@ -76,10 +76,12 @@ struct CheckedWing {
   const CaseSpec* spec = nullptr; ///< null: no case
   std::string place{};            ///< pointer of the case
   bool is_made = false;           ///< else it is checked only to compare with
+  bool deploys = false;           ///< the nominal wing; false before it is judged
+  bool is_judged = false;
   WingWarnings found{};
 };
 
-/// The wing in no case, and then the cases that are made.
+/// The wing in no case, and then the cases.
 std::vector<CheckedWing> wings_of(const Campaign& campaign, std::span<const std::string> names) {
   const auto is_named = [&](const std::string& name) {
     return std::ranges::find(names, name) != names.end();
@@ -89,11 +91,10 @@ std::vector<CheckedWing> wings_of(const Campaign& campaign, std::span<const std:
       {.campaign = campaign, .is_made = names.empty() ? campaign.cases.empty() : is_named("")});
   wings.front().campaign.cases.clear();
   for (std::size_t k = 0; k < campaign.cases.size(); ++k)
-    if (const CaseSpec& spec = campaign.cases[k]; names.empty() || is_named(spec.name))
-      wings.push_back({.campaign = campaign_of_case(campaign, spec),
-                       .spec = &spec,
-                       .place = fmt::format("/cases/{}", k),
-                       .is_made = true});
+    wings.push_back({.campaign = campaign_of_case(campaign, campaign.cases[k]),
+                     .spec = &campaign.cases[k],
+                     .place = fmt::format("/cases/{}", k),
+                     .is_made = names.empty() || is_named(campaign.cases[k].name)});
   return wings;
 }
 
@@ -112,17 +113,50 @@ Scene written_scene(const Campaign& whole, const CheckedWing& wing) {
   return nominal_scene(campaign);
 }
 
+/// Checks the requirements. @param place of their list
+void judge(CheckedWing& wing, const Outcome& nominal, const ScenePlace& place) {
+  InputWarnings warnings(place);
+  check_requirements(wing.campaign, with_peaks(wing.campaign, nominal), warnings);
+  wing.found.judged = warnings.list();
+  wing.deploys = nominal.status == Status::deployed, wing.is_judged = true;
+}
+void judge(CheckedWing& wing, const ScenePlace& place) {
+  judge(wing, deployment_alone(nominal_scene(wing.campaign), wing.campaign.integration), place);
+}
+
 /// @param negative paths of which drawing has found unphysical values
-WingWarnings check_wing(const Campaign& whole, const CheckedWing& wing, const ScenePlace& place,
-                        const std::filesystem::path& file, const std::set<std::string>& negative) {
+void check_wing(const Campaign& whole, CheckedWing& wing, const ScenePlace& place,
+                const std::filesystem::path& file, const std::set<std::string>& negative) {
   const Campaign& campaign = wing.campaign;
-  InputWarnings scene(place), laws({file.string()}), judged({file.string(), "/requirements"});
+  InputWarnings scene(place), laws({file.string()});
   check_numbers(written_scene(whole, wing), scene);
   const Outcome nominal = check_motion(nominal_scene(campaign), campaign.integration, scene);
   check_dispersions(whole, campaign, laws, negative);
   check_correlated_laws(campaign, laws);
-  check_requirements(campaign, with_peaks(campaign, nominal), judged);
-  return {scene.list(), laws.list(), judged.list()};
+  wing.found.scene = scene.list(), wing.found.laws = laws.list();
+  judge(wing, nominal, {file.string(), "/requirements"});
+}
+
+/// Drops the warnings of limits that suit a case, made or not: a limit is one for all, and other cases may be far from it.
+void drop_suited(std::vector<CheckedWing>& wings, const ScenePlace& place) {
+  std::set<std::string> limits, suited;
+  for (const CheckedWing& wing : wings)
+    for (const InputWarning& each : wing.found.judged)
+      if (wing.is_made && (each.pointer.ends_with("/max") || each.pointer.ends_with("/min")))
+        limits.insert(each.pointer);
+  if (limits.empty()) return;
+  for (CheckedWing& wing : wings) {
+    if (!wing.spec && !wing.is_made) continue;
+    if (!wing.is_judged) judge(wing, place);
+    if (!wing.deploys) continue;
+    for (const std::string& limit : limits)
+      if (std::ranges::find(wing.found.judged, limit, &InputWarning::pointer) ==
+          wing.found.judged.end())
+        suited.insert(limit);
+  }
+  for (CheckedWing& wing : wings)
+    std::erase_if(wing.found.judged,
+                  [&](const InputWarning& each) { return suited.contains(each.pointer); });
 }
 
 /// A warning, and the cases that have it.
@@ -164,7 +198,7 @@ std::vector<InputWarning> merged(std::span<const CheckedWing> wings,
   std::vector<OfCases> others;
   for (const CheckedWing& wing : wings.subspan(1))
     for (const InputWarning& each : wing.found.*part) {
-      if (has(base, each)) continue;
+      if (!wing.is_made || has(base, each)) continue;
       const auto same = std::ranges::find_if(others, [&](const OfCases& other) {
         return other.warning.file == each.file && other.warning.pointer == each.pointer;
       });
@@ -210,15 +244,18 @@ std::vector<InputWarning> check_input(const Campaign& campaign, const std::files
   InputWarnings rest({file.string()}), drawn({file.string()});
   std::vector<Campaign> made;
   std::vector<CaseSpec> cases;
-  for (const CheckedWing& wing : wings) {
-    if (wing.is_made) made.push_back(wing.campaign);
-    if (wing.spec) cases.push_back(*wing.spec);
-  }
+  for (const CheckedWing& wing : wings)
+    if (wing.is_made) {
+      made.push_back(wing.campaign);
+      if (wing.spec) cases.push_back(*wing.spec);
+    }
   std::map<std::string, std::set<std::string>> negative;
   if (draw) negative = check_draws(campaign, made, draw, drawn);
   const ScenePlace place = scene_place(file);
   for (CheckedWing& wing : wings)
-    wing.found = check_wing(campaign, wing, place, file, negative[wing.campaign.of_case]);
+    if (wing.is_made || !wing.spec)
+      check_wing(campaign, wing, place, file, negative[wing.campaign.of_case]);
+  drop_suited(wings, {file.string(), "/requirements"});
   check_spread(cases.empty() ? wings.front().campaign : campaign, cases, rest);
   check_correlations(campaign, rest);
   check_outputs(campaign, rest);
@@ -235,13 +272,8 @@ std::vector<InputWarning> check_requirements_file(const Campaign& campaign,
   std::string place;
   for (const std::string& key : keys_of_requirements(parse_json_file(file))) place += "/" + key;
   std::vector<CheckedWing> wings = wings_of(campaign, {});
-  for (CheckedWing& wing : wings) {
-    const Campaign& own = wing.campaign;
-    InputWarnings warnings({file.string(), place});
-    const Outcome nominal = deployment_alone(nominal_scene(own), own.integration);
-    check_requirements(own, with_peaks(own, nominal), warnings);
-    wing.found.judged = warnings.list();
-  }
+  for (CheckedWing& wing : wings) judge(wing, {file.string(), place});
+  drop_suited(wings, {file.string(), place});
   return merged(wings, &WingWarnings::judged, file);
 }
 

@@ -257,13 +257,19 @@ bool has_steps(const Distribution& distribution) {
          std::holds_alternative<Empirical>(distribution.law);
 }
 
+/// The share of a law's draws, at either end, that are not looked for.
+double share_left_out(const Distribution& distribution) {
+  constexpr double end = 1e-6; // heuristic: rarer draws of a continuous law
+  return has_steps(distribution) ? 0 : end;
+}
+
 /// Draws of a law that stand for all, each of them or of its neighbours likely: one on each piece of a table, some values
 /// of a law with steps.
-std::vector<double> likely_draws(const Distribution& distribution, const Curve* table,
-                                 double tail) {
+std::vector<double> likely_draws(const Distribution& distribution, const Curve* table) {
   constexpr double inside = 0.382; // heuristic: no table passes zero just there
   constexpr std::size_t most = 64; // heuristic: of the values of a law with steps
-  const std::vector<double> telling = telling_draws(distribution, table, tail);
+  const std::vector<double> telling =
+      telling_draws(distribution, table, share_left_out(distribution));
   std::vector<double> draws;
   if (has_steps(distribution))
     for (std::size_t k = 0; k < telling.size(); k += 1 + telling.size() / most)
@@ -277,15 +283,13 @@ std::vector<double> likely_draws(const Distribution& distribution, const Curve* 
 /// Appends the wings with every draw at the low end of its law, at the high end, and at random, and one for each of the
 /// likely draws of a law.
 void add_wings(const Campaign& campaign, std::vector<Scene>& scenes) {
-  constexpr double end = 1e-6; // heuristic: rarer draws of a continuous law are not looked for
   constexpr std::uint64_t some = 16; // heuristic: as many random wings with a reason stand for all
   std::vector<PreparedDistribution> laws;
   std::vector<double> low, high;
   for (const Dispersion& dispersion : campaign.dispersions) {
     const PreparedDistribution& law = laws.emplace_back(dispersion.distribution);
-    const double tail = has_steps(dispersion.distribution) ? 0 : end;
-    low.push_back(law.quantile(tail));
-    high.push_back(law.quantile_complement(tail));
+    low.push_back(law.quantile(share_left_out(dispersion.distribution)));
+    high.push_back(law.quantile_complement(share_left_out(dispersion.distribution)));
   }
   scenes.push_back(scene_with(campaign, low));
   scenes.push_back(scene_with(campaign, high));
@@ -298,9 +302,8 @@ void add_wings(const Campaign& campaign, std::vector<Scene>& scenes) {
   }
   for (std::size_t i = 0; i < laws.size(); ++i)
     for_each_effect(campaign.dispersions[i], [&](Apply, const auto&, const Curve* table) {
-      const Distribution& law = campaign.dispersions[i].distribution;
       std::vector<double> other = draws;
-      for (const double draw : likely_draws(law, table, has_steps(law) ? 0 : end)) {
+      for (const double draw : likely_draws(campaign.dispersions[i].distribution, table)) {
         other[i] = draw;
         scenes.push_back(scene_with(campaign, other));
       }

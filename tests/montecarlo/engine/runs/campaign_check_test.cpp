@@ -114,10 +114,12 @@ void check_union(const Json& json) {
 Json with_temperatures(const char* base, const char* cases) {
   Json json = with_dispersion(R"({ "name": "temperature", "through": [
     { "to": ["hinges.*.friction.scale"], "apply": "scale",
-      "table": { "at": [180, 213, 293, 343], "value": [60, 2.3, 1, 1.3] } },
+      "table": { "at": [180, 213, 293, 343], "value": [300, 2.3, 1, 1.3] } },
     { "to": ["hinges.tip.latch.backlash"], "apply": "add",
-      "table": { "at": [180, 200], "value": ["0.2 deg", 0] } } ] })");
+      "table": { "at": [180, 200, 350], "value": ["0.2 deg", 0, 0] } } ] })");
   json["outputs"] = {"latch_time", "latch_rate", "peak_moment"};
+  for (Json& hinge : json["scene"]["hinges"])
+    hinge["friction"] = parse_json(R"({ "model": "exact", "coulomb": 0.01, "viscous": 0.02 })");
   json["dispersions"].back()["distribution"] = parse_json(base);
   json["dispersions"].push_back(
       parse_json(R"({ "name": "misalign", "apply": "add", "to": ["hinges.tip.angle.stowed"],
@@ -208,10 +210,13 @@ TEST_CASE("limits are compared with the nominal wings of the cases", "[warnings]
   CHECK(at(check_campaign(campaign_of(json), ""), "/requirements/0/max") == nullptr);
   json["cases"][1].erase("set");
   json["requirements"] = parse_json(
-      R"([ { "output": "root.latch_time", "max": 0.01, "probability": 0.9, "confidence": 0.9 } ])");
+      R"([ { "output": "root.latch_rate", "max": 30, "abs": true, "probability": 0.9, "confidence": 0.9 } ])");
   const auto warnings = check_campaign(campaign_of(json), "");
   REQUIRE(at(warnings, "/requirements/0/max") != nullptr);
   CHECK_THAT(at(warnings, "/requirements/0/max")->found, Catch::StartsWith("in case cold: "));
+  json["cases"][1]["set"] = {{"hinges.root.spring.scale", 10}}; // there the limit is near
+  check_union(json);
+  CHECK(at(check_campaign(campaign_of(json), ""), "/requirements/0/max") == nullptr);
 }
 
 TEST_CASE("draws that are invalid runs are warned of with their number", "[warnings]") {
