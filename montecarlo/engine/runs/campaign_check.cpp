@@ -6,7 +6,8 @@
 namespace wingspread {
 
 std::vector<InputWarning> check_campaign(const Campaign& campaign,
-                                         const std::filesystem::path& file) {
+                                         const std::filesystem::path& file,
+                                         std::span<const std::string> wings) {
   const auto draw = [](const Campaign& of_case, long runs,
                        const std::function<void(const Scene&)>& use) {
     const RunPlan plan(of_case);
@@ -18,7 +19,7 @@ std::vector<InputWarning> check_campaign(const Campaign& campaign,
       use(scene);
     }
   };
-  return check_input(campaign, file, draw);
+  return check_input(campaign, file, draw, wings);
 }
 
 } // namespace wingspread

@@ -8,6 +8,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
+#include <regex>
+#include <set>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -37,7 +40,184 @@ const InputWarning* at(const std::vector<InputWarning>& warnings, const std::str
   return found == warnings.end() ? nullptr : &*found;
 }
 
+std::smatch matched(const std::string& text, const char* pattern) {
+  std::smatch found;
+  std::regex_match(text, found, std::regex(pattern));
+  return found;
+}
+
+/// A warning as it would be of a wing alone, and the cases that it names.
+struct Told {
+  std::string pointer, found;
+  std::set<std::string> cases;
+};
+
+Told told_of(const InputWarning& warning, const Json& cases) {
+  Told told{warning.pointer, warning.found, {}};
+  if (const std::smatch of = matched(told.found, "^in cases? ([^:]*): (.*)$"); !of.empty()) {
+    const std::string names = of[1];
+    told.found = std::string(of[2]);
+    static const std::regex name("[^, ]+");
+    for (std::sregex_iterator each(names.begin(), names.end(), name), end; each != end; ++each)
+      told.cases.insert(each->str());
+    if (const std::smatch at = matched(told.found, "^at (/[^ ]*) (.*)$"); !at.empty()) {
+      CHECK(warning.pointer.starts_with("/cases/"));
+      const std::string pointer = at[1], found = at[2];
+      told.pointer = pointer, told.found = found;
+    }
+  } else if (const std::smatch law = matched(told.pointer, "^/cases/([0-9]+)/.*$"); !law.empty()) {
+    told.cases.insert(cases[std::stoul(law[1])]["name"]);
+  }
+  return told;
+}
+
+bool names_case(const InputWarning& warning) {
+  return warning.found.find(" in case") != std::string::npos; // "12 of 300 draws in case hot"
+}
+
+/// Checks that `check` warns of what `check --case` warns of in any case, and of nothing else.
+void check_union(const Json& json) {
+  const Campaign campaign = campaign_of(json);
+  const std::vector<InputWarning> all = check_campaign(campaign, "");
+  std::map<std::string, std::vector<InputWarning>> of;
+  for (const CaseSpec& spec : campaign.cases)
+    of[spec.name] = check_campaign(campaign, "", {&spec.name, 1});
+  for (const auto& [name, own] : of)
+    for (const InputWarning& each : own) {
+      const Told one = told_of(each, json["cases"]);
+      CAPTURE(name, to_string(each));
+      CHECK((one.cases.empty() || one.cases == std::set<std::string>{name}));
+      CHECK(std::ranges::any_of(all, [&](const InputWarning& other) {
+        const Told both = told_of(other, json["cases"]);
+        return both.pointer == one.pointer &&
+               (one.cases.empty() ? both.found == one.found || names_case(each)
+                                  : both.cases.contains(name));
+      }));
+    }
+  for (const InputWarning& each : all) {
+    const Told one = told_of(each, json["cases"]);
+    CAPTURE(to_string(each));
+    const auto is_told = [&](const std::string& name) {
+      return std::ranges::any_of(of[name], [&](const InputWarning& other) {
+        const Told both = told_of(other, json["cases"]);
+        return both.pointer == one.pointer &&
+               (both.found == one.found || one.cases.size() > 1 || names_case(each));
+      });
+    };
+    for (const std::string& name : one.cases) CHECK(is_told(name));
+    CHECK(std::ranges::any_of(campaign.cases,
+                              [&](const CaseSpec& spec) { return is_told(spec.name); }));
+  }
+}
+
+/// A campaign with a temperature that acts on friction and a gap, and these laws of the base and of cases.
+Json with_temperatures(const char* base, const char* cases) {
+  Json json = with_dispersion(R"({ "name": "temperature", "through": [
+    { "to": ["hinges.*.friction.scale"], "apply": "scale",
+      "table": { "at": [180, 213, 293, 343], "value": [300, 2.3, 1, 1.3] } },
+    { "to": ["hinges.tip.latch.backlash"], "apply": "add",
+      "table": { "at": [180, 200, 350], "value": ["0.2 deg", 0, 0] } } ] })");
+  json["outputs"] = {"latch_time", "latch_rate", "peak_moment"};
+  for (Json& hinge : json["scene"]["hinges"])
+    hinge["friction"] = parse_json(R"({ "model": "exact", "coulomb": 0.01, "viscous": 0.02 })");
+  json["dispersions"].back()["distribution"] = parse_json(base);
+  json["dispersions"].push_back(
+      parse_json(R"({ "name": "misalign", "apply": "add", "to": ["hinges.tip.angle.stowed"],
+        "distribution": { "type": "normal", "mean": 0, "std": "0.5 deg" } })"));
+  json["cases"] = parse_json(cases);
+  json["requirements"] = Json::array();
+  for (const double max : {900.0, 0.9})
+    json["requirements"].push_back(
+        {{"output", "root.peak_moment"}, {"max", max}, {"probability", 0.9}, {"confidence", 0.9}});
+  return json;
+}
+
+constexpr const char* cold_and_hot = R"([
+  { "name": "cold", "distributions": { "temperature": { "type": "normal", "mean": 230, "std": 5 } } },
+  { "name": "hot", "distributions": { "temperature": { "type": "normal", "mean": 320, "std": 5 } } } ])";
+
 } // namespace
+
+TEST_CASE("check warns of what the wings of its cases are warned of, and of no other wing",
+          "[warnings]") {
+  constexpr const char* unused = R"({ "type": "constant", "value": 0 })";
+  constexpr const char* ambient = R"({ "type": "normal", "mean": 290, "std": 5 })";
+  Json cases = parse_json(cold_and_hot);
+  check_union(with_temperatures(unused, cold_and_hot));
+  for (const InputWarning& each :
+       check_campaign(campaign_of(with_temperatures(unused, cold_and_hot)), "")) {
+    CAPTURE(to_string(each));
+    CHECK(each.pointer == "/requirements/1/max"); // of both cases
+    CHECK_THAT(each.found, Catch::Contains("in cases cold, hot: "));
+  }
+  cases.push_back(parse_json(R"({ "name": "frozen", "distributions": {
+    "temperature": { "type": "normal", "mean": 181, "std": 0.2 } } })"));
+  for (const char* base : {unused, ambient}) {
+    const Json json = with_temperatures(base, cases.dump().c_str());
+    check_union(json);
+    const auto warnings = check_campaign(campaign_of(json), "");
+    const InputWarning* frozen = at(warnings, "/cases/2");
+    REQUIRE(frozen != nullptr);
+    CHECK_THAT(frozen->found, Catch::Contains("in case frozen: at /hinges/") &&
+                                  Catch::Contains("net static torque"));
+  }
+  cases.push_back(parse_json(R"({ "name": "plain" })"));
+  check_union(with_temperatures(ambient, cases.dump().c_str()));
+  cases.push_back(parse_json(R"({ "name": "rigged", "set": { "hinges.mid.latch.stiffness": 0,
+    "environment.gravity.1": -50 }, "distributions": { "mass": { "type": "normal", "mean": 10, "std": 6 } } })"));
+  check_union(with_temperatures(ambient, cases.dump().c_str()));
+}
+
+TEST_CASE("a case's law is checked as the campaign's, at its place", "[warnings]") {
+  const Json json = with_temperatures(R"({ "type": "normal", "mean": 290, "std": 5 })", R"([
+    { "name": "ambient" },
+    { "name": "hot", "distributions": { "misalign": { "type": "normal", "mean": 0, "std": 0.5 } } },
+    { "name": "old", "distributions": { "root_spring": { "type": "normal", "mean": 1, "std": 0.45 } } },
+    { "name": "weak", "distributions": { "root_spring": { "type": "normal", "mean": 0.05, "std": 0.001 } } } ])");
+  check_union(json);
+  const auto warnings = check_campaign(campaign_of(json), "");
+  for (const auto& [pointer, found] :
+       {std::pair("/cases/1/distributions/misalign", "±0.98 rad"),
+        {"/cases/2/distributions/root_spring", "probability of 0.0131"},
+        {"/cases/3/distributions/root_spring", "a factor of 0.05"}}) {
+    CAPTURE(pointer);
+    REQUIRE(at(warnings, pointer) != nullptr);
+    CHECK_THAT(at(warnings, pointer)->found, Catch::Contains(found));
+  }
+}
+
+TEST_CASE("a correlation with a case's constant is told, once with all such cases", "[warnings]") {
+  Json json = with_temperatures(R"({ "type": "normal", "mean": 290, "std": 5 })", R"([
+    { "name": "ambient" },
+    { "name": "lab", "distributions": { "root_spring": { "type": "constant", "value": 1 } } },
+    { "name": "shop", "distributions": { "root_spring": { "type": "constant", "value": 1.01 } } } ])");
+  json["correlations"] =
+      parse_json(R"([ { "between": ["root_spring", "temperature"], "spearman": 0.5 } ])");
+  check_union(json);
+  const auto warnings = check_campaign(campaign_of(json), "");
+  REQUIRE(at(warnings, "/correlations/0") != nullptr);
+  CHECK_THAT(at(warnings, "/correlations/0")->found,
+             Catch::StartsWith("in cases lab, shop: a correlation of root_spring"));
+}
+
+TEST_CASE("limits are compared with the nominal wings of the cases", "[warnings]") {
+  Json json = with_temperatures(R"({ "type": "constant", "value": 290 })", cold_and_hot);
+  json["requirements"] = parse_json(
+      R"([ { "output": "root.latch_time", "max": 9, "probability": 0.9, "confidence": 0.9 } ])");
+  json["scene"]["hinges"][0]["spring"]["scale"] = 1e-5; // the wing in no case hardly moves
+  for (Json& each : json["cases"]) each["set"] = {{"hinges.root.spring.scale", 1}};
+  check_union(json);
+  CHECK(at(check_campaign(campaign_of(json), ""), "/requirements/0/max") == nullptr);
+  json["cases"][1].erase("set");
+  json["requirements"] = parse_json(
+      R"([ { "output": "root.latch_rate", "max": 30, "abs": true, "probability": 0.9, "confidence": 0.9 } ])");
+  const auto warnings = check_campaign(campaign_of(json), "");
+  REQUIRE(at(warnings, "/requirements/0/max") != nullptr);
+  CHECK_THAT(at(warnings, "/requirements/0/max")->found, Catch::StartsWith("in case cold: "));
+  json["cases"][1]["set"] = {{"hinges.root.spring.scale", 10}}; // there the limit is near
+  check_union(json);
+  CHECK(at(check_campaign(campaign_of(json), ""), "/requirements/0/max") == nullptr);
+}
 
 TEST_CASE("draws that are invalid runs are warned of with their number", "[warnings]") {
   struct {
