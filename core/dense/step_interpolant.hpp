@@ -5,7 +5,8 @@
 /// and these among those of 16. For a function that is analytic in the step the error falls geometrically with n. The
 /// samples added for the next n therefore test the polynomial of degree n. If its error there is a small share
 /// (`enough`) of the function's size, the polynomial through all samples is far more accurate. Few samples do not
-/// resolve a kink or a jump.
+/// resolve a kink or a jump. Rounding is like many jumps: where large terms cancel, all values may be rounding. The
+/// caller therefore says which error is none (`close`).
 #pragma once
 
 #include "core/dense/curved_search.hpp"
@@ -41,9 +42,10 @@ public:
   }
 
   /// Samples f further, until the samples resolve it. @pre begin
+  /// @param close difference below which two values of f count as one
   /// @return whether they do, after at most 12 more
-  template <class Function> [[nodiscard]] bool resolve(const Function& f) {
-    return refine(f) || refine(f);
+  template <class Function> [[nodiscard]] bool resolve(const Function& f, const T& close) {
+    return refine(f, close) || refine(f, close);
   }
 
   [[nodiscard]] T operator()(const T& s) const {
@@ -144,7 +146,7 @@ private:
   }
 
   /// Halves the distance of the points. @return whether the polynomial so far has foretold the new samples
-  template <class Function> [[nodiscard]] bool refine(const Function& f) {
+  template <class Function> [[nodiscard]] bool refine(const Function& f, const T& close) {
     using std::abs;
     const int finer = stride_ / 2;
     T size(0), miss(0);
@@ -154,7 +156,7 @@ private:
     }
     stride_ = finer;
     for (int j = 0; j <= points; j += stride_) size = larger(size, T(abs(values_[j])));
-    return miss <= T(enough) * size;
+    return miss <= larger(T(T(enough) * size), close);
   }
 
   std::array<T, points + 1> values_{};

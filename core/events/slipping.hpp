@@ -3,6 +3,7 @@
 
 #include "core/dense/curved_search.hpp"
 #include "core/dense/latch_states.hpp"
+#include "core/dense/step_interpolant.hpp"
 #include "core/events/standstill.hpp"
 #include "core/events/stuck_load.hpp"
 #include "core/mechanics/system.hpp"
@@ -99,9 +100,17 @@ public:
     for (int i = 1; i <= system.layout().bodies; ++i) {
       const T limit = system.static_limit(step.x, i);
       if (!system.is_locked(i) || !may_exceed(i, limit)) continue;
-      const auto excess_at = [&](const T& s) {
+      const auto evaluate = [&](const T& s) {
         interpolate(system, step, s, x);
         system(x, dxdt, step.t + s * step.h);
+      };
+      const auto load_at = [&](const T& s) {
+        evaluate(s);
+        return system.locking_moment(x, i);
+      };
+      if (holds_easily(load_at, i, limit)) continue;
+      const auto excess_at = [&](const T& s) {
+        evaluate(s);
         return excess(system, x, i);
       };
       const auto found = slip_of(excess_at, i, limit, step);
@@ -141,6 +150,20 @@ private:
   /// @param limit static limit of the hinge's friction at the step's start
   [[nodiscard]] bool may_exceed(int i, const T& limit) const {
     return may_slip(bound_, i, before_[i], after_[i], negligible_load(bound_, i, limit));
+  }
+
+  /// Whether few samples resolve the load of hinge i, and show it below half of the limit. Samples the load only where the
+  /// bound is so wide that halving would take more samples: loads that cancel are far below it.
+  template <class Load>
+  [[nodiscard]] bool holds_easily(const Load& load, int i, const T& limit) const {
+    const T least =
+        -larger(before_[i], after_[i]); // by which the load is below the limit at the ends
+    if (!(T(2) * least > limit && bound_.most_friction(i) > T(64) * least)) return false;
+    StepInterpolant<T> loads;
+    const T first = load(T(0)), last = load(T(1));
+    loads.begin(load, first, last);
+    return loads.resolve(load, negligible_load(bound_, i, limit)) &&
+           T(2) * loads.largest_magnitude().value < limit;
   }
 
   template <class Function>

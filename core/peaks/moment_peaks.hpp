@@ -326,9 +326,9 @@ template <class T, class Load>
     interpolant.begin(load, ends.first, ends.last);
     const auto size = [&](const T& s) { return T(abs(load(s))); };
     if (!by_parts || may_crest_between(interpolant.begun(), rise, peak.value, close))
-      found = interpolant.resolve(load) ? interpolant.largest_magnitude()
-                                        : largest_of(size, first, last, rise, peak.value, close,
-                                                     shortest_part(step.t, step.h));
+      found = interpolant.resolve(load, close) ? interpolant.largest_magnitude()
+                                               : largest_of(size, first, last, rise, peak.value,
+                                                            close, shortest_part(step.t, step.h));
   }
   raise_to_ends(peak, ends, step);
   if (!(found.value > peak.value)) return std::nullopt;

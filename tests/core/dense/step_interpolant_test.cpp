@@ -15,7 +15,7 @@ TEST_CASE("few samples resolve a smooth function, and give its largest magnitude
       const double first = f(0), last = f(1);
       samples = 0;
       CAPTURE(top, sign);
-      REQUIRE((p.begin(f, first, last), p.resolve(f)));
+      REQUIRE((p.begin(f, first, last), p.resolve(f, 0)));
       CHECK(samples <= 15);
       CHECK(p(0.456) == Approx(f(0.456)).epsilon(1e-10));
       const Sampled<double> found = p.largest_magnitude();
@@ -29,8 +29,8 @@ TEST_CASE("a kink or a jump is not resolved by few samples") {
     const auto kink = [&](double s) { return std::abs(s - at); };
     const auto jump = [&](double s) { return s < at ? 1.0 : 1.3; };
     StepInterpolant<double> p;
-    CHECK_FALSE((p.begin(kink, kink(0), kink(1)), p.resolve(kink)));
-    CHECK_FALSE((p.begin(jump, jump(0), jump(1)), p.resolve(jump)));
+    CHECK_FALSE((p.begin(kink, kink(0), kink(1)), p.resolve(kink, 1e-10)));
+    CHECK_FALSE((p.begin(jump, jump(0), jump(1)), p.resolve(jump, 1e-10)));
   }
 }
 
@@ -41,9 +41,22 @@ TEST_CASE("the largest magnitude is a value of the polynomial, and none on the g
       const auto f = [&](double s) { return std::sin(speed * s + phase); };
       StepInterpolant<double> p;
       CAPTURE(speed, phase);
-      REQUIRE((p.begin(f, f(0), f(1)), p.resolve(f)));
+      REQUIRE((p.begin(f, f(0), f(1)), p.resolve(f, 0)));
       const Sampled<double> found = p.largest_magnitude();
       CHECK(found.value == std::abs(p(found.s)));
       for (int k = 0; k <= 64; ++k) CHECK(std::abs(p(k / 64.0)) <= found.value);
     }
+}
+
+TEST_CASE("rounding counts as resolved, and a small function beside it is found within rounding") {
+  // f is the small difference of terms of size 1, to the last bit of these
+  for (double size = 1; size > 1e-18; size /= 10) {
+    int samples = 0;
+    const auto f = [&](double s) { return ++samples, 1 + size * std::cos(2 * (s - 0.37)) - 1; };
+    StepInterpolant<double> p;
+    CAPTURE(size);
+    REQUIRE((p.begin(f, f(0), f(1)), p.resolve(f, 1e-10)));
+    CHECK(samples <= 17);
+    CHECK(std::abs(p.largest_magnitude().value - size) <= 1e-9 * size + 1e-15);
+  }
 }
