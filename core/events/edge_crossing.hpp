@@ -36,7 +36,7 @@ template <class T, class AnySystem>
   Quintic<T> past = step.distance(at.angle(i), at.freedoms(), angle);
   for (T& c : past) c = way * c;
   using std::abs;
-  if (!(bound(past) > T(8 * epsilon_of<T>) * (T(1) + abs(angle)))) return std::nullopt;
+  if (!(bound(past) > T(32 * epsilon_of<T>) * (T(1) + abs(angle)))) return std::nullopt;
   if (step.x[at.angle(i)] != angle) return first_nonnegative(past);
   past = without_root_at_start(past);
   if (!(abs(past[0]) > T(vanishes_below) * bound(past))) past = divided_by_s(past);
@@ -49,15 +49,19 @@ template <class T, class AnySystem>
 template <class T, class AnySystem>
 void meet_edges_simultaneous(const AnySystem& system, int due, Edge edge_due, Step<T>& step) {
   const Layout& at = system.layout();
+  int met = 0; // the last hinge put at an edge beside the one that is due
   for_each_edge(system, [&](int i, Edge edge) {
-    if (system.is_locked(i)) return;
+    if (system.is_locked(i) || (i == due && edge != edge_due)) return;
     using std::abs;
-    const T there = edge_angle(system.wing(), i, edge);
-    const T along = T(way_over(system, i, edge)) * step.x[at.rate(i)];
+    const T there = edge_angle(system.wing(), i, edge), way(way_over(system, i, edge));
     T& angle = step.x[at.angle(i)];
-    if ((i == due && edge == edge_due) ||
-        abs(angle - there) < one_instant_of_latches(step.t) * along)
-      angle = there;
+    if (i != due) {
+      const T along = way * step.x[at.rate(i)];
+      if (!(abs(angle - there) < one_instant_of_latches(step.t) * along)) return;
+      if (met == i && !(way * (there - angle) < T(0))) return; // it reaches its other edge first
+      met = i;
+    }
+    angle = there;
   });
 }
 

@@ -124,8 +124,9 @@ void move_strands(const AnySystem& system, const Kink<T>& kink, const T& by, Sta
   }
 }
 
-/// Moves a state that stands just before a kink of strands to just beyond, by twice beyond_rounding; and beyond the
-/// kinks of other loops' strands within an instant, else one of two mirrored loops would bear alone for that time.
+/// Moves a state that stands just before a kink of strands to just beyond, by twice beyond_rounding. Strands of loops of
+/// other hinges that reach a kink within an instant are moved beyond it too: else one of two mirrored loops would bear
+/// alone for that time.
 /// @param dxdt of the state at t
 template <class T, class AnySystem>
 void cross(const AnySystem& system, const Kink<T>& kink, const T& t, State<T>& x,
@@ -134,10 +135,12 @@ void cross(const AnySystem& system, const Kink<T>& kink, const T& t, State<T>& x
   move_strands(system, kink, T(T(2) * beyond_rounding(system, kink, x)), x);
   const std::vector<LoopTerms<T>>& loops = system.wing().loops;
   for (int l = 0; l < static_cast<int>(loops.size()); ++l) {
-    if (l == kink.index || !jumps(loops[l])) continue;
+    const LoopTerms<T>& due = loops[kink.index];
+    if (joins(loops[l], due.first) || joins(loops[l], due.second) || !jumps(loops[l])) continue;
     for (const T& there : {T(-loops[l].slack_beyond), loops[l].slack_beyond}) {
       Kink<T> other{Kink<T>::Of::strands, l, there, T(1)};
       const Jet<T> u = argument(system, other, x, dxdt, t);
+      if (u.first == T(0)) continue;
       other.way = u.first < T(0) ? T(-1) : T(1);
       const T past = other.way * (u.value - there), beyond = beyond_rounding(system, other, x);
       const T near = T(2) * beyond + one_instant_of_latches(t) * abs(u.first);

@@ -88,17 +88,18 @@ TEST_CASE("a hinge that rounding moves about its edge does not cross it") {
   }();
   Workspace<double> work;
   System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
-  const double angle = edge_angle(wing, 1, Edge::stop), ulp = 0x1p-52 * std::abs(angle);
+  const double angle = edge_angle(wing, 1, Edge::stop);
+  const double band = 32 * 0x1p-52 * (1 + std::abs(angle));
   for (const bool above : {false, true}) {
     system.note_crossing(1, Edge::stop, above);
     const double way = way_over(system, 1, Edge::stop);
-    for (const double start : {-2., 0., 1.}) {
-      Step<double> step = step_from(angle, way * 4 * ulp, 1, 0.5, 1e-3);
-      step.x[0] = angle + way * start * ulp, step.x1[0] = angle - way * ulp;
+    for (const double start : {-0.4, 0., 0.2}) {
+      Step<double> step = step_from(angle, way * 0.4 * band, 1, 0.5, 1e-3);
+      step.x[0] += way * start * band, step.x1[0] += way * start * band;
       CHECK_FALSE(first_crossing(system, step, 1, Edge::stop).has_value());
     }
-    // a thousand times as far it does
-    Step<double> far = step_from(angle - way * 1e4 * ulp, way * 4e4 * ulp, 1, 2, 1e-3);
+    // from two bands before it to two beyond
+    const Step<double> far = step_from(angle - way * 2 * band, way * 8 * band, 1, 2, 1e-3);
     CHECK(first_crossing(system, far, 1, Edge::stop).has_value());
   }
 }
@@ -124,4 +125,34 @@ TEST_CASE("hinges that reach their edges within an instant stand there together"
   const bool there[] = {false, true, true, false, false}; // due; soon; too late; on its way back
   for (int i = 1; i <= 4; ++i)
     CHECK((step.x[at.angle(i)] == edge_angle(wing, i, Edge::stop)) == there[i]);
+}
+
+TEST_CASE("of two edges within an instant a hinge stands at the one that is due, or at the first") {
+  Scene scene = symmetric_tree();
+  const double close = 0.3 * one_instant_of_latches(2.0); // at 1 rad/s
+  for (Hinge& hinge : scene.hinges) {
+    hinge.damper.emplace().coefficient = 1;
+    hinge.damper->window = {hinge.stowed / 2, hinge.stowed / 2 + close};
+  }
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::free> system(wing, std::nullopt, work);
+  const Layout& at = system.layout();
+  for (const double way : {-1., 1.}) {
+    Step<double> step;
+    step.t = 2, step.x.assign(at.size(), 0.0), step.dxdt.assign(at.size(), 0.0);
+    const Edge first = way > 0 ? Edge::window_low : Edge::window_high;
+    for (int i = 1; i <= 4; ++i) {
+      for (const Edge edge : {Edge::window_low, Edge::window_high})
+        system.note_crossing(i, edge, way < 0);
+      step.x[at.rate(i)] = way;
+      step.x[at.angle(i)] = edge_angle(wing, i, first) - way * 0.1 * close;
+    }
+    meet_edges_simultaneous(system, 1, first, step);
+    for (int i = 1; i <= 4; ++i) {
+      CAPTURE(way, i);
+      CHECK(step.x[at.angle(i)] == edge_angle(wing, i, first));
+    }
+  }
 }
