@@ -79,7 +79,8 @@ TEST_CASE("stuck hinges that bear only rounding cost no more than those that bea
   const Integration how = within(1e-8, 6);
   const Goal goal{.audit = false, .to_t_end = true};
   const auto a_step = [](const Outcome& out) {
-    return static_cast<double>(out.work.rhs_evaluations) / (out.work.steps + out.work.rejected);
+    return static_cast<double>(out.work.rhs_evaluations) /
+           static_cast<double>(out.work.steps + out.work.rejected);
   };
   int without_load = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
