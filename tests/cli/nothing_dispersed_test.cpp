@@ -25,18 +25,6 @@ Json stowed_torque_by(Json distribution) {
           {"to", {"hinges.root.spring.torque_stowed"}}};
 }
 
-/// A wing that one temperature stiffens: between these knots the factor is 1.
-Json through_table(Json distribution) {
-  return {{"name", "temperature"},
-          {"distribution", std::move(distribution)},
-          {"through", Json::array({{{"to", {"hinges.root.spring.scale"}},
-                                    {"apply", "scale"},
-                                    {"table", {{"at", {-80, 0, 80}}, {"value", {1.1, 1, 1}}}}},
-                                   {{"to", {"hinges.mid.spring.scale"}},
-                                    {"apply", "scale"},
-                                    {"table", {{"at", {-80, 80}}, {"value", {1, 1}}}}}})}};
-}
-
 constexpr const char* one_run_warning = "nothing is dispersed: all 40 runs are the same run";
 
 } // namespace
@@ -80,53 +68,6 @@ TEST_CASE("runs that are all the same show no probability, and say so everywhere
     CHECK(set["requirements"][0]["verdict"] == "open");
     CHECK(set["requirements"][0]["guaranteed"].is_null());
   }
-}
-
-TEST_CASE("a law that changes nothing through its tables gets the answers of a constant") {
-  const Folder folder;
-  Json json = undispersed(
-      Json::array({through_table(parse_json(R"({ "type": "constant", "value": 40 })"))}));
-  const std::string out = folder.path() / "out";
-  const auto verdicts = [&](const Json& campaign, std::vector<std::string> more = {}) {
-    std::filesystem::remove_all(out);
-    std::vector<std::string> words{"run", folder.write("c.json", campaign.dump()), "--out", out};
-    words.insert(words.end(), more.begin(), more.end());
-    CHECK(run_program(folder, words).code == 1);
-    return parse_json_file(std::filesystem::path(out) / summary_file)["requirements"].dump();
-  };
-  const std::string constant = verdicts(json);
-  CHECK(parse_json(constant)[0]["verdict"] == "undecided");
-  for (const char* law :
-       {R"({ "type": "uniform", "lower": 1, "upper": 79 })",
-        R"({ "type": "uniform", "lower": 100, "upper": 110 })",
-        R"({ "type": "normal", "mean": 400, "std": 10 })",
-        R"({ "type": "discrete", "values": [3, 40, 900], "weights": [1, 1, 1] })"}) {
-    CAPTURE(law);
-    json["dispersions"][0]["distribution"] = parse_json(law);
-    CHECK(verdicts(json) == constant);
-    CHECK(verdicts(json, {"--no-rows"}) == constant);
-    const std::string file = folder.path() / "c.json";
-    const auto checked = run_program(folder, {"check", file});
-    CHECK_THAT(checked.error, HasFacts({"/dispersions: found draws that change no parameter",
-                                        "all 40 runs are the same run"}));
-    CHECK_THAT(checked.out, Catch::Contains("cannot be shown by runs that are all the same"));
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"run", file, "--out", out + "2", "--until", "deployed 1 %"},
-          {"margin", file, "--scale", "hinges.*.spring.scale", "--range", "0.9", "1.2", "--out",
-           out + "2"},
-          {"rare", file, "--output", "root.latch_time", "--above", "3"},
-          {"sensitivity", file, "--samples", "4"}}) {
-      const auto refused = run_program(folder, words);
-      CAPTURE(words[0], refused.error);
-      CHECK(refused.code == 2);
-      CHECK_THAT(refused.error, Catch::Contains("draws that change no parameter"));
-    }
-  }
-  json["cases"] = parse_json(R"([ { "name": "ambient" }, { "name": "cold", "distributions": {
-    "temperature": { "type": "normal", "mean": -40, "std": 10 } } } ])");
-  const auto checked = run_program(folder, {"check", folder.write("c.json", json.dump())});
-  CHECK_THAT(checked.error, HasFacts({"draws that change no parameter in case ambient"}));
-  CHECK_THAT(checked.error, !Catch::Contains("ambient, cold"));
 }
 
 TEST_CASE("few runs that are all the same are not said to need more of them") {

@@ -67,7 +67,7 @@ std::optional<double> limit_at(std::span<const double> sorted, const FitParamete
 std::vector<std::size_t> held_dispersions(const Campaign& campaign, const FitSpec& spec) {
   std::vector<std::size_t> held;
   for (std::size_t i = 0; i < campaign.dispersions.size(); ++i)
-    if (!one_effect(campaign.dispersions[i].distribution) &&
+    if (varies(campaign.dispersions[i].distribution) &&
         std::ranges::find(spec.parameters, i) == spec.parameters.end())
       held.push_back(i);
   return held;

@@ -4,7 +4,6 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
-#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/input_checks/requirement_checks.hpp"
 
 #include <algorithm>
@@ -205,8 +204,10 @@ private:
 RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& options,
                                Evaluator& evaluator,
                                const std::function<void(const StudyProgress&)>& progress) {
-  if (const std::string why = why_nothing_varies(campaign); !why.empty())
-    throw SpecError({{"", "/dispersions", why, "at least one that varies"}});
+  if (!vary(campaign.dispersions))
+    throw SpecError({{"", "/dispersions",
+                      campaign.dispersions.empty() ? "none" : "laws with a single value only",
+                      "at least one that varies"}});
   const LimitState limit_state(campaign, options.event);
   NormalRuns runs(campaign, limit_state, evaluator);
   RareResult result = StrataSimulation(campaign, options, runs, progress).run();

@@ -2,7 +2,6 @@
 
 #include "montecarlo/analyses/sensitivity/sobol_indices.hpp"
 #include "montecarlo/foundation/formats/spec_error.hpp"
-#include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <fmt/format.h>
 
@@ -31,8 +30,10 @@ PreparedDesign design(const Campaign& campaign, long rows) {
 }
 
 void refuse_unsuitable(const Campaign& campaign) {
-  if (const std::string why = why_nothing_varies(campaign); !why.empty())
-    throw SpecError({{"", "/dispersions", why, "at least one that varies"}});
+  if (!vary(campaign.dispersions))
+    throw SpecError({{"", "/dispersions",
+                      campaign.dispersions.empty() ? "none" : "laws with a single value only",
+                      "at least one that varies"}});
   const std::size_t d = coordinates_of(campaign.dispersions).names.size(); // one for a `rows`
   if (campaign.sampling.design == DesignKind::sobol && 2 * d > most_sobol_dimensions)
     throw SpecError({{"", "/dispersions", fmt::format("{}", d),

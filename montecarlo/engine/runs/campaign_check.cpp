@@ -6,8 +6,7 @@
 namespace wingspread {
 
 std::vector<InputWarning> check_campaign(const Campaign& campaign,
-                                         const std::filesystem::path& file,
-                                         std::span<const std::string> wings) {
+                                         const std::filesystem::path& file) {
   const auto draw = [](const Campaign& of_case, long runs,
                        const std::function<void(const Scene&)>& use) {
     const RunPlan plan(of_case);
@@ -19,7 +18,7 @@ std::vector<InputWarning> check_campaign(const Campaign& campaign,
       use(scene);
     }
   };
-  return check_input(campaign, file, draw, wings);
+  return check_input(campaign, file, draw);
 }
 
 } // namespace wingspread

@@ -21,7 +21,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -41,6 +40,7 @@ std::variant<Scene, Campaign> read_changed(const CheckOptions& options) {
   std::variant<Scene, Campaign> read = read_file(options.file);
   if (auto* campaign = std::get_if<Campaign>(&read)) {
     change_scene(*campaign, options.set);
+    if (!options.of_case.empty()) *campaign = chosen_case(*campaign, options.of_case);
   } else {
     if (!options.of_case.empty()) (void)chosen_case(Campaign(), options.of_case);
     read = changed_scene(std::get<Scene>(std::move(read)), options.set);
@@ -84,19 +84,15 @@ void draw(const std::filesystem::path& picture, const Scene& scene) {
 }
 
 std::vector<InputWarning> check_file(const std::variant<Scene, Campaign>& read,
-                                     const CheckOptions& options) {
-  if (const Scene* scene = std::get_if<Scene>(&read)) return check_input(*scene, {}, options.file);
-  const std::span<const std::string> only(&options.of_case, options.of_case.empty() ? 0 : 1);
-  return check_campaign(std::get<Campaign>(read), options.file, only);
+                                     const std::filesystem::path& file) {
+  if (const Scene* scene = std::get_if<Scene>(&read)) return check_input(*scene, {}, file);
+  return check_campaign(std::get<Campaign>(read), file);
 }
 
 int check(const CheckOptions& options) {
   refuse_overwriting(options.draw, {options.file}, "--draw");
-  std::variant<Scene, Campaign> read = read_changed(options);
-  auto* campaign = std::get_if<Campaign>(&read);
-  Campaign chosen = campaign ? chosen_case(*campaign, options.of_case) : Campaign();
-  const std::vector<InputWarning> warnings = check_file(read, options);
-  if (campaign) *campaign = std::move(chosen);
+  const std::variant<Scene, Campaign> read = read_changed(options);
+  const std::vector<InputWarning> warnings = check_file(read, options.file);
   if (options.strict) print_warnings(warnings, true);
   const NominalRuns tried = std::visit([](const auto& spec) { return try_read(spec); }, read);
   const std::string text = std::visit([](const auto& spec) { return text_of(spec); }, read);

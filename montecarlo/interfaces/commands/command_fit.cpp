@@ -9,7 +9,6 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/model/input_checks/check_input.hpp"
 
 #include <fmt/format.h>
 
@@ -77,7 +76,7 @@ bool can_predict(const Campaign& campaign, const FitSpec& spec, const FitOptions
 
 int fit(const FitCommandOptions& given) {
   Campaign campaign = read_campaign_file(given.campaign);
-  print_warnings(check_campaign(campaign, given.campaign, all_wings(campaign)), false);
+  print_warnings(check_campaign(campaign, given.campaign), false);
   override_sampling(campaign, std::nullopt, given.seed);
   const FitSpec spec = read_fit_file(given.tests, campaign);
   FitOptions options{.pool = pool_of(given.machine)};

@@ -145,7 +145,7 @@ int rare(const RareCommandOptions& given) {
   RareOptions options = given.rare;
   options.event = event_of(given);
   const Campaign whole = read_campaign_file(given.campaign);
-  print_warnings(check_campaign(whole, given.campaign, {&given.of_case, 1}), false);
+  print_warnings(check_campaign(whole, given.campaign), false);
   Campaign campaign = chosen_case(whole, given.of_case);
   override_sampling(campaign, std::nullopt, given.seed);
   refuse_late_limit(given, campaign);

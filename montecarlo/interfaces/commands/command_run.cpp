@@ -55,7 +55,7 @@ RunRequest request_of(const RunOptions& options) {
   change_scene(request.campaign, options.set);
   override_sampling(request.campaign, options.sampling.runs, options.sampling.seed);
   override_until(request.campaign, options.until);
-  print_warnings(check_campaign(request.campaign, options.campaign, options.cases), options.strict);
+  print_warnings(check_campaign(request.campaign, options.campaign), options.strict);
   return request;
 }
 

@@ -204,7 +204,7 @@ SaltelliDesign read_given_design(const SensitivityOptions& options) {
 
 SaltelliDesign new_design(const SensitivityOptions& options) {
   const Campaign whole = read_campaign_file(options.from);
-  print_warnings(check_campaign(whole, options.from, {&options.of_case, 1}), false);
+  print_warnings(check_campaign(whole, options.from), false);
   SaltelliDesign design{chosen_case(whole, options.of_case), options.samples.value_or(1000),
                         std::nullopt};
   override_sampling(design.campaign, std::nullopt, options.seed);

@@ -7,7 +7,6 @@
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/library/wingspread.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
 
 #include <limits>
@@ -66,7 +65,7 @@ Fit fit(const Input& input, const Input& tests, const FitRequest& request) {
   Campaign campaign = read_campaign_input(input);
   override_sampling(campaign, std::nullopt, request.seed);
   std::vector<std::string> notices;
-  for (const InputWarning& warning : check_campaign(campaign, input.file, all_wings(campaign)))
+  for (const InputWarning& warning : check_campaign(campaign, input.file))
     notices.push_back(to_string(warning));
   const FitSpec spec = read_tests(tests, campaign);
   const Json about = about_fit(campaign, spec);

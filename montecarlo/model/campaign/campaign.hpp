@@ -58,20 +58,6 @@ struct Campaign {
 /// The scene with these draws. @param draws one for each dispersion, in their order
 [[nodiscard]] Scene scene_with(const Campaign& campaign, std::span<const double> draws);
 
-/// The draws among which an effect differs if it differs at all: the values of a law with steps; else the law's ends and
-/// the knots between them, as a table is monotone from knot to knot. Ascending.
-/// @param tail share of the draws beyond either end, which are left out
-/// @param table null: the draw itself is the effect
-[[nodiscard]] std::vector<double> telling_draws(const Distribution& distribution,
-                                                const Curve* table, double tail);
-/// The draw's effect, by the table or without one (null) the draw itself, if every draw of the law has the same; else
-/// nothing. Draws that are rarer than any campaign's are left out.
-[[nodiscard]] std::optional<double> one_effect(const Distribution& distribution,
-                                               const Curve* table = nullptr);
-/// Whether draws change any parameter of the scene: else all runs are one and the same. A law may have many values and
-/// change nothing: through a level table, beyond a table's ends, or as a factor of 0. Looks at no case.
-[[nodiscard]] bool vary(const Campaign& campaign);
-
 /// The parameters that the dispersions change, each once, in the order of their first change.
 [[nodiscard]] std::vector<SceneParameter>
 dispersed_parameters(std::span<const Dispersion> dispersions);

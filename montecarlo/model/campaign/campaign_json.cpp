@@ -331,21 +331,12 @@ std::vector<Campaign> campaigns_of(const Campaign& campaign) {
   return campaigns;
 }
 
-std::string why_nothing_varies(const Campaign& campaign) {
-  if (vary(campaign)) return "";
-  if (campaign.dispersions.empty()) return "none";
-  const bool has_values = std::ranges::any_of(
-      campaign.dispersions, [](const Dispersion& each) { return !one_effect(each.distribution); });
-  return has_values ? "draws that change no parameter" : "laws with a single value only";
-}
-
 std::string where_nothing_varies(const Campaign& campaign, std::span<const CaseSpec> cases) {
-  if (campaign.cases.empty()) return why_nothing_varies(campaign);
-  std::string what;
+  const std::string what = campaign.dispersions.empty() ? "none" : "laws with a single value only";
+  if (campaign.cases.empty()) return vary(campaign.dispersions) ? "" : what;
   std::vector<std::string> names;
   for (const CaseSpec& spec : cases.empty() ? std::span(campaign.cases) : cases)
-    if (const std::string own = why_nothing_varies(campaign_of_case(campaign, spec)); !own.empty())
-      what = what.empty() ? own : what, names.push_back(spec.name);
+    if (!vary(campaign_of_case(campaign, spec).dispersions)) names.push_back(spec.name);
   if (names.empty()) return "";
   return fmt::format("{} in case{} {}", what, names.size() == 1 ? "" : "s", fmt::join(names, ", "));
 }

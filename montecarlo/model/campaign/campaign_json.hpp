@@ -57,10 +57,8 @@ void read_analysis(const JsonCursor& at, Campaign& campaign);
 /// One campaign for each case, in their order; the campaign itself if it has no cases.
 [[nodiscard]] std::vector<Campaign> campaigns_of(const Campaign& campaign);
 
-/// Why all runs of the campaign, whatever its cases, are one and the same: "none", "laws with a single value only" or
-/// "draws that change no parameter"; empty where they vary.
-[[nodiscard]] std::string why_nothing_varies(const Campaign& campaign);
-/// The same of the first of these cases that varies nothing, followed by the names of all that do so.
+/// "none" or "laws with a single value only", followed by the names of the cases, if any of these cases varies nothing;
+/// else empty. All runs of such a case are one and the same.
 /// @param cases empty: all
 [[nodiscard]] std::string where_nothing_varies(const Campaign& campaign,
                                                std::span<const CaseSpec> cases = {});

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/scene/curve.hpp"
-#include "distributions/distribution.hpp"
+#include "distributions/prepared_distribution.hpp"
 #include "montecarlo/foundation/formats/json_reader.hpp"
 #include "montecarlo/model/scene_file/scene_parameter.hpp"
 
@@ -91,6 +91,19 @@ inline std::map<SceneParameter, std::string> set_by_draws(std::span<const Disper
         if (how == Apply::set) writers.emplace(target, dispersion.name);
     });
   return writers;
+}
+
+/// Whether a law has more than one value.
+inline bool varies(const Distribution& distribution) {
+  constexpr double tail = 1e-12; // beyond any campaign's number of runs
+  const PreparedDistribution law(distribution);
+  return law.quantile(tail) != law.quantile_complement(tail);
+}
+
+/// Whether draws differ: without it all runs are one and the same.
+inline bool vary(std::span<const Dispersion> dispersions) {
+  return std::ranges::any_of(
+      dispersions, [](const Dispersion& dispersion) { return varies(dispersion.distribution); });
 }
 
 } // namespace wingspread

@@ -17,12 +17,8 @@
 #include "montecarlo/model/input_checks/torque_checks.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
-#include <utility>
 
 namespace wingspread {
 namespace {
@@ -45,6 +41,31 @@ Outcome check_motion(const Scene& scene, const Integration& integration, InputWa
   return nominal;
 }
 
+/// The scene as written, so that warnings name the numbers of its file. It has none for a draw that acts through
+/// tables: that draw is at its median.
+Scene written_scene(Campaign campaign) {
+  std::erase_if(campaign.dispersions, [](const Dispersion& each) { return each.through.empty(); });
+  return nominal_scene(campaign);
+}
+
+/// Warns of the first number of each case that no wing has and that the nominal wing does not have either.
+void check_cases(const Campaign& campaign, const InputWarnings& nominal, InputWarnings& warnings) {
+  const auto is_nominal = [&](const InputWarning& warning) {
+    return std::ranges::find(nominal.list(), warning.pointer, &InputWarning::pointer) !=
+           nominal.list().end();
+  };
+  for (std::size_t k = 0; k < campaign.cases.size(); ++k) {
+    InputWarnings own(nominal.place());
+    check_numbers(nominal_scene(campaign_of_case(campaign, campaign.cases[k])), own);
+    for (const InputWarning& warning : own.list())
+      if (!is_nominal(warning))
+        warnings.add(fmt::format("/cases/{}", k),
+                     fmt::format("in case {}: at {} {}", campaign.cases[k].name, warning.pointer,
+                                 warning.found),
+                     warning.usual);
+  }
+}
+
 /// ScenePlace::written of a scene.
 std::map<std::string, std::size_t> written_in(const Json& scene) {
   std::map<std::string, std::size_t> written;
@@ -63,153 +84,6 @@ Outcome with_peaks(const Campaign& campaign, Outcome nominal) {
   Outcome whole =
       deployment_alone(nominal_scene(campaign), campaign.integration, {}, /*peaks=*/true);
   return whole.status == Status::failed ? nominal : whole;
-}
-
-/// What is found in one wing. Warnings of its scene name the scene's file.
-struct WingWarnings {
-  std::vector<InputWarning> scene, laws, judged;
-};
-
-/// A wing of a campaign: that of a case, or of none.
-struct CheckedWing {
-  Campaign campaign;
-  const CaseSpec* spec = nullptr; ///< null: no case
-  std::string place{};            ///< pointer of the case
-  bool is_made = false;           ///< else it is checked only to compare with
-  bool deploys = false;           ///< the nominal wing; false before it is judged
-  bool is_judged = false;
-  WingWarnings found{};
-};
-
-/// The wing in no case, and then the cases.
-std::vector<CheckedWing> wings_of(const Campaign& campaign, std::span<const std::string> names) {
-  const auto is_named = [&](const std::string& name) {
-    return std::ranges::find(names, name) != names.end();
-  };
-  std::vector<CheckedWing> wings;
-  wings.push_back(
-      {.campaign = campaign, .is_made = names.empty() ? campaign.cases.empty() : is_named("")});
-  wings.front().campaign.cases.clear();
-  for (std::size_t k = 0; k < campaign.cases.size(); ++k)
-    wings.push_back({.campaign = campaign_of_case(campaign, campaign.cases[k]),
-                     .spec = &campaign.cases[k],
-                     .place = fmt::format("/cases/{}", k),
-                     .is_made = names.empty() || is_named(campaign.cases[k].name)});
-  return wings;
-}
-
-/// The scene as written, so that warnings name the numbers of its file. It has none for a draw that acts through tables or
-/// by a case's law: that draw is at its median.
-Scene written_scene(const Campaign& whole, const CheckedWing& wing) {
-  Campaign campaign = wing.campaign;
-  const auto is_written = [&](const Dispersion& each) {
-    const auto draws = [&](const CaseDistribution& own) {
-      return is_drawn_by(whole, own.dispersion, each);
-    };
-    return each.through.empty() &&
-           (!wing.spec || std::ranges::none_of(wing.spec->distributions, draws));
-  };
-  std::erase_if(campaign.dispersions, is_written);
-  return nominal_scene(campaign);
-}
-
-/// Checks the requirements. @param place of their list
-void judge(CheckedWing& wing, const Outcome& nominal, const ScenePlace& place) {
-  InputWarnings warnings(place);
-  check_requirements(wing.campaign, with_peaks(wing.campaign, nominal), warnings);
-  wing.found.judged = warnings.list();
-  wing.deploys = nominal.status == Status::deployed, wing.is_judged = true;
-}
-void judge(CheckedWing& wing, const ScenePlace& place) {
-  judge(wing, deployment_alone(nominal_scene(wing.campaign), wing.campaign.integration), place);
-}
-
-/// @param negative paths of which drawing has found unphysical values
-void check_wing(const Campaign& whole, CheckedWing& wing, const ScenePlace& place,
-                const std::filesystem::path& file, const std::set<std::string>& negative) {
-  const Campaign& campaign = wing.campaign;
-  InputWarnings scene(place), laws({file.string()});
-  check_numbers(written_scene(whole, wing), scene);
-  const Outcome nominal = check_motion(nominal_scene(campaign), campaign.integration, scene);
-  check_dispersions(whole, campaign, laws, negative);
-  check_correlated_laws(campaign, laws);
-  wing.found.scene = scene.list(), wing.found.laws = laws.list();
-  judge(wing, nominal, {file.string(), "/requirements"});
-}
-
-/// Drops the warnings of limits that suit a case, made or not: a limit is one for all, and other cases may be far from it.
-void drop_suited(std::vector<CheckedWing>& wings, const ScenePlace& place) {
-  std::set<std::string> limits, suited;
-  for (const CheckedWing& wing : wings)
-    for (const InputWarning& each : wing.found.judged)
-      if (wing.is_made && (each.pointer.ends_with("/max") || each.pointer.ends_with("/min")))
-        limits.insert(each.pointer);
-  if (limits.empty()) return;
-  for (CheckedWing& wing : wings) {
-    if (!wing.spec && !wing.is_made) continue;
-    if (!wing.is_judged) judge(wing, place);
-    if (!wing.deploys) continue;
-    for (const std::string& limit : limits)
-      if (std::ranges::find(wing.found.judged, limit, &InputWarning::pointer) ==
-          wing.found.judged.end())
-        suited.insert(limit);
-  }
-  for (CheckedWing& wing : wings)
-    std::erase_if(wing.found.judged,
-                  [&](const InputWarning& each) { return suited.contains(each.pointer); });
-}
-
-/// A warning, and the cases that have it.
-struct OfCases {
-  InputWarning warning;
-  std::vector<const CheckedWing*> wings;
-};
-
-/// The warning with the names of its cases. @param of_scene whether it moves from the scene's file to the first case
-InputWarning with_cases(const OfCases& all, bool of_scene, const std::filesystem::path& file) {
-  InputWarning warning = all.warning;
-  if (warning.pointer.starts_with("/cases/")) return warning;
-  std::vector<std::string> names;
-  for (const CheckedWing* wing : all.wings) names.push_back(wing->spec->name);
-  if (of_scene) {
-    warning.found = fmt::format("at {} {}", warning.pointer, warning.found);
-    warning.pointer = all.wings.front()->place, warning.file = file.string();
-  }
-  warning.found = fmt::format("in case{} {}: {}", names.size() == 1 ? "" : "s",
-                              fmt::join(names, ", "), warning.found);
-  return warning;
-}
-
-/// The warnings of all wings together: those that the wing in no case has too, and one for each place of the others, in
-/// the words of the first case.
-std::vector<InputWarning> merged(std::span<const CheckedWing> wings,
-                                 std::vector<InputWarning> WingWarnings::*part,
-                                 const std::filesystem::path& file) {
-  const auto has = [](const std::vector<InputWarning>& all, const InputWarning& one) {
-    return std::ranges::find(all, one) != all.end();
-  };
-  const std::vector<InputWarning>& base = wings.front().found.*part;
-  std::vector<InputWarning> all;
-  for (const InputWarning& each : base)
-    if (std::ranges::any_of(wings, [&](const CheckedWing& wing) {
-          return wing.is_made && has(wing.found.*part, each);
-        }))
-      all.push_back(each);
-  std::vector<OfCases> others;
-  for (const CheckedWing& wing : wings.subspan(1))
-    for (const InputWarning& each : wing.found.*part) {
-      if (!wing.is_made || has(base, each)) continue;
-      const auto same = std::ranges::find_if(others, [&](const OfCases& other) {
-        return other.warning.file == each.file && other.warning.pointer == each.pointer;
-      });
-      if (same != others.end())
-        same->wings.push_back(&wing);
-      else
-        others.push_back({each, {&wing}});
-    }
-  for (const OfCases& each : others)
-    all.push_back(with_cases(each, part == &WingWarnings::scene, file));
-  return all;
 }
 
 } // namespace
@@ -232,38 +106,22 @@ std::vector<InputWarning> check_input(const Scene& scene, const Integration& int
   return warnings.list();
 }
 
-std::vector<std::string> all_wings(const Campaign& campaign) {
-  std::vector<std::string> names{""};
-  for (const CaseSpec& spec : campaign.cases) names.push_back(spec.name);
-  return names;
-}
-
 std::vector<InputWarning> check_input(const Campaign& campaign, const std::filesystem::path& file,
-                                      const DrawScenes& draw, std::span<const std::string> names) {
-  std::vector<CheckedWing> wings = wings_of(campaign, names);
-  InputWarnings rest({file.string()}), drawn({file.string()});
-  std::vector<Campaign> made;
-  std::vector<CaseSpec> cases;
-  for (const CheckedWing& wing : wings)
-    if (wing.is_made) {
-      made.push_back(wing.campaign);
-      if (wing.spec) cases.push_back(*wing.spec);
-    }
-  std::map<std::string, std::set<std::string>> negative;
-  if (draw) negative = check_draws(campaign, made, draw, drawn);
-  const ScenePlace place = scene_place(file);
-  for (CheckedWing& wing : wings)
-    if (wing.is_made || !wing.spec)
-      check_wing(campaign, wing, place, file, negative[wing.campaign.of_case]);
-  drop_suited(wings, {file.string(), "/requirements"});
-  check_spread(cases.empty() ? wings.front().campaign : campaign, cases, rest);
+                                      const DrawScenes& draw) {
+  InputWarnings scene(scene_place(file)), rest({file.string()}), drawn({file.string()}),
+      judged({file.string(), "/requirements"});
+  check_numbers(written_scene(campaign), scene);
+  const Outcome nominal = check_motion(nominal_scene(campaign), campaign.integration, scene);
+  check_cases(campaign, scene, rest);
+  check_dispersions(campaign, rest,
+                    draw ? check_draws(campaign, draw, drawn) : std::set<std::string>{});
+  check_spread(campaign, rest);
   check_correlations(campaign, rest);
   check_outputs(campaign, rest);
-  std::vector<InputWarning> all;
-  for (const std::vector<InputWarning>& more :
-       {merged(wings, &WingWarnings::scene, file), merged(wings, &WingWarnings::laws, file),
-        rest.list(), drawn.list(), merged(wings, &WingWarnings::judged, file)})
-    all.insert(all.end(), more.begin(), more.end());
+  check_requirements(campaign, with_peaks(campaign, nominal), judged);
+  std::vector<InputWarning> all = scene.list();
+  for (const InputWarnings* more : {&rest, &drawn, &judged})
+    all.insert(all.end(), more->list().begin(), more->list().end());
   return all;
 }
 
@@ -271,10 +129,10 @@ std::vector<InputWarning> check_requirements_file(const Campaign& campaign,
                                                   const std::filesystem::path& file) {
   std::string place;
   for (const std::string& key : keys_of_requirements(parse_json_file(file))) place += "/" + key;
-  std::vector<CheckedWing> wings = wings_of(campaign, {});
-  for (CheckedWing& wing : wings) judge(wing, {file.string(), place});
-  drop_suited(wings, {file.string(), place});
-  return merged(wings, &WingWarnings::judged, file);
+  InputWarnings warnings({file.string(), place});
+  const Outcome nominal = deployment_alone(nominal_scene(campaign), campaign.integration);
+  check_requirements(campaign, with_peaks(campaign, nominal), warnings);
+  return warnings.list();
 }
 
 } // namespace wingspread

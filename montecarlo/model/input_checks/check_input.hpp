@@ -7,8 +7,6 @@
 #include "montecarlo/model/input_checks/input_warning.hpp"
 
 #include <filesystem>
-#include <span>
-#include <string>
 #include <vector>
 
 namespace wingspread {
@@ -24,19 +22,11 @@ namespace wingspread {
 [[nodiscard]] std::vector<InputWarning>
 check_input(const Scene& scene, const Integration& integration, const std::filesystem::path& file);
 
-/// The names of all wings of a campaign, as check_input has them: "" is the wing in no case, which `run` makes only where
-/// there are no cases.
-[[nodiscard]] std::vector<std::string> all_wings(const Campaign& campaign);
-
-/// Checks a campaign: the nominal wing, the laws and the requirements of each case, and its correlations. A warning that
-/// the wing in no case gets too, in the same words, has no case; any other names its cases, has the words of the first,
-/// and is at the case where the scene is to blame.
-/// @param draw  makes draws of each case, which are looked at too (check_campaign has the campaign's own); empty: none
-/// @param wings names of the cases that are made, as in all_wings; empty: those of `run`
+/// Checks a campaign: its nominal scene, the torques of its cases, its dispersions, correlations and requirements.
+/// @param draw makes draws of each case, which are looked at too (check_campaign has the campaign's own); empty: none
 [[nodiscard]] std::vector<InputWarning> check_input(const Campaign& campaign,
                                                     const std::filesystem::path& file,
-                                                    const DrawScenes& draw = {},
-                                                    std::span<const std::string> wings = {});
+                                                    const DrawScenes& draw = {});
 
 /// Checks the campaign's requirements, which are those of this file (read_requirements_file).
 [[nodiscard]] std::vector<InputWarning> check_requirements_file(const Campaign& campaign,

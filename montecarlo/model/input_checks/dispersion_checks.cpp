@@ -203,20 +203,20 @@ std::vector<ShortTable> short_tables(const Dispersion& dispersion, const Spread&
 }
 
 /// Warns of tables with many draws beyond their ends: these all get the value at an end.
-/// @param place of the law: at a case's law one warning, of its worst table; else a warning at each table
+/// @param place of the tables
+/// @param law   place of a case's law: one warning, of its worst table; empty: a warning at each table
 void check_through(const Dispersion& dispersion, const Spread& spread, const std::string& place,
-                   InputWarnings& warnings) {
+                   const std::string& law, InputWarnings& warnings) {
   std::vector<ShortTable> tables = short_tables(dispersion, spread);
-  const bool is_of_case = place.starts_with("/cases");
   std::string others;
-  if (is_of_case && tables.size() > 1) {
+  if (!law.empty() && tables.size() > 1) {
     others = fmt::format("; {} of its tables are too short", tables.size());
     tables = {*std::ranges::max_element(tables, {}, &ShortTable::beyond)};
   }
   for (const auto& [k, beyond] : tables) {
     const std::vector<double>& at = dispersion.through[k].table.knots();
     warnings.add(
-        is_of_case ? place : fmt::format("{}/through/{}/table/at", place, k),
+        law.empty() ? fmt::format("{}/through/{}/table/at", place, k) : law,
         fmt::format("{:.3g} % of the draws beyond {}'s table from {:.4g} to {:.4g}, with the "
                     "median {:.4g}{}",
                     100 * beyond, dispersion.name, at.front(), at.back(), spread.median, others),
@@ -224,6 +224,15 @@ void check_through(const Dispersion& dispersion, const Spread& spread, const std
                     "{:g} % of the draws get the value at an end",
                     100 * most_beyond));
   }
+}
+
+/// Checks the tables of the laws that a case gives to dispersions.
+void check_case(const Campaign& campaign, std::size_t k, InputWarnings& warnings) {
+  for (const auto& [name, distribution] : campaign.cases[k].distributions)
+    for (const Dispersion& dispersion : campaign.dispersions)
+      if (is_drawn_by(campaign, name, dispersion))
+        check_through(dispersion, Spread(distribution), "",
+                      fmt::format("/cases/{}/distributions{}", k, pointer_token(name)), warnings);
 }
 
 bool are_named(const std::vector<RankCorrelation>& all, std::size_t a, std::size_t b) {
@@ -251,27 +260,28 @@ constexpr const char* usual_cause =
 
 } // namespace
 
-void check_dispersions(const Campaign& whole, const Campaign& wing, InputWarnings& warnings,
+void check_dispersions(const Campaign& campaign, InputWarnings& warnings,
                        const std::set<std::string>& found) {
-  for (const Dispersion& dispersion : wing.dispersions) {
+  for (const Dispersion& dispersion : campaign.dispersions) {
     const Spread spread(dispersion.distribution);
-    const std::string place = place_of(whole, wing.of_case, dispersion);
+    const std::string place = place_of(campaign, dispersion);
     for (const SceneParameter& target : dispersion.targets)
-      if (TargetCheck(wing.scene, target, dispersion.apply, spread, place, found, warnings).warns())
+      if (TargetCheck(campaign.scene, target, dispersion.apply, spread, place, found, warnings)
+              .warns())
         break;
-    check_through(dispersion, spread, place, warnings);
+    check_through(dispersion, spread, place, "", warnings);
   }
+  for (std::size_t k = 0; k < campaign.cases.size(); ++k) check_case(campaign, k, warnings);
 }
 
-void check_spread(const Campaign& campaign, std::span<const CaseSpec> cases,
-                  InputWarnings& warnings) {
+void check_spread(const Campaign& campaign, InputWarnings& warnings) {
   if (campaign.sampling.replicates > 1 && !has_replicates(campaign.sampling))
     warnings.add("/sampling/replicates",
                  fmt::format("{} with independent draws", campaign.sampling.replicates),
                  "1: a random design has no replicates and needs none for its bounds; only "
                  "\"sobol\" and \"latin_hypercube\" have them");
   if (campaign.sampling.runs < 2) return;
-  if (const std::string where = where_nothing_varies(campaign, cases); !where.empty())
+  if (const std::string where = where_nothing_varies(campaign); !where.empty())
     warnings.add("/dispersions", where,
                  fmt::format("a parameter that varies: all {} runs are the same run, and show no "
                              "probability",
@@ -279,6 +289,7 @@ void check_spread(const Campaign& campaign, std::span<const CaseSpec> cases,
 }
 
 void check_correlations(const Campaign& campaign, InputWarnings& warnings) {
+  constexpr double least_left = 0.9; // heuristic: rank correlations are rarely known better
   const auto& all = campaign.wanted_correlations;
   const auto name = [&](std::size_t which) { return campaign.dispersions[which].name; };
   for (std::size_t k = 0; k < all.size(); ++k)
@@ -287,19 +298,8 @@ void check_correlations(const Campaign& campaign, InputWarnings& warnings) {
           fmt::format("/correlations/{}", k),
           fmt::format("{} of {} and {}", all[k].spearman, name(all[k].first), name(all[k].second)),
           usual_cause);
-  if (const auto three = common_cause(all))
-    warnings.add("/correlations",
-                 fmt::format("{}, {} and {}, each correlated with the others", name((*three)[0]),
-                             name((*three)[1]), name((*three)[2])),
-                 usual_cause);
-}
-
-void check_correlated_laws(const Campaign& wing, InputWarnings& warnings) {
-  constexpr double least_left = 0.9; // heuristic: rank correlations are rarely known better
-  const auto& all = wing.wanted_correlations;
-  const auto name = [&](std::size_t which) { return wing.dispersions[which].name; };
-  const auto law = [&](std::size_t which) { return wing.dispersions[which].distribution; };
   for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto law = [&](std::size_t which) { return campaign.dispersions[which].distribution; };
     const double left = reached_correlation(law(all[k].first), law(all[k].second), all[k].spearman);
     if (left != 0 && std::abs(left) < least_left * std::abs(all[k].spearman))
       warnings.add(
@@ -307,12 +307,18 @@ void check_correlated_laws(const Campaign& wing, InputWarnings& warnings) {
           fmt::format("{} of {} and {}, of which ties leave {:.2g}", all[k].spearman,
                       name(all[k].first), name(all[k].second), left),
           "laws without values that many draws share: the correlation is that before ties");
+  }
+  for (std::size_t k = 0; k < all.size(); ++k)
     for (const std::size_t which : {all[k].first, all[k].second})
-      if (one_effect(law(which)))
+      if (!varies(campaign.dispersions[which].distribution))
         warnings.add(fmt::format("/correlations/{}", k),
                      fmt::format("a correlation of {}, whose law has a single value", name(which)),
                      "a law that varies: the correlation has no effect");
-  }
+  if (const auto three = common_cause(all))
+    warnings.add("/correlations",
+                 fmt::format("{}, {} and {}, each correlated with the others", name((*three)[0]),
+                             name((*three)[1]), name((*three)[2])),
+                 usual_cause);
 }
 
 void check_outputs(const Campaign& campaign, InputWarnings& warnings) {

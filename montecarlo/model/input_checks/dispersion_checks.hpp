@@ -1,11 +1,10 @@
-/// Checks of a campaign's dispersions, correlations and outputs.
+/// Checks of a campaign's dispersions, correlations and requirements.
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"
 #include "montecarlo/model/input_checks/input_warning.hpp"
 
 #include <set>
-#include <span>
 #include <string>
 
 namespace wingspread {
@@ -20,25 +19,20 @@ namespace wingspread {
 /// - an angle's central 95 % are wider than ±0.1 rad, or an angle is set beyond a turn (degrees for radians);
 /// - with a probability of 1e-9 or more, a draw (the others nominal) changes a spring's sign or makes a physical size
 ///   negative;
-/// - through: more than 5 % of the draws lie beyond the ends of the table.
+/// - through: more than 5 % of the draws lie beyond the ends of the table, in the campaign or in a case.
 ///
-/// @param wing  the campaign of a case, or of no case: the laws and the scene that are checked
 /// @param found paths of which check_draws has found unphysical values: no warning of a negative size repeats it
-void check_dispersions(const Campaign& whole, const Campaign& wing, InputWarnings& warnings,
+void check_dispersions(const Campaign& campaign, InputWarnings& warnings,
                        const std::set<std::string>& found = {});
 
-/// Warns where several runs are planned but nothing varies; and of replicates of independent draws, which are ignored.
-/// @param cases those that are looked at; empty: all
-void check_spread(const Campaign& campaign, std::span<const CaseSpec> cases,
-                  InputWarnings& warnings);
+/// Warns where several runs are planned but nothing varies, in no case; and of replicates of independent draws, which
+/// are ignored.
+void check_spread(const Campaign& campaign, InputWarnings& warnings);
 
 /// Warns of correlations of 0.8 and more, and of three dispersions correlated pairwise by 0.5 and more: they probably
-/// have one cause, which `through` draws once. Not of strong ones that come with a covariance: a fit left these
-/// dispersions so correlated.
+/// have one cause, which `through` draws once. Also of correlations of which ties leave less than 90 %, or with a
+/// constant. Not of strong ones that come with a covariance: a fit left these dispersions so correlated.
 void check_correlations(const Campaign& campaign, InputWarnings& warnings);
-/// Warns of correlations of which ties leave less than 90 %, or with a constant.
-/// @param wing the campaign of a case, or of no case
-void check_correlated_laws(const Campaign& wing, InputWarnings& warnings);
 
 /// Warns of families of outputs that the wing does not have: their columns are missing in runs.csv.
 void check_outputs(const Campaign& campaign, InputWarnings& warnings);

@@ -1,6 +1,5 @@
 #include "montecarlo/model/input_checks/draw_check.hpp"
 
-#include "distributions/prepared_distribution.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <fmt/format.h>
@@ -45,6 +44,18 @@ const Dispersion* cause_of(const Fault& fault, const Campaign& campaign) {
   return cause;
 }
 
+/// The place of the law that drew it: a case's own, or the dispersion's.
+std::string place_of_law(const Campaign& whole, const std::string& of_case,
+                         const Dispersion& dispersion) {
+  const auto own = std::ranges::find(whole.cases, of_case, &CaseSpec::name);
+  if (own != whole.cases.end())
+    for (const CaseDistribution& law : own->distributions)
+      if (is_drawn_by(whole, law.dispersion, dispersion))
+        return fmt::format("/cases/{}/distributions{}", own - whole.cases.begin(),
+                           pointer_token(law.dispersion));
+  return place_of(whole, dispersion);
+}
+
 /// Unphysical parameters in the draws of one case, by the law's place: for each law the fault that most draws have.
 class CaseFaults {
 public:
@@ -60,7 +71,8 @@ public:
     std::map<std::string, long> most; // by the law's place
     for (const auto& [path, counted] : found) {
       const Dispersion* cause = cause_of(counted.second, case_);
-      const std::string place = cause ? place_of(whole_, case_.of_case, *cause) : "/dispersions";
+      const std::string place =
+          cause ? place_of_law(whole_, case_.of_case, *cause) : "/dispersions";
       if (counted.first > most[place])
         most[place] = counted.first,
         faults[place] = {counted.second,
@@ -89,7 +101,7 @@ public:
 private:
   void try_value(const Discrete& law, std::size_t k, std::size_t i, std::vector<double>& draws) {
     const Dispersion& dispersion = case_.dispersions[i];
-    const std::string place = place_of(whole_, case_.of_case, dispersion);
+    const std::string place = place_of_law(whole_, case_.of_case, dispersion);
     if (faults.contains(place)) return;
     draws[i] = law.values[k];
     const std::vector<Fault> found = unphysical(scene_with(case_, draws));
@@ -111,29 +123,20 @@ private:
 
 } // namespace
 
-std::string place_of(const Campaign& whole, const std::string& of_case,
-                     const Dispersion& dispersion) {
-  const auto own = std::ranges::find(whole.cases, of_case, &CaseSpec::name);
-  if (own != whole.cases.end())
-    for (const CaseDistribution& law : own->distributions)
-      if (is_drawn_by(whole, law.dispersion, dispersion))
-        return fmt::format("/cases/{}/distributions{}", own - whole.cases.begin(),
-                           pointer_token(law.dispersion));
-  const std::string place = fmt::format("/dispersions/{}", entry_of(whole, dispersion));
+std::string place_of(const Campaign& campaign, const Dispersion& dispersion) {
+  const std::string place = fmt::format("/dispersions/{}", entry_of(campaign, dispersion));
   return dispersion.rows.empty() ? place : place + "/rows/columns" + pointer_token(dispersion.name);
 }
 
-std::map<std::string, std::set<std::string>> check_draws(const Campaign& whole,
-                                                         std::span<const Campaign> wings,
-                                                         const DrawScenes& draw,
-                                                         InputWarnings& warnings) {
-  std::map<std::string, std::set<std::string>> paths;
+std::set<std::string> check_draws(const Campaign& campaign, const DrawScenes& draw,
+                                  InputWarnings& warnings) {
+  std::set<std::string> paths;
   std::map<std::string, Found> all; // by the place of the law
-  for (const Campaign& wing : wings) {
-    CaseFaults found(whole, wing);
+  for (const Campaign& of_case : campaigns_of(campaign)) {
+    CaseFaults found(campaign, of_case);
     found.draw(draw);
     found.try_values();
-    paths[wing.of_case] = found.paths;
+    paths.merge(found.paths);
     for (auto& [place, fault] : found.faults) {
       const auto [own, is_first] = all.try_emplace(place, fault);
       if (!is_first) own->second.shares.push_back(fault.shares.front());

@@ -5,9 +5,7 @@
 #include "montecarlo/model/input_checks/input_warning.hpp"
 
 #include <functional>
-#include <map>
 #include <set>
-#include <span>
 #include <string>
 
 namespace wingspread {
@@ -17,19 +15,13 @@ namespace wingspread {
 using DrawScenes = std::function<void(const Campaign& campaign, long runs,
                                       const std::function<void(const Scene&)>& use)>;
 
-/// The pointer, in the file, of the law that a wing draws: a case's own law, or the dispersion. Copies of an `each` share
-/// one pointer; their names begin with its name.
-/// @param of_case the wing's case; empty: none
-[[nodiscard]] std::string place_of(const Campaign& whole, const std::string& of_case,
-                                   const Dispersion& dispersion);
+/// The pointer of a dispersion in the file. Copies of an `each` share one pointer; their names begin with its name.
+[[nodiscard]] std::string place_of(const Campaign& campaign, const Dispersion& dispersion);
 
-/// Draws the first runs of each wing without integrating them, as many as show a share of a thousandth. Warns of each
+/// Draws the first runs of each case without integrating them, as many as show a share of a thousandth. Warns of each
 /// law, or a case's law, with which a scene is unphysical: the share of such draws, by case, and the reason of one.
-/// @param wings campaigns of cases, or the one of no case
-/// @return the parameters found unphysical, by case
-std::map<std::string, std::set<std::string>> check_draws(const Campaign& whole,
-                                                         std::span<const Campaign> wings,
-                                                         const DrawScenes& draw,
-                                                         InputWarnings& warnings);
+/// @return the parameters found unphysical
+std::set<std::string> check_draws(const Campaign& campaign, const DrawScenes& draw,
+                                  InputWarnings& warnings);
 
 } // namespace wingspread

@@ -161,9 +161,18 @@ void check_size(const Campaign& campaign, const Requirement& own, const std::str
                            every_run ? "probably every" : "probably no"));
 }
 
-/// @param why_cut why_never_final
+/// why_never_final of the campaign, or of the first of its cases that has a reason: "in case hot with a base that …".
+std::string why_cut_in(const Campaign& campaign) {
+  for (const Campaign& each : campaigns_of(campaign))
+    if (const std::string_view why = why_never_final(each); !why.empty())
+      return (campaign.cases.empty() ? "" : fmt::format("in case {} ", each.of_case)) +
+             std::string(why);
+  return "";
+}
+
+/// @param why_cut why_cut_in the campaign
 void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& nominal,
-                       std::string_view why_cut, InputWarnings& warnings) {
+                       const std::string& why_cut, InputWarnings& warnings) {
   const Requirement& own = campaign.requirements[k];
   const std::string at = fmt::format("/{}", k);
   const std::string key = own.max ? "/max" : "/min";
@@ -252,44 +261,18 @@ std::string_view why_in(std::span<const Scene> scenes) {
   return "";
 }
 
-bool has_steps(const Distribution& distribution) {
-  return std::holds_alternative<Discrete>(distribution.law) ||
-         std::holds_alternative<Empirical>(distribution.law);
-}
-
-/// The share of a law's draws, at either end, that are not looked for.
-double share_left_out(const Distribution& distribution) {
-  constexpr double end = 1e-6; // heuristic: rarer draws of a continuous law
-  return has_steps(distribution) ? 0 : end;
-}
-
-/// Draws of a law that stand for all, each of them or of its neighbours likely: one on each piece of a table, some values
-/// of a law with steps.
-std::vector<double> likely_draws(const Distribution& distribution, const Curve* table) {
-  constexpr double inside = 0.382; // heuristic: no table passes zero just there
-  constexpr std::size_t most = 64; // heuristic: of the values of a law with steps
-  const std::vector<double> telling =
-      telling_draws(distribution, table, share_left_out(distribution));
-  std::vector<double> draws;
-  if (has_steps(distribution))
-    for (std::size_t k = 0; k < telling.size(); k += 1 + telling.size() / most)
-      draws.push_back(telling[k]);
-  else
-    for (std::size_t k = 1; table && k < telling.size(); ++k)
-      draws.push_back(std::lerp(telling[k - 1], telling[k], inside));
-  return draws;
-}
-
-/// Appends the wings with every draw at the low end of its law, at the high end, and at random, and one for each of the
-/// likely draws of a law.
+/// Appends the wings with every draw at the low end of its law, at the high end, and at random.
 void add_wings(const Campaign& campaign, std::vector<Scene>& scenes) {
+  constexpr double end = 1e-6; // heuristic: rarer draws of a continuous law are not looked for
   constexpr std::uint64_t some = 16; // heuristic: as many random wings with a reason stand for all
   std::vector<PreparedDistribution> laws;
   std::vector<double> low, high;
   for (const Dispersion& dispersion : campaign.dispersions) {
     const PreparedDistribution& law = laws.emplace_back(dispersion.distribution);
-    low.push_back(law.quantile(share_left_out(dispersion.distribution)));
-    high.push_back(law.quantile_complement(share_left_out(dispersion.distribution)));
+    const bool has_steps = std::holds_alternative<Discrete>(dispersion.distribution.law) ||
+                           std::holds_alternative<Empirical>(dispersion.distribution.law);
+    low.push_back(law.quantile(has_steps ? 0 : end));
+    high.push_back(law.quantile_complement(has_steps ? 0 : end));
   }
   scenes.push_back(scene_with(campaign, low));
   scenes.push_back(scene_with(campaign, high));
@@ -300,24 +283,16 @@ void add_wings(const Campaign& campaign, std::vector<Scene>& scenes) {
           uniform(campaign.sampling.seed, k, stream_name(campaign.dispersions[i].name)));
     scenes.push_back(scene_with(campaign, draws));
   }
-  for (std::size_t i = 0; i < laws.size(); ++i)
-    for_each_effect(campaign.dispersions[i], [&](Apply, const auto&, const Curve* table) {
-      std::vector<double> other = draws;
-      for (const double draw : likely_draws(campaign.dispersions[i].distribution, table)) {
-        other[i] = draw;
-        scenes.push_back(scene_with(campaign, other));
-      }
-    });
 }
 
-/// why_in, without "for runs" where each of the scenes has this reason.
+/// why_in, without "for runs" where each of the scenes has a reason.
 std::string_view why_in_all(std::span<const Scene> scenes) {
   constexpr std::string_view some = "for runs ";
   std::string_view why = why_in(scenes);
-  const bool every = std::ranges::all_of(scenes, [&](const Scene& scene) {
-    return why_in({&scene, 1}) == why;
+  const bool every = std::ranges::none_of(scenes, [](const Scene& scene) {
+    return why_in({&scene, 1}).empty();
   });
-  if (every && !why.empty()) why.remove_prefix(some.size());
+  if (every) why.remove_prefix(some.size());
   return why;
 }
 
@@ -341,7 +316,7 @@ void check_requirements(const Campaign& campaign, const Outcome& nominal, InputW
   const bool limits_peak = std::ranges::any_of(campaign.requirements, [](const Requirement& own) {
     return own.max && peak_kind(own.output) != PeakKind::none;
   });
-  const std::string_view why_cut = limits_peak ? why_never_final(campaign) : "";
+  const std::string why_cut = limits_peak ? why_cut_in(campaign) : "";
   for (std::size_t k = 0; k < campaign.requirements.size(); ++k) {
     check_requirement(campaign, k, nominal, why_cut, warnings);
     check_overtravel(campaign, k, warnings);

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
 namespace wingspread {
 namespace {
@@ -265,10 +264,8 @@ std::vector<std::string> all_warnings(const PageSource& source, const PageDetail
                             : std::nullopt)
     lines.insert(lines.begin(), *gaps);
   // as `run` prints them; another tool's campaign was not run
-  const std::string& of_case = source.stored.campaign.of_case;
-  const std::span<const std::string> own(&of_case, source.before_case.cases.empty() ? 0 : 1);
   if (!source.stored.foreign)
-    for (const InputWarning& warning : check_campaign(source.before_case, "", own))
+    for (const InputWarning& warning : check_campaign(source.before_case, ""))
       lines.push_back("input: " + to_string(warning));
   if (source.stored.own_requirements)
     lines.push_back("the requirements are those that `wingspread analyze` was given, not the "

@@ -74,7 +74,7 @@ void withdraw(Verdict& verdict) {
 } // namespace
 
 void withdraw_if_one_run(const Campaign& campaign, Summary& summary) {
-  if (summary.runs == 0 || vary(campaign) || !have_one_result(summary)) return;
+  if (summary.runs == 0 || vary(campaign.dispersions) || !have_one_result(summary)) return;
   summary.one_run = true;
   for (Verdict& verdict : summary.requirements) {
     if (verdict.failures() > 0) continue; // one run is enough to break it

@@ -21,7 +21,6 @@ std::vector<InputWarning> told_of(Campaign& campaign, const std::vector<Pair>& p
   for (const auto& [a, b] : pairs) campaign.wanted_correlations.push_back({a, b, spearman});
   InputWarnings warnings({"campaign.json"});
   check_correlations(campaign, warnings);
-  check_correlated_laws(campaign, warnings);
   return warnings.list();
 }
 

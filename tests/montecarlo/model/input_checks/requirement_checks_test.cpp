@@ -6,7 +6,6 @@
 #include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
-#include <fmt/format.h>
 
 #include <map>
 
@@ -283,41 +282,4 @@ TEST_CASE("two draws together may be the reason why no peak is final", "[warning
   CHECK(why("[0.001, 0.002]", "[0, 0]").starts_with("with backlash in a latch"));
   CHECK(why("[0, 0.002]", "[0.01, 0.02]").empty());
   CHECK(why("[0, 0]", "[0, 0.02]").empty());
-}
-
-TEST_CASE("draws through tables may have a reason at both ends and none between", "[warnings]") {
-  Json json = test::ringing_panel(10, 6, 2);
-  json["scene"]["base"] = parse_json(R"({ "motion": "prescribed" })");
-  const auto why = [&](const char* law, const char* table, const char* other = nullptr) {
-    json["dispersions"] = parse_json(R"([ { "name": "temperature", "through": [
-      { "to": ["hinges.root.latch.backlash"], "apply": "add" } ] } ])");
-    Json& draw = json["dispersions"][0];
-    draw["distribution"] = parse_json(law), draw["through"][0]["table"] = parse_json(table);
-    if (other)
-      draw["through"].push_back(
-          {{"to", {"base.angular_acceleration"}}, {"apply", "set"}, {"table", parse_json(other)}});
-    return std::string(why_never_final(test::campaign_of(json)));
-  };
-  constexpr const char* normal = R"({ "type": "normal", "mean": 20, "std": 10 })";
-  CHECK(why(normal, R"({ "at": [-20, 0, 40, 60], "value": [0.002, 0, 0, 0.002] })")
-            .starts_with("for runs with backlash"));
-  CHECK(why(normal,
-            R"({ "at": [-20, 19.9, 20, 20.1, 60], "value": [0.002, 0.001, 0, 0.001, 0.002] })")
-            .starts_with("with backlash")); // none at one point: no run
-  CHECK(why(normal, R"({ "at": [-20, 19.9, 20.1, 60], "value": [0.002, 0, 0, 0.002] })")
-            .starts_with("for runs with backlash")); // none in one run of a hundred
-  CHECK(why(normal, R"({ "at": [-20, 19.9, 20, 20.1, 60], "value": [0, 0, 0.002, 0, 0] })")
-            .starts_with("for runs with backlash"));
-  CHECK(why(normal, R"({ "at": [100, 200], "value": [0, 0.002] })").empty()); // at 8 σ
-  // each run has a reason, and not the same
-  CHECK(why(normal, R"({ "at": [20, 21], "value": [0.002, 0] })",
-            R"({ "at": [20, 20.1], "value": [0, 1e-3] })")
-            .starts_with("for runs with"));
-  constexpr const char* valley = R"({ "at": [-20, 0, 40, 60], "value": [0.002, 0, 0, 0.002] })";
-  const auto discrete = [](double weight) {
-    return fmt::format(
-        R"({{ "type": "discrete", "values": [-20, 20, 60], "weights": [1, {}, 1] }})", weight);
-  };
-  CHECK(why(discrete(0).c_str(), valley).starts_with("with backlash"));
-  CHECK(why(discrete(1e-4).c_str(), valley).starts_with("for runs with backlash"));
 }

@@ -1,6 +1,5 @@
 // Draws beyond the ends of the tables that they act through.
 #include "distributions/prepared_distribution.hpp"
-#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/input_checks/dispersion_checks.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
@@ -26,8 +25,7 @@ double share_told(double mean, double std, double from, double to) {
   draw["distribution"]["mean"] = mean, draw["distribution"]["std"] = std;
   draw["through"][0]["table"]["at"] = {from, (from + to) / 2, to};
   InputWarnings warnings({});
-  const Campaign campaign = campaign_of(json);
-  check_dispersions(campaign, campaign, warnings);
+  check_dispersions(campaign_of(json), warnings);
   for (const InputWarning& each : warnings.list()) {
     double share = 0;
     if (!each.pointer.ends_with("/table/at")) continue;
@@ -71,8 +69,7 @@ TEST_CASE("a case's law is warned of by its worst table", "[warnings]") {
   json["cases"] = parse_json(R"([{ "name": "hot", "distributions": {
     "temperature": { "type": "uniform", "lower": 45, "upper": 80 } } }])");
   InputWarnings warnings({});
-  const Campaign campaign = campaign_of(json);
-  check_dispersions(campaign, campaign_of_case(campaign, campaign.cases[0]), warnings);
+  check_dispersions(campaign_of(json), warnings);
   const auto& list = warnings.list();
   REQUIRE(list.size() == 1);
   CHECK(list[0].pointer == "/cases/0/distributions/temperature");
