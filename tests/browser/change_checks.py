@@ -170,10 +170,6 @@ class ChangeChecks:
             self.assertIsNone(told(-7, table("friction.scale", rising), now=now))
         for change in (7, -7):
             self.assertIsNone(told(change, table("friction.scale", falling), now=100))  # beyond the end of the table
-            self.assertIsNone(told(change, table("friction.regularization_rate", falling)))
-            self.assertIsNone(told(change, table("damper.peak_rate", rising)))
-        level = (1.8, 1.05, 1.05, 0.8)
-        self.assertIsNone(told(9.7, table("friction.scale", level, at=(-40, 0, 40, 70)), now=10))  # but for rounding
         self.assertIsNone(told(7, table("friction.scale", falling, at=(233, 293, 343)), now=293))  # in kelvin
         self.assertRegex(told(-7, table("spring.scale", rising)), "^Weaker springs lower")
         self.assertIsNone(told(7, table("spring.scale", rising)))

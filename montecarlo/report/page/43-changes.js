@@ -108,13 +108,6 @@
   // those of the straight lines here.
   const throughTable = ({ at, value }, draw) =>
     at.length > 1 ? d3.scaleLinear(at, value).clamp(true)(draw) : value[0];
-  // By how much; 0 where rounding alone tells a level table from a slope.
-  function changeThrough(table, before, after) {
-    const by = throughTable(table, after) - throughTable(table, before);
-    return Math.abs(by) > 1e-9 * d3.max(table.value, Math.abs) ? by : 0;
-  }
-  // Parameters of which more is neither a stronger nor a weaker part.
-  const noStrength = /\.(regularization_rate|peak_rate|exponent|window\.\d+)$/;
   // The parts of hinges, as "friction", of which a parameter grows or falls with the change, by its value at the median
   // draw: a draw that acts through a falling table makes its parameter fall as it rises itself.
   function partsThatChange(set, lever) {
@@ -126,12 +119,12 @@
         negative = one.apply === "scale" && one.nominal < 0,
         tables = one.tables || [];
       const effects = tables.length
-        ? tables.map((table) => ({ paths: table.paths, by: changeThrough(table, before, after) }))
+        ? tables.map((table) => ({ paths: table.paths, by: throughTable(table, after) - throughTable(table, before) }))
         : [{ paths: one.paths || [], by: negative ? before - after : after - before }];
       for (const { paths, by } of effects)
         for (const path of paths) {
           const [, part] = /^hinges\.(?:.+?)\.(spring|friction|harness|damper|motor)\./.exec(path) || [];
-          if (part && by && !noStrength.test(path)) (by > 0 ? grow : fall).add(part);
+          if (part && by) (by > 0 ? grow : fall).add(part);
         }
     }
     return { grow, fall };

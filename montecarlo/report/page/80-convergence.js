@@ -21,7 +21,7 @@
     if (first === 0) return null;
     return first === rows.length
       ? "Too few runs for two-sided bounds."
-      : `Both bounds are known at the points of this picture from ${F.runs(rows[first][0])} on, not at all of those before.`;
+      : `Both bounds are known at the points of this picture from ${F.runs(rows[first][0])} on, not at those before.`;
   }
   function settling(set, output, key, text) {
     const one = output.convergence,

@@ -13,7 +13,6 @@
 #include "montecarlo/report/page/study_set.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
-#include "montecarlo/results/summary/judge_campaign.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -81,7 +80,6 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
                                             &whole.campaign, threads));
     sources.runs.back()->made_from = folder;
     sources.runs.back()->campaign_runs = whole.runs().size();
-    if (sources.runs.back()->partial()) withdraw_of_part(sources.runs.back()->summary);
   }
   const std::span cases = std::span(sources.runs).subspan(before);
   note_commands(cases, made.size() == whole.campaign.cases.size());
