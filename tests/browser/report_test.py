@@ -10,7 +10,6 @@ WINGSPREAD_AXE or a folder of the build; where there is no npm that question is 
 import base64
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -247,8 +246,6 @@ class Quick(CauseChecks, StudyPageChecks, JudgementChecks, ShapeChecks, WordChec
         self.wait(lambda: svg.exists() and png.exists() and png.stat().st_size > 0)
         self.assertTrue(svg.read_text("utf-8").startswith("<svg"))
         self.assertEqual(png.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
-        width = int(re.search(r'<svg[^>]* width="(\d+)"', svg.read_text("utf-8"))[1])
-        self.assertEqual(int.from_bytes(png.read_bytes()[16:20], "big"), 3 * width)  # fine enough for print
         self.wait(lambda: self.run_script("return document.getElementById('spoken').textContent") != "")
         heard = self.driver.execute_async_script("""const done = arguments[0];
             const written = []; navigator.clipboard.writeText = text => { written.push(text); return Promise.resolve(); };

@@ -39,7 +39,7 @@ std::string outliers_text(const FittedChannel& fitted, std::string_view unit) {
     text += fmt::format("{} {} at {:.6g} s, {:.0f} σ from the fit", i == 0 ? "" : ";",
                         with_unit(fitted.outliers[i].measured, unit), fitted.outliers[i].time,
                         fitted.outliers[i].sigmas);
-  if (count > most) text += "; and " + counted(static_cast<long>(count - most), "other", "others");
+  if (count > most) text += fmt::format("; and {} others", count - most);
   return text + (count == 1 ? ". Is it a bad sample? It pulls the fit: leave it out"
                             : ". Are they bad samples? They pull the fit: leave them out");
 }
@@ -73,7 +73,7 @@ void add_held(const FitResult& result, std::vector<std::string>& list) {
   std::string text;
   for (std::size_t i = 0; i < std::min(count, most); ++i)
     text += held_text(result.held[i], text.empty() ? "" : ", ");
-  if (count > most) text += " and " + counted(static_cast<long>(count - most), "other", "others");
+  if (count > most) text += fmt::format(" and {} others", count - most);
   const std::string widened = widened_text(result);
   list.push_back(fmt::format("not fitted, held at {} in all tests: {}. {}",
                              count == 1 ? "its median" : "their medians", text,

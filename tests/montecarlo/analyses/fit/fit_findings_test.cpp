@@ -173,37 +173,6 @@ TEST_CASE("one bad sample is named with its time, not the whole trace") {
   CHECK(json["tests"][0]["traces"]["root.angle"]["outliers"].size() == 1);
 }
 
-TEST_CASE("bad samples and held dispersions that are not listed are counted") {
-  FitSpec spec;
-  spec.tests.emplace_back().name = "one way";
-  for (const int count : {1, 2, 3, 4, 5, 6, 7, 8}) {
-    FitResult result;
-    result.finished = true;
-    FittedChannel& channel = result.channels.emplace_back();
-    channel.name = "root.angle", channel.channel.column = 0, channel.channel.count = 81;
-    channel.channel.std = channel.rms = channel.rest_rms = 1, channel.p_value = 0.5;
-    for (int k = 0; k < count; ++k) {
-      channel.outliers.push_back({0.5 * k, 1, 9});
-      result.held.push_back({"mass", 1, 1, 0.005});
-    }
-    const std::string all = fmt::format("{}", fmt::join(fit_findings(result, spec), "\n"));
-    CAPTURE(count, all);
-    const auto told = [&](std::string_view word) {
-      long times = 0;
-      for (std::size_t at = 0; (at = all.find(word, at)) != std::string::npos; ++at) ++times;
-      return times;
-    };
-    CHECK(told(fmt::format("{} of 81 numbers", count)) == 1);
-    for (const auto& [word, most] : {std::pair(" σ from the fit", 3), {"mass = 1", 6}}) {
-      CHECK(told(word) == std::min(count, most));
-      const std::string others =
-          fmt::format(" and {} other{}", count - most, count == most + 1 ? "" : "s");
-      CHECK(told(others) == (count > most));
-    }
-    CHECK(told(" other") == (count > 3) + (count > 6));
-  }
-}
-
 TEST_CASE(
     "a sensor's offset that its std hardly allows is told, whether its noise is known or not") {
   const Folder folder;

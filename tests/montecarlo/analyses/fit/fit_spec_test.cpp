@@ -25,8 +25,6 @@ Json tests_json() {
     "fit": { "parameters": ["spring", "friction"], "starts": 4, "samples": 500 } })");
 }
 
-constexpr const char* next_candidate = R"([ { "name": "next", "trace": {
-  "times": { "to": 2, "step": 0.5 }, "columns": { "root.angle": { "std": 0.01 } } } } ])";
 constexpr const char* trace = "t,th,w [deg/s]\n0,86,0\n0.1,85.5,-1\n0.2,84,-2\n0.3,82,-3\n";
 
 struct Files {
@@ -185,7 +183,9 @@ TEST_CASE("fewer samples than unknowns are enough where the noise is known") {
 TEST_CASE("the numbers of a fit are accepted up to their limits, and no further") {
   const Files files;
   Json json = tests_json();
-  json["candidates"] = parse_json(next_candidate);
+  json["candidates"] =
+      parse_json(R"([ { "name": "next", "trace": { "times": { "to": 2, "step": 0.5 },
+      "columns": { "root.angle": { "std": 0.01 } } } } ])");
   const auto check = [&](const char* pointer, const Json& good, const Json& bad) {
     CAPTURE(pointer, good, bad);
     Json changed = json;
@@ -201,21 +201,6 @@ TEST_CASE("the numbers of a fit are accepted up to their limits, and no further"
   check("/candidates/0/trace/times/to", 0.5, 0.4);       // at least the first step
   check("/candidates/0/trace/times/step", 2e-5, 1.9e-5); // 1e5 times
   check("/candidates/0/trace/times/step", 2, 0);
-}
-
-TEST_CASE("a fit's \"correlated\" is each trace's default; a candidate's times reach their end") {
-  const Files files;
-  Json json = tests_json();
-  json["tests"].push_back(json["tests"][0]), json["tests"][1]["name"] = "two";
-  json["tests"][1]["trace"].erase("correlated");
-  json["candidates"] = parse_json(next_candidate);
-  for (const bool all : {false, true}) {
-    json["fit"]["correlated"] = all, json["tests"][0]["trace"]["correlated"] = !all;
-    const FitSpec spec = files.read(json);
-    CHECK((spec.tests[0].correlated == !all && spec.tests[1].correlated == all));
-    CHECK(spec.candidates.at(0).correlated == all);
-    CHECK(spec.candidates[0].times == std::vector<double>{0, 0.5, 1, 1.5, 2});
-  }
 }
 
 TEST_CASE("no object of the tests has a key that is not read") {

@@ -94,22 +94,6 @@ TEST_CASE("one point without a value, one cut peak and one open latch are told, 
   }
 }
 
-TEST_CASE("only bounds of a total index wider than the whole variance are warned of") {
-  const auto warned = [](const Bounds& first, const Bounds& total) {
-    SobolSensitivity all{64, 256, 256, "random", {.resamples = 50}, {"a"}, {}};
-    SobolIndices indices{64, 0, 12.5, 0.75, {}};
-    indices.effects = {{{0.5, first}, {0.5, total}, false}};
-    all.outputs.push_back({"root.latch_time", indices});
-    const std::vector<std::string> said = warnings(all);
-    CHECK(said.size() < 2);
-    return !said.empty() && said[0].starts_with("shares of the variance of \"root.latch_time\"");
-  };
-  CHECK(warned({0, 0.5}, {-0.25, 1}));
-  CHECK_FALSE(warned({-0.25, 1}, {0, 0.5})); // the table of shares has the total ones
-  CHECK_FALSE(warned({0, 0.5}, {-0.25, 0.75}));
-  CHECK_FALSE(warned({}, {}));
-}
-
 TEST_CASE("the short table has shares of the variance") {
   SobolSensitivity all;
   all.dispersions = {"a", "b", "c"};

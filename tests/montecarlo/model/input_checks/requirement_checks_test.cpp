@@ -190,32 +190,6 @@ TEST_CASE("a limit far from the nominal value: met by every run or by none, by i
     }
 }
 
-TEST_CASE("a lower limit above an upper one is warned of for the same output, of either magnitude "
-          "or sense",
-          "[warnings]") {
-  Campaign campaign = test::campaign_of(test::quick_campaign(10));
-  const auto warned = [&](const Requirement& least, const Requirement& most) {
-    campaign.requirements = {least, most};
-    InputWarnings warnings({});
-    check_requirements(campaign, {}, warnings);
-    return std::ranges::count_if(warnings.list(), [](const InputWarning& each) {
-      return each.pointer == "/0/min" && each.found.ends_with("another requirement limits to 0.3");
-    });
-  };
-  Requirement least, most;
-  least.output = most.output = "root.latch_rate";
-  least.min = 0.4, most.max = 0.3;
-  CHECK(warned(least, most) == 1);
-  least.absolute = true; // −0.5 meets both
-  CHECK(warned(least, most) == 0);
-  most.absolute = true;
-  CHECK(warned(least, most) == 1);
-  least.min = 0.3; // 0.3 meets both
-  CHECK(warned(least, most) == 0);
-  least.min = 0.4, least.output = "tip.latch_rate";
-  CHECK(warned(least, most) == 0);
-}
-
 TEST_CASE("a cut peak breaks a max and may meet a min: only the max is warned of", "[warnings]") {
   Campaign campaign = test::campaign_of(test::ringing_panel(10, 6, 2));
   Base& base = campaign.scene.base;

@@ -99,7 +99,4 @@ TEST_CASE("exact sum: what is no number spoils it, and it reads back as it was w
   CHECK(bytes_of(read) == bytes_of(sum));
   sum.add(std::numeric_limits<double>::infinity());
   CHECK(std::isnan(sum.value()));
-  ExactSum added = read, rest = read; // by a sum that is spoilt
-  added.add(sum), rest.subtract(sum);
-  CHECK((std::isnan(added.value()) && std::isnan(rest.value())));
 }

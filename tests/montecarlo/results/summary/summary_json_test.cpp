@@ -100,7 +100,7 @@ TEST_CASE("summary.json: values, and null for what is not") {
   CHECK(json["reasons"] ==
         Json::parse(R"([{"status": "stalled", "reason": "friction", "count": 100}])"));
   CHECK(json["latch_order"] == Json::parse(R"({"root>tip": 200})"));
-  CHECK((json["latch_order_missing"] == 100 && json["latch_order_omitted"] == 0));
+  CHECK(json["latch_order_missing"] == 100);
   const Json& output = json["outputs"]["root.latch_time"];
   CHECK((output["unit"] == "s" && output["count"] == 200 && output["missing"] == 100));
   CHECK(output["mean"] == summary.outputs[0].moments.mean);
@@ -124,21 +124,6 @@ TEST_CASE("summary.json says why the nominal run does not deploy") {
   CHECK(summary_json(summary, {})["nominal"]["peaks_final"] == "peak_force");
   CHECK(summary_json(summary, {})["definitions"]["nominal"] ==
         "of the run with every dispersion at the median of its law, tables included");
-}
-
-TEST_CASE("the note on a bound counts runs and values in singular and plural") {
-  const auto note = [](long runs, long missing) {
-    Summary summary;
-    summary.runs = runs, summary.confidence = 0.95;
-    OutputSummary output;
-    output.moments.count = runs - missing, output.missing = missing;
-    QuantileEstimate quantile;
-    quantile.all.value = 1;
-    return why_missing(summary, output, quantile);
-  };
-  CHECK_THAT(note(1, 0), Catch::StartsWith("1 value is too few for every bound"));
-  CHECK_THAT(note(2, 0), Catch::StartsWith("2 values are too few for every bound"));
-  CHECK_THAT(note(3, 2), Catch::StartsWith("3 runs, 2 of them without a value, are too few"));
 }
 
 TEST_CASE("summary.json says why a bound is null") {
@@ -311,8 +296,7 @@ TEST_CASE("summary.json: tolerance limits, or why there is none") {
   Summary summary = some_summary(300);
   summary.outputs[0].tolerance_limits = {{{.95, .95, Side::both}, {1.5, 2.5}},
                                          {{.95, .95, Side::upper}, {}, 12},
-                                         {{.999, .95, Side::lower}, {}},
-                                         {{.999, .95, Side::both}, {}}};
+                                         {{.999, .95, Side::lower}, {}}};
   const Json json = summary_json(summary, {})["outputs"]["root.latch_time"]["tolerance"];
   CHECK(json[0].dump() ==
         R"({"probability":0.95,"confidence":0.95,"side":"both","lower":1.5,"upper":2.5})");
@@ -323,7 +307,6 @@ TEST_CASE("summary.json: tolerance limits, or why there is none") {
   CHECK_FALSE(json[1].contains("lower"));
   CHECK(json[2]["note"] == "300 runs are too few: it takes 2995");
   CHECK(json[2]["lower"].is_null());
-  CHECK(json[3]["note"] == "300 runs are too few: it takes 4742"); // both extremes are limits
 }
 
 TEST_CASE("summary.json: when a campaign stops, and what that does to its bounds") {
