@@ -1,6 +1,5 @@
 """What would make a failed requirement pass, loads that no requirement limits, inputs in plain words, tables and gaps: as the data have them."""
 
-import json
 import math
 import re
 
@@ -150,35 +149,6 @@ class ChangeChecks:
         self.assertIsNone(first("damper.peak_torque", 0.7))
         self.assertRegex(first("motor.torque_limit", 0.5), "^A slower or weaker motor can lower the static margins .* and keep the wing from deploying")
         self.assertIsNone(first("motor.torque_limit", 1.5))
-
-    def test_a_change_that_acts_through_tables_warns_by_what_they_do(self):
-        """A rising temperature lowers a friction that falls with it, and the other way; flat beyond the table's ends."""
-        self.opened_with("")
-        table = lambda path, value, apply="scale", at=(-40, 20, 70): {"words": "", "paths": [f"hinges.*.{path}"], "apply": apply, "unit": "", "at": at, "value": value, "of_median": 1}
-
-        def told(change, *tables, now=20):
-            draw = {"draw": "temperature", "words": "", "paths": [path for one in tables for path in one["paths"]], "apply": "by a table", "law": "", "low": -80, "high": 70, "median": now, "tables": tables}
-            self.again_with(f"""W.sets.forEach(set => {{ set.inputs.dispersions = [{json.dumps(draw)}];
-                set.requirements.forEach(one => one.changes = [{{ for: "limit", runs: 900, explained: 0.9, levers: [{{ ...warm, now: {now}, change: {change} }}] }}]); }});""")
-            return next((one.text for one in self.all(".findings .caution")), None)
-
-        falling, rising = (1.8, 1, 0.8), (0.8, 1, 1.8)
-        for now in (20, -30, 40):
-            self.assertIsNone(told(7, table("friction.scale", falling), now=now))  # warmer: less friction
-            self.assertRegex(told(-7, table("friction.scale", falling), now=now), "^More friction would lower the static margins")
-            self.assertRegex(told(7, table("friction.scale", rising), now=now), "^More friction")
-            self.assertIsNone(told(-7, table("friction.scale", rising), now=now))
-        for change in (7, -7):
-            self.assertIsNone(told(change, table("friction.scale", falling), now=100))  # beyond the end of the table
-        self.assertIsNone(told(7, table("friction.scale", falling, at=(233, 293, 343)), now=293))  # in kelvin
-        self.assertRegex(told(-7, table("spring.scale", rising)), "^Weaker springs lower")
-        self.assertIsNone(told(7, table("spring.scale", rising)))
-        self.assertRegex(told(-7, table("harness.offset", falling, "add")), "^A stiffer harness")
-        self.assertIsNone(told(7, table("harness.offset", falling, "add")))
-        self.assertRegex(told(-7, table("damper.scale", falling)), "^A stronger damper")
-        self.assertIsNone(told(7, table("damper.scale", falling)))
-        self.assertRegex(told(7, table("motor.torque_limit", falling)), "^A slower or weaker motor")
-        self.assertRegex(told(7, table("friction.scale", falling), table("spring.scale", falling)), "^Weaker springs")  # two effects of one draw
 
     def test_a_value_that_draws_replace_starts_from_their_median(self):
         """The scene's value is in no run where draws set it; where they scale it, it is the value before the change."""

@@ -27,19 +27,7 @@ class DrawingChecks:
         self.assertEqual(paths[0], len(runs))
         self.assertEqual(ticks[-1], str(runs[-1]))
         self.assertIn("95 % two-sided bounds", legend)
-        self.assertIn(f"points of this picture from {runs[-1]} runs on", note)
-
-    def test_the_picture_says_from_which_of_its_points_on_both_bounds_are_known(self):
-        """Its points are some numbers of runs only. Where runs lack a value, a bound may be lost again."""
-        self.open(pages.made_up("stalls"))
-        whole, runs = self.run_script("const one = W.output().convergence; return [one.quantile.map(value => value ?? 1), one.runs]")
-        note = lambda lacking: self.run_script("""const one = W.output().convergence; one.quantile = arguments[0]; one.quantile_lower = arguments[0]; one.quantile_upper = arguments[0].map((value, at) => arguments[1].includes(at) ? null : value);
-            W.convergence(); return document.querySelectorAll('figure.settling')[1].querySelector('.note')?.textContent ?? ''""", whole, lacking)
-        self.assertNotIn("bounds", note([]))
-        for lacking in ([0, 1, 2], [2], [0, 1, 4]):
-            self.assertIn(f"points of this picture from {runs[max(lacking) + 1]} runs on", note(lacking))
-        for lacking in (list(range(len(runs))), [len(runs) - 1]):
-            self.assertIn("Too few runs", note(lacking))
+        self.assertIn(f"From {runs[-1]} runs on both bounds are known", note)
 
     def test_the_player_opens_at_the_start(self):
         self.open(pages.made_up("plain"))

@@ -127,26 +127,6 @@ class WordChecks:
         self.assertNotIn("could not be repeated", self.verdicts("W.set().accuracy = arguments[0]", {**accuracy, "unreached": 0}))
         self.assertIn("Unknown: 16 runs could not be repeated", self.verdicts("W.set().accuracy = arguments[0]", {**accuracy, "runs": 0, "unreached": 16, "outputs": []}))
 
-    def test_sentences_about_one_case_name_it(self):
-        """One case without a latch, without repeated runs, of another design and another scene: all heads and commands say whose they are."""
-        self.open(pages.made_up("cases"))
-        heads = lambda script: (self.run_script(script + "; W.outcomes()"), self.run_script("return [...document.querySelectorAll('#verdicts h3')].map(one => one.textContent)"))[1]
-        text = lambda: self.page_text("#verdicts")
-        for at, change in ((0, "W.set().orders = [{ order: 'no latch', count: W.set().runs }]; W.set().accuracy = null"), (1, "W.choose('set', 1)")):
-            shown, label = heads(change), self.run_script("return W.set().label")
-            for head in ("Latch orders", "Numerical against statistical error"):
-                self.assertIn(f"{head} · {label}", shown)
-            self.assertEqual("No hinge latched in any run." in text(), at == 0)
-            self.assertEqual("No runs were repeated at a tighter tolerance." in text(), at == 0)
-        self.assertIn("Assumptions of the model", heads(""))
-        self.assertIn("Assumptions of the model · ambient", heads("W.set().inputs.scene.push({ path: 'hinges.mid.stop.stiffness', label: '', value: 1, unit: '' })"))
-        self.assertEqual(text().count("; random design"), 1)
-        heads("W.sets[2].design = 'latin_hypercube'")
-        self.assertEqual((text().count(", random design"), text().count(", latin hypercube design")), (2, 1))
-        heads("W.sets.forEach((set, at) => set.made_by = at < 2 ? 'run a\\nrun b' : 'run c')")
-        self.assertEqual(self.run_script("return [...document.querySelectorAll('.again .command')].slice(0, 3).map(one => [one.querySelector('code').textContent, one.querySelector('button').getAttribute('aria-label')])"),
-                         [["run a", "Copy: command of cold and ambient"], ["run b", "Copy: command of cold and ambient"], ["run c", "Copy: command of hot"]])
-
     def test_the_title_says_what_there_is(self):
         self.open(pages.made_up("cases"))
         title = lambda script: self.run_script(script + "; W.subtitle(); return [document.getElementById('title').textContent, document.title, ...['.wing-name', '.identity', '.description', '.facts'].map(s => document.querySelector('#subtitle ' + s)?.textContent ?? null)]")

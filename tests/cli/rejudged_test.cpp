@@ -39,12 +39,8 @@ std::filesystem::path made_again(const Folder& folder, const std::filesystem::pa
   const Json data = page_data(page);
   for (const char* key : {"made_by", "judged_by"})
     for (const Json& set : data["sets"])
-      for (std::istringstream lines(set[key].get<std::string>()); !lines.eof();) {
-        std::string text;
-        std::getline(lines, text);
-        if (!text.empty() && std::ranges::count(commands, text) == 0)
-          commands.push_back(std::move(text));
-      }
+      if (std::string text = set[key]; !text.empty() && std::ranges::count(commands, text) == 0)
+        commands.push_back(std::move(text));
   for (const std::string& command : commands) {
     std::istringstream in(command);
     std::vector<std::string> words;
@@ -186,33 +182,6 @@ TEST_CASE("the page's commands make analysed cases again, whether all alike or o
   same({"analyze", made, "--requirements", file, "--confidence", "0.8", "--bins", "auto"});
   same({"analyze", made});
   same({"analyze", made / "slow", "--quantiles", "0.3"});
-}
-
-TEST_CASE(
-    "the page of cases that were extended unevenly says which lack runs, and makes them again") {
-  Json json = quick_campaign(12);
-  json["cases"] = parse_json(R"([ { "name": "long" }, { "name": "short" }, { "name": "none" } ])");
-  json["requirements"] = late;
-  const Folder folder;
-  const std::string made = folder.path() / "r", page = folder.path() / "page.html";
-  const std::string file = folder.write("c.json", json.dump());
-  const auto run = [&](std::vector<std::string> options) {
-    options.insert(options.begin(), {"run", file, "--out", made});
-    REQUIRE(run_program(folder, options).code <= 1);
-  };
-  run({"--case", "long", "--case", "short"});
-  run({"--case", "long", "--resume", "--runs", "20"});
-  const std::filesystem::path again = made_again(folder, made);
-  for (const char* name : {"", "long", "short"})
-    CHECK(contents(again / name) == contents(std::filesystem::path(made) / name));
-  CHECK_THAT(run_program(folder, {"report", made, "--out", page}).error,
-             HasFacts({"12 of 20 runs of case short", "none of none", "short and none are not"}));
-  const Json data = page_data(page), &sets = data["sets"];
-  CHECK((sets[0]["partial"] == false && sets[0]["planned"] == 20));
-  CHECK((sets[1]["partial"] == true && sets[1]["planned"] == 20 && sets[1]["runs"] == 12));
-  run({"--case", "short", "--resume", "--runs", "20"});
-  CHECK(run_program(folder, {"report", made, "--out", page}).code == 0);
-  CHECK(page_data(page)["sets"][1]["partial"] == false);
 }
 
 TEST_CASE("analyze warns of a limit that looks like degrees, at its place in the file") {

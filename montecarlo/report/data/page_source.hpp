@@ -6,10 +6,7 @@
 #include "montecarlo/results/streaming/streaming_statistics.hpp"
 #include "montecarlo/results/summary/broken_runs.hpp"
 
-#include <algorithm>
-#include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,9 +20,8 @@ struct PageSource {
   std::size_t argument = 0; ///< which of the command's folders it is from
   StoredCampaign stored;
   std::filesystem::path made_from; ///< the folder whose campaign reproduces the rows
-  /// The cases made from that folder, by their numbers of runs; empty if one command makes all cases of its campaign.
-  std::map<std::int64_t, std::vector<std::string>> made_cases;
-  long campaign_runs = 0; ///< runs of each case of its whole campaign; 0 if it is not a case
+  std::vector<std::string>
+      made_cases; ///< cases made from that folder, if some of its cases are missing
   /// The set's folder or, if one `analyze` of the whole folder gives the statistics of all cases, that of the first.
   std::filesystem::path analyzed_in;
   bool analyzed_alone =
@@ -42,11 +38,6 @@ struct PageSource {
   /// Whether its runs can be replayed.
   [[nodiscard]] bool replayable() const { return !stored.foreign && summary.runs > 0; }
   [[nodiscard]] bool has_rows() const { return !streaming; }
-
-  /// Its own runs, or those of its whole campaign, which may have been added to other cases only.
-  [[nodiscard]] long planned() const { return std::max(stored.runs().size(), campaign_runs); }
-  /// Whether planned runs are missing.
-  [[nodiscard]] bool partial() const { return summary.runs < planned() && !summary.stopped; }
 };
 
 /// The option " --requirements FILE" of commands that judge as the last `analyze` of the folder did; empty if it judged

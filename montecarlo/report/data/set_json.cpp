@@ -26,31 +26,18 @@ std::string again(const PageSource& source) {
   return source.argument == 0 ? "again" : fmt::format("again{}", source.argument + 1);
 }
 
-/// The command that makes so many runs of these cases; of the whole campaign without cases.
-std::string run_command(const PageSource& source, std::int64_t runs,
-                        const std::vector<std::string>& cases) {
+/// The command that reproduces the rows.
+std::string made_by(const PageSource& source) {
   const StoredCampaign& stored = source.stored;
-  std::string text =
-      fmt::format("wingspread run {} --seed {} --runs {}",
-                  shell_word((source.made_from / campaign_file).string()), stored.stamp.seed, runs);
-  for (const std::string& name : cases) text += " --case " + shell_word(name);
+  if (stored.foreign) return "";
+  std::string text = fmt::format("wingspread run {} --seed {} --runs {}",
+                                 shell_word((source.made_from / campaign_file).string()),
+                                 stored.stamp.seed, stored.campaign.sampling.runs);
+  for (const std::string& name : source.made_cases) text += " --case " + shell_word(name);
   if (const auto& shard = stored.stamp.shard)
     text += fmt::format(" --shard {}/{}", shard->index, shard->of);
   if (!source.has_rows()) text += " --no-rows";
   return text + " --out " + again(source);
-}
-
-/// The commands that reproduce the rows, a line each: one, or one for each number of runs that cases have. A folder only
-/// grows, so the least number comes first.
-std::string made_by(const PageSource& source) {
-  if (source.stored.foreign) return "";
-  if (source.made_cases.empty())
-    return run_command(source, source.stored.campaign.sampling.runs, {});
-  std::string text;
-  for (const auto& [runs, cases] : source.made_cases)
-    text += text.empty() ? run_command(source, runs, cases)
-                         : '\n' + run_command(source, runs, cases) + " --resume";
-  return text;
 }
 
 /// The command that makes the page's statistics and verdicts from the rows of made_by's command; empty if that command
@@ -77,8 +64,8 @@ Json identity_json(const PageSource& source) {
           {"hash", stored.stamp.hash},
           {"version", stored.stamp.version},
           {"runs", source.summary.runs},
-          {"planned", source.planned()},
-          {"partial", source.partial()},
+          {"planned", stored.runs().size()},
+          {"partial", source.summary.runs < stored.runs().size() && !source.summary.stopped},
           {"stopped", source.summary.stopped},
           {"rows", source.has_rows()},
           {"shard", shard ? Json(fmt::format("{}/{}", shard->index, shard->of)) : Json(nullptr)},

@@ -200,11 +200,9 @@
           ? "not judged"
           : cutDecides(one)
             ? "none: t_end cut peaks"
-            : one.not_deployed > one.without_value
-              ? "too few runs that deploy"
-              : one.without_value
-                ? "too few runs with a value"
-                : "too few runs";
+            : one.not_deployed || one.without_value
+              ? "too few runs with a value"
+              : "too few runs";
     return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : W.isPart(set) ? "not judged" : "too few runs";
   }
   function marginText(one, set) {
@@ -303,14 +301,11 @@
 
   // Whether a requirement on a share has as large a bound as its number of runs can show: no run breaks it.
   const isAtMost = (one) => !W.isNumber(one.limit) && verdictOf(one.verdict) === "passed" && one.broken === 0 && W.isNumber(one.guaranteed);
-  // Of each requirement the worst set decides; it is named where the others have more runs.
   function thinBecauseOfRuns(rows) {
-    const worst = [...d3.group(rows, (row) => keyOf(row.requirement)).values()].filter(([{ requirement: one }]) => isAtMost(one));
-    return worst.map(function (same) {
-      const [{ requirement: one, set }] = same,
-        alike = same.every((row) => row.set.runs === set.runs && row.requirement.broken === 0);
-      return h("p.note", `${shortOf(one)}: no run${alike ? "" : ` of ${set.label}`} breaks it. Its distance is small because ${F.runs(set.runs)} can show no more than ${F.share(one.guaranteed)} at ${F.given(100 * one.confidence)} % confidence.`);
-    });
+    const found = [...new Map(rows.filter(({ requirement: one }) => isAtMost(one)).map((row) => [keyOf(row.requirement), row])).values()];
+    return found.map(({ requirement: one, set }) =>
+      h("p.note", `${shortOf(one)}: no run breaks it. Its distance is small because ${F.runs(set.runs)} can show no more than ${F.share(one.guaranteed)} at ${F.given(100 * one.confidence)} % confidence.`),
+    );
   }
   // Why a requirement has no margin to show: peaks that t_end cut where they decide, then wings that did not deploy; else
   // there are too few runs.

@@ -16,19 +16,16 @@
       : null;
   };
 
-  // The section on the assumptions of the model. Folders may have other scenes than the one shown.
+  // The section on the assumptions of the model.
   W.assumptions = function () {
-    const partsOf = function (set) {
-      const scene = ((set.inputs || {}).scene || []).map((one) => one.path);
-      return [/^bodies\.(.+)\.flexible\./, /^hinges\.(.+)\.joint\./, /^hinges\.(.+)\.(?:far_)?stop\./].map((pattern) => [
-        ...new Set(scene.map((path) => (pattern.exec(path) || [])[1]).filter(Boolean)),
-      ]);
-    };
-    const [bent, elastic, stopped] = partsOf(W.set()),
-      alike = W.sets.every((set) => JSON.stringify(partsOf(set)) === JSON.stringify([bent, elastic, stopped]));
+    const scene = ((W.set().inputs || {}).scene || []).map((one) => one.path),
+      named = (pattern) => [...new Set(scene.map((path) => (pattern.exec(path) || [])[1]).filter(Boolean))],
+      bent = named(/^bodies\.(.+)\.flexible\./),
+      elastic = named(/^hinges\.(.+)\.joint\./),
+      stopped = named(/^hinges\.(.+)\.(?:far_)?stop\./);
     const list = (names) => (names.length > 4 ? `${names.slice(0, 3).join(", ")} and ${names.length - 3} more` : names.join(", "));
     return [
-      h("h3", `Assumptions of the model${alike ? "" : ` · ${W.set().label}`}`),
+      h("h3", "Assumptions of the model"),
       h(
         "p.lead.assumptions",
         "All hinge axes are parallel, so the wing moves in one plane. ",

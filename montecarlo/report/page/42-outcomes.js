@@ -17,8 +17,6 @@
   // The bounds of an outcome's share, or why there are none.
   W.boundsOf = (one) => (one.note ? h("span.wrapped", one.note) : F.shareBounds(one.lower, one.upper));
   const nameOf = (status) => status.replace("_", " ");
-  // The heading of a part that is about one set: it names the set where there are several.
-  const headOf = (text, set) => h("h3", W.sets.length > 1 ? `${text} · ${set.label}` : text);
   const key = (name, style) => h("i", { class: `key ${name}`.trim(), style, "aria-hidden": "true" });
 
   function outcomes() {
@@ -129,9 +127,9 @@
     return h("small.gaps", { title: gaps.map((gap) => `${gap.before} to ${gap.after}`).join(" · ") }, `gaps ${list("median")} (median), at least ${list("least")}`);
   }
   function orders() {
-    const set = W.set(),
-      title = headOf("Latch orders", set);
-    if (!(set.orders || []).some((one) => one.order !== "no latch")) return [title, h("p", "No hinge latched in any run.")];
+    const set = W.set();
+    if (!(set.orders || []).some((one) => one.order !== "no latch"))
+      return [h("h3", "Latch orders"), h("p", "No hinge latched in any run.")];
     const counted = set.orders.some((one) => one.order === "no latch"),
       without = counted ? 0 : set.without_latch || 0;
     const total = d3.sum(set.orders, (one) => one.count) + without,
@@ -147,7 +145,8 @@
         F.count(without),
         F.share(without / total),
       ]);
-    const table = W.table("Latch orders", ["Order", number("Runs"), number("Share")], rows, { class: "long-names" });
+    const title = h("h3", W.sets.length > 1 ? `Latch orders · ${set.label}` : "Latch orders"),
+      table = W.table("Latch orders", ["Order", number("Runs"), number("Share")], rows, { class: "long-names" });
     if (!(set.wing_orders || []).length) return [title, table];
     return [
       title,
@@ -214,7 +213,7 @@
   function accuracy() {
     const set = W.set(),
       one = set.accuracy;
-    const title = headOf("Numerical against statistical error", set);
+    const title = h("h3", "Numerical against statistical error");
     const rows = ((one && one.outputs) || []).filter((row) => W.isNumber(row.largest));
     if (!rows.length)
       return [
@@ -273,17 +272,15 @@
     ];
   }
 
-  const designOf = (set) => (set.design ? `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}` : "");
+  const designOf = (set) => `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}`;
   function again() {
-    const alike = W.sets.every((set) => designOf(set) === designOf(W.sets[0]));
-    const by = (key) => [...d3.group(W.sets.filter((set) => set[key]), (set) => set[key])],
-      labels = (sets) => W.verdicts.listed(sets.map((set) => set.label)),
-      made = by("made_by");
+    const made = [...new Map(W.sets.filter((set) => set.made_by).map((set) => [set.made_by, set])).values()],
+      analysed = [...new Map(W.sets.filter((set) => set.judged_by).map((set) => [set.judged_by, set])).values()];
     return h(
       "div.again",
       h("h3", "Reproduce"),
-      made.map(([commands, sets]) => commands.split("\n").map((command) => W.command(command, `command of ${labels(sets)}`))),
-      by("judged_by").map(([command, sets]) => W.command(command, `command that analyses ${labels(sets)}`)),
+      made.map((set) => W.command(set.made_by, `command of ${set.label}`)),
+      analysed.map((set) => W.command(set.judged_by, `command that analyses ${set.label}`)),
       W.command(W.data.command, "command of this report"),
       h(
         "p.note",
@@ -292,9 +289,8 @@
           W.sets.length > 1 ? `${set.label}: ` : "",
           `wingspread ${set.version}, seed ${set.seed}, campaign hash `,
           h("code.hash", set.hash),
-          alike ? null : `, ${designOf(set)}`,
         ]),
-        alike && designOf(W.sets[0]) ? `; ${designOf(W.sets[0])}` : null,
+        W.set().design ? `; ${designOf(W.set())}` : null,
         made.length ? ". The same seed gives the same bytes on any number of threads." : null,
       ),
     );
@@ -302,7 +298,7 @@
 
   // Where requirements have an identifier, a source or a rationale, a table traces them.
   function traced() {
-    const all = [...new Map(W.sets.flatMap((set) => (set.requirements || []).map((one) => [[W.verdicts.keyOf(one), one.id, one.source, one.rationale].join("\n"), { one, set }]))).values()],
+    const all = [...new Map(W.sets.flatMap((set) => (set.requirements || []).map((one) => [W.verdicts.keyOf(one), { one, set }]))).values()],
       known = all.filter(({ one }) => one.id || one.source || one.rationale);
     return known.length
       ? [

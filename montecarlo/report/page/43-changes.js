@@ -104,42 +104,17 @@
       names = hinges.length > 3 ? F.counted(hinges.length, "hinge") : W.verdicts.listed(hinges.map((one) => one.hinge));
     return `May be an artefact of the latch law: the jump of damping times rate as the latch engages makes ${low === high ? low : `${low} to ${high}`} of the nominal peak moment of ${names}. Measure the damping, or give “dissipation”.`;
   }
-  // A table's value at a draw. The program's curve is smooth; its knots, and whether it rises or falls between them, are
-  // those of the straight lines here.
-  const throughTable = ({ at, value }, draw) =>
-    at.length > 1 ? d3.scaleLinear(at, value).clamp(true)(draw) : value[0];
-  // The parts of hinges, as "friction", of which a parameter grows or falls with the change, by its value at the median
-  // draw: a draw that acts through a falling table makes its parameter fall as it rises itself.
-  function partsThatChange(set, lever) {
-    const grow = new Set(),
-      fall = new Set();
-    for (const one of ((set.inputs || {}).dispersions || []).filter(({ draw }) => lever.draws.includes(draw))) {
-      const before = W.isNumber(one.median) ? one.median : lever.now,
-        after = lever.scaled ? before * lever.change : before + lever.change,
-        negative = one.apply === "scale" && one.nominal < 0,
-        tables = one.tables || [];
-      const effects = tables.length
-        ? tables.map((table) => ({ paths: table.paths, by: throughTable(table, after) - throughTable(table, before) }))
-        : [{ paths: one.paths || [], by: negative ? before - after : after - before }];
-      for (const { paths, by } of effects)
-        for (const path of paths) {
-          const [, part] = /^hinges\.(?:.+?)\.(spring|friction|harness|damper|motor)\./.exec(path) || [];
-          if (part && by) (by > 0 ? grow : fall).add(part);
-        }
-    }
-    return { grow, fall };
-  }
-  // The effect of a change on static margins and on the deployment: a spring's torque is positive where it deploys, a
-  // harness's where it resists. Static margins count dampers only at a stated rate.
+  // The effect of a change on static margins and on the deployment. Static margins count dampers only at a stated rate.
   function torqueCaution(set, lever) {
-    const { grow, fall } = partsThatChange(set, lever);
-    const lowest = W.lowestStaticMargin(set);
+    const grows = lever.scaled ? lever.change > 1 : lever.change > 0,
+      kinds = new Set(movedBy(set, lever).map(({ quantity }) => quantity.split(".")[0]));
+    const lowest = W.lowestStaticMargin();
     const lower = `${lowest ? `lower the static margins (lowest now: ${lowest})` : "lower the static margins"} and can keep the wing from deploying.`;
-    if (fall.has("spring")) return `Weaker springs ${lower}`;
-    if (grow.has("friction")) return `More friction would ${lower}`;
-    if (grow.has("harness")) return `A stiffer harness would ${lower}`;
-    if (fall.has("motor")) return `A slower or weaker motor can ${lower.replace(" and can", " and")}`;
-    if (grow.has("damper")) return "A stronger damper slows the deployment. Static margins count it only at a stated rate.";
+    if (kinds.has("spring") && lever.scaled && !grows) return `Weaker springs ${lower}`;
+    if (kinds.has("friction") && grows) return `More friction would ${lower}`;
+    if (kinds.has("harness") && grows && lever.scaled) return `A stiffer harness would ${lower}`;
+    if (kinds.has("motor") && !grows) return `A slower or weaker motor can ${lower.replace(" and can", " and")}`;
+    if (kinds.has("damper") && grows) return "A stronger damper slows the deployment. Static margins count it only at a stated rate.";
     return null;
   }
   const cautions = (set, lever) =>

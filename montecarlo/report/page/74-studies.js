@@ -34,20 +34,16 @@
         ? `least of ${F.count(all.draws)} draws`
         : `${F.level(all.lower_p)} quantile over ${F.count(all.draws)} draws`
       : "nominal";
-  const standardOf = (set) => (set.static_margins || {}).kind;
-  // For the first screen: where static margins are below what the standard asks. Null if they are nowhere. Sets that were
-  // judged by different standards have a paragraph for each.
+  // For the first screen: where static margins are below what the standard asks. Null if they are nowhere.
   W.staticShortfall = function () {
     const short = statics().filter((row) => row.value < row.required);
-    return short.length ? [...d3.group(short, (row) => standardOf(row.set)).values()].map(shortfall) : null;
-  };
-  function shortfall(short) {
+    if (!short.length) return null;
     const lowest = lowestOf(short),
       several = W.sets.length > 1,
       hinges = [...new Set(short.map(({ one }) => one.hinge))],
       casesOf = (rows) => listed([...new Set(rows.map(({ set }) => set.label))]),
       nominal = short.filter(({ one, required }) => one.least < required),
-      asked = short.some(({ set }) => (set.requirements || []).some((one) => one.static_margin)),
+      asked = W.sets.some((set) => (set.requirements || []).some((one) => one.static_margin)),
       coupled = hinges.filter((name) => name.includes("+")).length,
       what = !coupled
         ? ["hinge"]
@@ -68,17 +64,15 @@
       h("a", { href: "#static-margins" }, "Static margins by hinge"),
       ".",
     );
-  }
-  // "−0.61 in cold", the lowest static margin against what is required, of all cases by the standard of this one; null
-  // without static margins.
-  W.lowestStaticMargin = function (set) {
-    const lowest = lowestOf(statics().filter((row) => standardOf(row.set) === standardOf(set)));
+  };
+  // "−0.61 in cold", the lowest static margin of all cases against what is required; null without static margins.
+  W.lowestStaticMargin = function () {
+    const lowest = lowestOf(statics());
     return lowest ? `${F.fixed(lowest.value, 2)}${W.sets.length > 1 ? ` in ${lowest.set.label}` : ""}` : null;
   };
-  // The lowest static margin of each case with the standard of this one, the case with the lowest first.
+  // The lowest static margin of each case, the case with the lowest first.
   function lowestByCase(set) {
-    const alike = W.sets.filter((each) => standardOf(each) === standardOf(set)),
-      cases = alike.map((each) => lowestOf(statics().filter((row) => row.set === each))).filter(Boolean);
+    const cases = W.sets.map((each) => lowestOf(statics().filter((row) => row.set === each))).filter(Boolean);
     if (cases.length < 2 || !W.sets.includes(set)) return null;
     const sorted = d3.sort(cases, (row) => row.value - row.required);
     return h(

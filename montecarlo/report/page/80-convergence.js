@@ -14,14 +14,11 @@
     const isNear = ({ at }) => at > low - room && at < high + room;
     return { near: limits.filter(isNear), far: limits.filter((one) => !isNear(one)) };
   }
-  // From which point on both bounds are known. The numbers of runs between two points are not in the data; and where runs
-  // lack a value, a bound can be lost again.
+  // From which number of runs on both bounds are known.
   function twoSided(rows) {
-    const first = rows.findLastIndex((row) => !row.every(W.isNumber)) + 1;
-    if (first === 0) return null;
-    return first === rows.length
-      ? "Too few runs for two-sided bounds."
-      : `Both bounds are known at the points of this picture from ${F.runs(rows[first][0])} on, not at those before.`;
+    const first = rows.find((row) => row.every(W.isNumber));
+    if (!first) return "Too few runs for two-sided bounds.";
+    return first === rows[0] ? null : `From ${F.runs(first[0])} on both bounds are known, before that only one.`;
   }
   function settling(set, output, key, text) {
     const one = output.convergence,

@@ -47,16 +47,6 @@ void note_analyses(std::span<const std::unique_ptr<PageSource>> cases) {
   }
 }
 
-/// Notes for the cases of a folder by which commands they are made again, unless one command makes them all.
-/// @param all whether the campaign has no other case
-void note_commands(std::span<const std::unique_ptr<PageSource>> cases, bool all) {
-  std::map<std::int64_t, std::vector<std::string>> made;
-  for (const auto& source : cases)
-    made[source->stored.campaign.sampling.runs].push_back(source->stored.campaign.of_case);
-  if (all && made.size() < 2) return;
-  for (const auto& source : cases) source->made_cases = made;
-}
-
 /// Adds the sets of one folder. @param several whether the page has several folders; then labels of cases name the
 /// folder
 void read_folder(const std::filesystem::path& folder, bool several, int threads,
@@ -79,11 +69,10 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
                                             several ? name + " · " + spec.name : spec.name,
                                             &whole.campaign, threads));
     sources.runs.back()->made_from = folder;
-    sources.runs.back()->campaign_runs = whole.runs().size();
+    if (made.size() < whole.campaign.cases.size())
+      for (const CaseSpec& each : made) sources.runs.back()->made_cases.push_back(each.name);
   }
-  const std::span cases = std::span(sources.runs).subspan(before);
-  note_commands(cases, made.size() == whole.campaign.cases.size());
-  note_analyses(cases);
+  note_analyses(std::span(sources.runs).subspan(before));
   for (const CaseSpec& spec : whole.campaign.cases)
     if (std::ranges::find(made, spec.name, &CaseSpec::name) == made.end())
       sources.unmade.push_back({several ? name + " · " + spec.name : spec.name, whole.runs().size(),
@@ -223,8 +212,8 @@ std::string incomplete_text(const PageSources& sources) {
   };
   const char* kind = "case "; // of the first without runs
   for (const auto& source : sources.runs) {
-    if (!source->partial()) continue;
-    const long planned = source->planned(), made = source->summary.runs;
+    const long planned = source->stored.runs().size(), made = source->summary.runs;
+    if (source->summary.stopped || made >= planned) continue;
     const bool first = parts.empty();
     if (made == 0 && several) {
       if (none.empty()) kind = kind_of(*source);
@@ -249,8 +238,7 @@ std::string unjudged_text(const PageSources& sources) {
   for (const auto& source : sources.runs) {
     const std::vector<Verdict>& verdicts = source->summary.requirements;
     if (verdicts.empty()) continue;
-    const bool of_part = source->campaign_runs > source->stored.runs().size() ||
-                         std::ranges::any_of(verdicts, &Verdict::of_part);
+    const bool of_part = std::ranges::any_of(verdicts, &Verdict::of_part);
     if (of_part) unjudged.push_back(source->label);
     any_judged |= !of_part;
   }

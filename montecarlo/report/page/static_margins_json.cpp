@@ -5,7 +5,6 @@
 #include "montecarlo/model/static_margins/static_margin_report.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,14 +15,14 @@ namespace {
 /// What requirements by this standard ask of a drive's margin, "root+mid" of coupled hinges; 0, the standard's, if none does.
 double required_of(const std::string& drive, const std::vector<Requirement>& requirements,
                    MarginKind kind) {
-  std::optional<double> most;
+  double most = 0;
   for (const Requirement& each : requirements) {
     if (!each.static_margin || each.static_margin->kind != kind || !each.min) continue;
     const std::string& hinge = each.static_margin->hinge;
     if (hinge == "*" || ('+' + drive + '+').find('+' + hinge + '+') != std::string::npos)
-      most = std::max(most.value_or(*each.min), *each.min);
+      most = std::max(most, *each.min);
   }
-  return most.value_or(0);
+  return most;
 }
 
 Json curves_of(Campaign some) {
