@@ -134,8 +134,8 @@ void cross(const AnySystem& system, const Kink<T>& kink, const T& t, State<T>& x
   using std::abs;
   move_strands(system, kink, T(T(2) * beyond_rounding(system, kink, x)), x);
   const std::vector<LoopTerms<T>>& loops = system.wing().loops;
+  const LoopTerms<T>& due = loops[kink.index];
   for (int l = 0; l < static_cast<int>(loops.size()); ++l) {
-    const LoopTerms<T>& due = loops[kink.index];
     if (joins(loops[l], due.first) || joins(loops[l], due.second) || !jumps(loops[l])) continue;
     for (const T& there : {T(-loops[l].slack_beyond), loops[l].slack_beyond}) {
       Kink<T> other{Kink<T>::Of::strands, l, there, T(1)};

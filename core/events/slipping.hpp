@@ -153,7 +153,8 @@ private:
   }
 
   /// Whether few samples resolve the load of hinge i, and show it below half of the limit. Samples the load only where the
-  /// bound is so wide that halving would take more samples: loads that cancel are far below it.
+  /// bound is so wide that halving would take more samples: loads that cancel are far below it. Half and 64 are
+  /// heuristics: they choose between two searches.
   template <class Load>
   [[nodiscard]] bool holds_easily(const Load& load, int i, const T& limit) const {
     const T least =

@@ -285,14 +285,14 @@ void add_wings(const Campaign& campaign, std::vector<Scene>& scenes) {
   }
 }
 
-/// why_in, without "for runs" where each of the scenes has a reason.
+/// why_in, without "for runs" where each of the scenes has this reason.
 std::string_view why_in_all(std::span<const Scene> scenes) {
   constexpr std::string_view some = "for runs ";
   std::string_view why = why_in(scenes);
-  const bool every = std::ranges::none_of(scenes, [](const Scene& scene) {
-    return why_in({&scene, 1}).empty();
+  const bool every = std::ranges::all_of(scenes, [&](const Scene& scene) {
+    return why_in({&scene, 1}) == why;
   });
-  if (every) why.remove_prefix(some.size());
+  if (every && !why.empty()) why.remove_prefix(some.size());
   return why;
 }
 
